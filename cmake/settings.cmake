@@ -1,0 +1,14 @@
+# Flags every target of the project shares.
+add_library(hoplab_settings INTERFACE)
+target_include_directories(hoplab_settings INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
+target_compile_options(hoplab_settings INTERFACE -Wall -Wextra -Wpedantic -Werror -Wno-psabi)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC 12 reports false positives inside Eigen and std::string at -O3.
+  target_compile_options(hoplab_settings INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds
+                                                   -Wno-stringop-overread -Wno-restrict)
+endif()
+if(HOPLAB_SANITIZE)
+  target_compile_options(hoplab_settings INTERFACE -fsanitize=address,undefined
+                                                   -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(hoplab_settings INTERFACE -fsanitize=address,undefined)
+endif()
