@@ -12,3 +12,9 @@ if(HOPLAB_SANITIZE)
                                                    -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(hoplab_settings INTERFACE -fsanitize=address,undefined)
 endif()
+if(HOPLAB_FUZZ)
+  # The fuzzer watches the branches of every target; only its own programs have libFuzzer's main.
+  target_compile_options(hoplab_settings INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+                                                   -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(hoplab_settings INTERFACE -fsanitize=address,undefined)
+endif()

@@ -1,0 +1,48 @@
+#include "datasets/channel.h"
+
+namespace hoplab {
+namespace {
+
+struct ChannelRow {
+  const char* name;
+  Range range;
+};
+
+// Far beyond any hopper, near enough to catch a value in the wrong unit or a broken line.
+const ChannelRow& Row(ChannelId id) {
+  static const std::array<ChannelRow, kChannelCount> kRows = {{
+      {"body_x_m", Within(1e6, "m")},
+      {"body_y_m", Within(1e6, "m")},
+      {"body_vx_m_per_s", Within(1e6, "m/s")},
+      {"body_vy_m_per_s", Within(1e6, "m/s")},
+      {"leg_angle_rad", Within(1e3, "rad")},
+      {"leg_length_m", NonNegative(1e3, "m")},
+      {"ground_force_x_N", Within(1e9, "N")},
+      {"ground_force_y_N", Within(1e9, "N")},
+      {"hip_torque_N_m", Within(1e9, "N m")},
+      {"contact", NonNegative(1, "")},
+  }};
+  return kRows[static_cast<std::size_t>(id)];
+}
+
+}  // namespace
+
+const char* ChannelName(ChannelId id) { return Row(id).name; }
+
+const char* ChannelUnit(ChannelId id) { return Row(id).range.unit; }
+
+Range ChannelRange(ChannelId id) { return Row(id).range; }
+
+std::optional<ChannelId> ChannelFromName(std::string_view name) {
+  for (const ChannelId id : kAllChannels)
+    if (name == ChannelName(id)) return id;
+  return std::nullopt;
+}
+
+std::vector<std::string> ChannelNames() {
+  std::vector<std::string> names;
+  for (const ChannelId id : kAllChannels) names.emplace_back(ChannelName(id));
+  return names;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/range.h"
+
+namespace hoplab {
+
+/// What can be measured. Forces are those of the ground on the leg, torque is positive when it
+/// pushes the hip forward, leg_length_m is the chord, contact is 0 or 1.
+enum class ChannelId {
+  kBodyX,
+  kBodyY,
+  kBodyVx,
+  kBodyVy,
+  kLegAngle,
+  kLegLength,
+  kGroundForceX,
+  kGroundForceY,
+  kHipTorque,
+  kContact,
+};
+
+inline constexpr std::size_t kChannelCount = 10;
+
+inline constexpr std::array<ChannelId, kChannelCount> kAllChannels = {
+    ChannelId::kBodyX,        ChannelId::kBodyY,        ChannelId::kBodyVx,
+    ChannelId::kBodyVy,       ChannelId::kLegAngle,     ChannelId::kLegLength,
+    ChannelId::kGroundForceX, ChannelId::kGroundForceY, ChannelId::kHipTorque,
+    ChannelId::kContact};
+
+/// Name of the column, unit included: "body_x_m".
+const char* ChannelName(ChannelId id);
+/// "m"; empty for contact.
+const char* ChannelUnit(ChannelId id);
+/// What a sample may be; contact must moreover be 0 or 1.
+Range ChannelRange(ChannelId id);
+/// Nothing for a name that is no channel's.
+std::optional<ChannelId> ChannelFromName(std::string_view name);
+/// All names, in the order of ChannelId.
+std::vector<std::string> ChannelNames();
+
+}  // namespace hoplab

@@ -1,0 +1,7 @@
+#include "datasets/dataset.h"
+
+namespace hoplab {
+
+const char* RoleName(TrialRole role) { return role == TrialRole::kTrain ? "train" : "test"; }
+
+}  // namespace hoplab

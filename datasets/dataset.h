@@ -1,0 +1,80 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/channel.h"
+#include "datasets/mechanism_spec.h"
+#include "datasets/trace.h"
+
+namespace hoplab {
+
+/// Where something was read, for messages: "rig-drops/dataset.yaml:12". No part of what it is: two
+/// of them are always equal.
+struct Origin {
+  std::string place;
+  bool operator==(const Origin&) const { return true; }
+};
+
+enum class SourceKind { kUnstated, kRecorded, kSimulated };
+
+/// Where a dataset comes from; texts may be empty.
+struct SourceSpec {
+  SourceKind kind = SourceKind::kUnstated;
+  std::string by;
+  std::string licence;
+  std::string note;
+  bool operator==(const SourceSpec&) const = default;
+};
+
+/// A column that is a measurement, and its noise.
+struct ChannelSpec {
+  ChannelId id = ChannelId::kBodyX;
+  std::optional<double>
+      sigma;  // 1 standard deviation in the channel's unit; absent: to be estimated
+  Origin origin = {};
+  bool operator==(const ChannelSpec&) const = default;
+};
+
+enum class TrialRole { kTrain, kTest };
+
+/// The width of a prior that says nothing; its weight 1/sigma is zero.
+inline constexpr double kFreeSigma = std::numeric_limits<double>::infinity();
+
+/// One recorded run. Mechanism and controller are resolved: the dataset's, with the trial's own
+/// values put over them. The first row lies in flight.
+struct Trial {
+  std::string file;  // relative to the dataset's folder, with `/`
+  TrialRole role = TrialRole::kTrain;
+  double touchdown_angle_rad = 0;    // 0 for a ball, which has none
+  std::optional<StateSpec> initial;  // nominal state at the first row
+  /// Standard deviations of `initial`, kFreeSigma where the file gives none for a component;
+  /// absent: all free.
+  std::optional<StateSpec> initial_sigma;
+  MechanismSpec mechanism;
+  std::optional<ControllerSpec> controller;  // absent: no torque in stance
+  Trace trace;
+  Origin origin = {};
+  bool operator==(const Trial&) const = default;
+};
+
+/// A folder of recorded hops, checked: at least one train trial, each channel with a sample in some
+/// trial, all numbers finite and in their ranges.
+struct Dataset {
+  std::string name;
+  std::string title;
+  SourceSpec source;
+  MechanismSpec mechanism;  // nominal values, the start of a fit
+  std::optional<ControllerSpec> controller;
+  std::vector<ChannelSpec> channels;
+  std::vector<Trial> trials;
+  Origin origin = {};  // of dataset.yaml
+  bool operator==(const Dataset&) const = default;
+};
+
+/// "train", "test".
+const char* RoleName(TrialRole role);
+
+}  // namespace hoplab

@@ -1,0 +1,22 @@
+#include "datasets/mechanism_spec.h"
+
+#include <cmath>
+
+namespace hoplab {
+
+double TouchdownHeight(const MechanismSpec& mechanism, double touchdown_angle_rad) {
+  const double cosine = std::cos(touchdown_angle_rad);
+  switch (mechanism.type) {
+    case MechanismType::kCLeg: {
+      const double radius = mechanism.c_leg.rest_radius_m;
+      return touchdown_angle_rad > 0 ? radius * (1 + cosine) : 2 * radius * cosine;
+    }
+    case MechanismType::kStraightLeg:
+      return mechanism.straight_leg.rest_length_m * cosine;
+    case MechanismType::kBall:
+      return mechanism.ball.radius_m;
+  }
+  return std::nan("");
+}
+
+}  // namespace hoplab

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <optional>
+
+namespace hoplab {
+
+// What a dataset or a scenario says about the hopper, in SI units and radians. Plain values: the
+// simulator makes its own mechanism from them.
+
+enum class MechanismType { kCLeg, kStraightLeg, kBall };
+
+/// When a leg leaves the ground: at zero chord force, or when it is back at its rest length.
+enum class LiftoffRule { kZeroForce, kRestLength };
+
+/// Half-circular compliant leg.
+struct CLegSpec {
+  double rest_radius_m = 0;
+  double E_Pa = 0;
+  double G_Pa = 0;
+  double second_moment_m4 = 0;
+  double area_m2 = 0;
+  double shear_factor = 1.5;
+  double damping_N_s_per_m = 0;
+  /// The strip's section as the file gave it; second moment and area follow from it. Kept so that
+  /// it is written back; reset both when second moment or area is changed.
+  std::optional<double> width_m;
+  std::optional<double> thickness_m;
+  bool operator==(const CLegSpec&) const = default;
+};
+
+/// Straight prismatic leg on a linear spring.
+struct StraightLegSpec {
+  double rest_length_m = 0;
+  double stiffness_N_per_m = 0;
+  double damping_N_s_per_m = 0;
+  bool operator==(const StraightLegSpec&) const = default;
+};
+
+/// Bouncing ball: vy+ = - restitution vy-, vx+ = (1 - tangential_loss) vx-.
+struct BallSpec {
+  double radius_m = 0;
+  double restitution = 0;
+  double tangential_loss = 0;
+  bool operator==(const BallSpec&) const = default;
+};
+
+/// Gains of the controller that places the toe in flight, where the leg has a toe mass.
+struct PlacementSpec {
+  double kp_N_m_per_rad = 0;
+  double kd_N_m_s_per_rad = 0;
+  bool operator==(const PlacementSpec&) const = default;
+};
+
+/// One mechanism. Of `c_leg`, `straight_leg` and `ball` only the one that `type` names means
+/// anything; the others keep their defaults.
+struct MechanismSpec {
+  MechanismType type = MechanismType::kCLeg;
+  double body_mass_kg = 0;
+  double gravity_m_per_s2 = 0;
+  LiftoffRule liftoff = LiftoffRule::kZeroForce;
+  std::optional<double> fall_height_m;  // absent: the mechanism's own default
+  std::optional<double> toe_mass_kg;    // absent: massless leg
+  std::optional<PlacementSpec> placement;
+  CLegSpec c_leg;
+  StraightLegSpec straight_leg;
+  BallSpec ball;
+  bool operator==(const MechanismSpec&) const = default;
+};
+
+/// Hip torque in stance, kp (v_des - vx), clipped to +-torque_limit where there is one (M15).
+struct ControllerSpec {
+  double kp_N_s = 0;
+  double v_des_m_per_s = 0;
+  std::optional<double> torque_limit_N_m;
+  bool operator==(const ControllerSpec&) const = default;
+};
+
+/// Position and velocity of the hip, or of the ball's centre, in the world: x forward, y up.
+struct StateSpec {
+  double x_m = 0;
+  double y_m = 0;
+  double vx_m_per_s = 0;
+  double vy_m_per_s = 0;
+  bool operator==(const StateSpec&) const = default;
+};
+
+/// Height of the hip, or of the ball's centre, at which an undeformed leg at the touch-down angle
+/// meets flat ground [m]; the touch-down guards of the equation sheet.
+double TouchdownHeight(const MechanismSpec& mechanism, double touchdown_angle_rad);
+
+}  // namespace hoplab

@@ -1,0 +1,273 @@
+#include "datasets/read_spec.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/check.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "datasets/key_advice.h"
+
+namespace hoplab {
+namespace {
+
+using Names = std::vector<std::string>;
+
+const Names kSectionByStrip = {"width_m", "thickness_m"};
+const Names kSectionByMoments = {"second_moment_m4", "area_m2"};
+
+constexpr Range kLength = Positive(100, "m");
+constexpr Range kModulus = Positive(1e13, "Pa");
+constexpr Range kDamping = NonNegative(1e6, "N s/m");
+constexpr Range kFraction = NonNegative(1, "");
+
+bool Has(const YamlCursor& cursor, const Names& keys) {
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const std::string& key) { return cursor.Optional(key).has_value(); });
+}
+
+const Names& LegKeys(MechanismType type) {
+  static const Names kCLeg = {"rest_radius_m", "E_Pa",         "G_Pa",
+                              "width_m",       "thickness_m",  "second_moment_m4",
+                              "area_m2",       "shear_factor", "damping_N_s_per_m"};
+  static const Names kStraight = {"rest_length_m", "stiffness_N_per_m", "damping_N_s_per_m"};
+  static const Names kBall = {"radius_m", "restitution", "tangential_loss"};
+  return type == MechanismType::kCLeg ? kCLeg : type == MechanismType::kBall ? kBall : kStraight;
+}
+
+// Says so when an unknown key of a leg or ball block is one of another mechanism.
+void AllowKeysOf(MechanismType type, const YamlCursor& cursor) {
+  for (const auto& [key, value] : cursor.Entries(0)) {
+    const Names& own = LegKeys(type);
+    if (std::find(own.begin(), own.end(), key) != own.end()) continue;
+    for (const MechanismType other :
+         {MechanismType::kCLeg, MechanismType::kStraightLeg, MechanismType::kBall}) {
+      const Names& names = LegKeys(other);
+      if (std::find(names.begin(), names.end(), key) != names.end())
+        value.FailAtKey(std::string("unknown key: it belongs to a ") + MechanismTypeName(other) +
+                            " and this mechanism is a " + MechanismTypeName(type),
+                        "Known: " + Join(own) + ".");
+    }
+  }
+  cursor.AllowOnly(LegKeys(type));
+}
+
+void ReadSection(const YamlCursor& cursor, CLegSpec* leg) {
+  const bool by_strip = Has(cursor, kSectionByStrip);
+  const bool by_moments = Has(cursor, kSectionByMoments);
+  const std::string rule =
+      "the section is given by width_m and thickness_m or by second_moment_m4 and area_m2";
+  if (by_strip && by_moments)
+    cursor.FailAtKey(rule + ", not by both", "Remove one of the two pairs.");
+  if (!by_strip && !by_moments)
+    cursor.FailAtKey(rule + ", and neither stands here", "Add one of the two pairs.");
+  if (by_strip) {
+    const double width = cursor.RequiredNumber("width_m", Positive(10, "m"));
+    const double thickness = cursor.RequiredNumber("thickness_m", Positive(10, "m"));
+    leg->width_m = width;
+    leg->thickness_m = thickness;
+    leg->second_moment_m4 = width * thickness * thickness * thickness / 12;
+    leg->area_m2 = width * thickness;
+    const Range moment = Positive(1e3, "m^4");
+    if (!moment.Contains(leg->second_moment_m4))
+      cursor.FailAtKey("width_m thickness_m^3 / 12 must be in " + moment.Text(),
+                       "Check the unit: m is meant.");
+  } else {
+    leg->second_moment_m4 = cursor.RequiredNumber("second_moment_m4", Positive(1e3, "m^4"));
+    leg->area_m2 = cursor.RequiredNumber("area_m2", Positive(100, "m^2"));
+  }
+}
+
+CLegSpec ReadCLeg(const YamlCursor& cursor) {
+  CLegSpec leg;
+  leg.rest_radius_m = cursor.RequiredNumber("rest_radius_m", kLength);
+  leg.E_Pa = cursor.RequiredNumber("E_Pa", kModulus);
+  leg.G_Pa = cursor.RequiredNumber("G_Pa", kModulus);
+  ReadSection(cursor, &leg);
+  leg.shear_factor =
+      cursor.OptionalNumber("shear_factor", Positive(10, "")).value_or(leg.shear_factor);
+  leg.damping_N_s_per_m = cursor.RequiredNumber("damping_N_s_per_m", kDamping);
+  return leg;
+}
+
+StraightLegSpec ReadStraightLeg(const YamlCursor& cursor) {
+  StraightLegSpec leg;
+  leg.rest_length_m = cursor.RequiredNumber("rest_length_m", kLength);
+  leg.stiffness_N_per_m = cursor.RequiredNumber("stiffness_N_per_m", Positive(1e9, "N/m"));
+  leg.damping_N_s_per_m = cursor.RequiredNumber("damping_N_s_per_m", kDamping);
+  return leg;
+}
+
+BallSpec ReadBall(const YamlCursor& cursor) {
+  BallSpec ball;
+  ball.radius_m = cursor.RequiredNumber("radius_m", kLength);
+  ball.restitution = cursor.RequiredNumber("restitution", kFraction);
+  ball.tangential_loss = cursor.RequiredNumber("tangential_loss", kFraction);
+  return ball;
+}
+
+void ReadLegOptions(const YamlCursor& cursor, MechanismSpec* mechanism) {
+  if (const auto liftoff = cursor.Optional("liftoff"))
+    mechanism->liftoff = static_cast<LiftoffRule>(liftoff->Choice({"zero_force", "rest_length"}));
+  mechanism->fall_height_m = cursor.OptionalNumber("fall_height_m", NonNegative(100, "m"));
+  mechanism->toe_mass_kg = cursor.OptionalNumber("toe_mass_kg", NonNegative(1e6, "kg"));
+  const std::optional<YamlCursor> placement = cursor.Optional("placement");
+  if (!placement) return;
+  if (!mechanism->toe_mass_kg)
+    placement->FailAtKey("only a leg with a toe mass is placed by a torque",
+                         "Add toe_mass_kg or remove this block.");
+  placement->AllowOnly({"kp_N_m_per_rad", "kd_N_m_s_per_rad"});
+  mechanism->placement =
+      PlacementSpec{placement->RequiredNumber("kp_N_m_per_rad", NonNegative(1e6, "N m/rad")),
+                    placement->RequiredNumber("kd_N_m_s_per_rad", NonNegative(1e6, "N m s/rad"))};
+}
+
+YamlNode MergeMechanism(const YamlNode& base, const YamlNode& overlay) {
+  YamlNode merged_base = base;
+  const YamlNode* leg = overlay.Find("leg");
+  YamlNode* base_leg = merged_base.Find("leg");
+  if (leg != nullptr && base_leg != nullptr) {
+    const YamlCursor cursor(*leg, "");
+    const bool is_block = leg->kind == YamlNode::Kind::kMap;
+    if (is_block && Has(cursor, kSectionByMoments))
+      for (const std::string& key : kSectionByStrip) base_leg->Erase(key);
+    if (is_block && Has(cursor, kSectionByStrip))
+      for (const std::string& key : kSectionByMoments) base_leg->Erase(key);
+  }
+  return MergeYaml(std::move(merged_base), overlay);
+}
+
+}  // namespace
+
+const char* MechanismTypeName(MechanismType type) {
+  static const char* const kNames[] = {"c_leg", "straight_leg", "ball"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+const char* LiftoffRuleName(LiftoffRule rule) {
+  return rule == LiftoffRule::kZeroForce ? "zero_force" : "rest_length";
+}
+
+MechanismSpec ReadMechanism(const YamlCursor& cursor) {
+  MechanismSpec mechanism;
+  mechanism.type = static_cast<MechanismType>(cursor.Required("type", "c_leg, straight_leg or ball")
+                                                  .Choice({"c_leg", "straight_leg", "ball"}));
+  const bool is_ball = mechanism.type == MechanismType::kBall;
+  const std::string block_key = is_ball ? "ball" : "leg";
+  Names known = {"type", "body_mass_kg", "gravity_m_per_s2", block_key};
+  if (!is_ball) known.insert(known.end(), {"liftoff", "fall_height_m", "toe_mass_kg", "placement"});
+  cursor.AllowOnly(known);
+  mechanism.body_mass_kg = cursor.RequiredNumber("body_mass_kg", Positive(1e6, "kg"));
+  mechanism.gravity_m_per_s2 = cursor.RequiredNumber("gravity_m_per_s2", Positive(1e3, "m/s^2"));
+  const YamlCursor block =
+      cursor.Required(block_key, "a block with " + Join(LegKeys(mechanism.type)));
+  AllowKeysOf(mechanism.type, block);
+  switch (mechanism.type) {
+    case MechanismType::kCLeg:
+      mechanism.c_leg = ReadCLeg(block);
+      break;
+    case MechanismType::kStraightLeg:
+      mechanism.straight_leg = ReadStraightLeg(block);
+      break;
+    case MechanismType::kBall:
+      mechanism.ball = ReadBall(block);
+      break;
+  }
+  if (!is_ball) ReadLegOptions(cursor, &mechanism);
+  return mechanism;
+}
+
+ControllerSpec ReadController(const YamlCursor& cursor) {
+  cursor.AllowOnly({"kp_N_s", "v_des_m_per_s", "torque_limit_N_m"});
+  ControllerSpec controller;
+  controller.kp_N_s = cursor.RequiredNumber("kp_N_s", NonNegative(1e6, "N s"));
+  controller.v_des_m_per_s = cursor.RequiredNumber("v_des_m_per_s", Within(1e3, "m/s"));
+  controller.torque_limit_N_m = cursor.OptionalNumber("torque_limit_N_m", Positive(1e6, "N m"));
+  return controller;
+}
+
+StateSpec ReadState(const YamlCursor& cursor) {
+  cursor.AllowOnly({"x_m", "y_m", "vx_m_per_s", "vy_m_per_s"});
+  return {cursor.RequiredNumber("x_m", Within(1e6, "m")),
+          cursor.RequiredNumber("y_m", Within(1e6, "m")),
+          cursor.RequiredNumber("vx_m_per_s", Within(1e4, "m/s")),
+          cursor.RequiredNumber("vy_m_per_s", Within(1e4, "m/s"))};
+}
+
+StateSpec ReadStateSigma(const YamlCursor& cursor) {
+  cursor.AllowOnly({"x_m", "y_m", "vx_m_per_s", "vy_m_per_s"});
+  const auto sigma = [&](const char* key, const char* unit) {
+    return cursor.OptionalNumber(key, Positive(1e6, unit)).value_or(kFreeSigma);
+  };
+  return {sigma("x_m", "m"), sigma("y_m", "m"), sigma("vx_m_per_s", "m/s"),
+          sigma("vy_m_per_s", "m/s")};
+}
+
+double ReadTouchdownAngle(const YamlCursor& owner, MechanismType type) {
+  // A C-leg's angle is that of its tangent at the hip and reaches far beyond the upright; a
+  // straight leg at 90 degrees lies on the ground.
+  const Range range = {-90, type == MechanismType::kStraightLeg ? 90.0 : 180.0, true, true, "deg"};
+  const char* const key = "touchdown_angle_deg";
+  if (type == MechanismType::kBall) return DegToRad(owner.OptionalNumber(key, range).value_or(0));
+  return DegToRad(owner.RequiredNumber(key, range));
+}
+
+std::vector<ChannelSpec> ReadChannels(const YamlCursor& cursor) {
+  std::vector<ChannelSpec> channels;
+  for (const auto& [name, block] : cursor.Entries(1)) {
+    const std::optional<ChannelId> id = ChannelFromName(name);
+    if (!id) {
+      const KeyAdvice advice = UnknownKeyAdvice(name, ChannelNames());
+      block.FailAtKey(advice.rule == "unknown key" ? "is no column of the format" : advice.rule,
+                      advice.remedy);
+    }
+    ChannelSpec channel;
+    channel.id = *id;
+    channel.origin.place = block.place();
+    block.AllowOnly({"sigma"});
+    // A contact is an event, it may go without.
+    const bool may_be_absent = *id == ChannelId::kContact;
+    const std::optional<YamlCursor> sigma =
+        may_be_absent ? block.Optional("sigma")
+                      : block.Required("sigma", "1 standard deviation, or estimate");
+    const Range range = Positive(1e9, ChannelUnit(*id));
+    const bool is_word =
+        sigma && sigma->node().kind == YamlNode::Kind::kScalar && !ParseDouble(sigma->node().text);
+    if (is_word && sigma->Text() != "estimate")
+      sigma->Fail("must be a number in " + range.Text() + " or the word estimate",
+                  "Write 1 standard deviation, or estimate.");
+    if (sigma && !is_word) channel.sigma = sigma->Number(range);
+    channels.push_back(channel);
+  }
+  return channels;
+}
+
+TrialRole ReadRole(const YamlCursor& cursor) {
+  return static_cast<TrialRole>(cursor.Choice({"train", "test"}));
+}
+
+void CheckFormat(const YamlCursor& root, const std::string& expected) {
+  const YamlCursor format = root.Required("format", expected);
+  const std::string text = format.Text();
+  if (text == expected) return;
+  std::string remedy = "Write format: " + expected + ".";
+  if (text == "hoplab-scenario/1")
+    remedy = "This is a scenario: simulate, generate, gait, optimize and sweep read it.";
+  if (text == "hoplab-dataset/1") remedy = "This is a dataset: check, fit and diagnose read it.";
+  format.Fail("must be " + expected, remedy);
+}
+
+MechanismSpec ReadTrialMechanism(const YamlCursor& item, const YamlNode& base_node,
+                                 const MechanismSpec& base) {
+  const std::optional<YamlCursor> own = item.Optional("mechanism");
+  if (!own) return base;
+  const YamlNode merged = MergeMechanism(base_node, own->node());
+  const MechanismSpec mechanism = ReadMechanism(YamlCursor(merged, own->key_path()));
+  if (mechanism.type != base.type)
+    own->Required("type", "")
+        .Fail("all trials must have the same type of mechanism",
+              "Make a dataset of its own for it.");
+  return mechanism;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,246 @@
+#include "datasets/write_dataset.h"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "base/check.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "datasets/read_spec.h"
+
+namespace hoplab {
+namespace {
+
+// One `key: value` of a block; `group` is the block below it stands in, empty for none.
+struct Field {
+  std::string group;
+  std::string key;
+  std::string value;
+  bool operator==(const Field&) const = default;
+};
+using Fields = std::vector<Field>;
+
+std::string Quoted(const std::string& text) {
+  static constexpr char kHex[] = "0123456789abcdef";
+  std::string out = "\"";
+  for (const char c : text) {
+    const unsigned char byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += {'\\', c};
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (byte < 0x20 || byte == 0x7F) {
+      out += {'\\', 'x', kHex[byte >> 4], kHex[byte & 15]};
+    } else {
+      out += c;
+    }
+  }
+  return out + "\"";
+}
+
+// The shortest degrees that DegToRad turns into exactly this angle; the nearest where no double
+// does.
+std::string FormatDegrees(double angle_rad) {
+  const double nearest = RadToDeg(angle_rad);
+  std::optional<std::string> best;
+  double candidate = nearest;
+  constexpr int kReach = 4;  // DegToRad and RadToDeg round three times between them
+  for (int i = 0; i < kReach; ++i) candidate = std::nextafter(candidate, -1e9);
+  for (int i = 0; i <= 2 * kReach; ++i) {
+    const std::string text = FormatDouble(candidate);
+    if (DegToRad(candidate) == angle_rad && (!best || text.size() < best->size())) best = text;
+    candidate = std::nextafter(candidate, 1e9);
+  }
+  return best.value_or(FormatDouble(nearest));
+}
+
+void AddOptional(Fields* fields, const std::string& group, const std::string& key,
+                 const std::optional<double>& value) {
+  if (value) fields->push_back({group, key, FormatDouble(*value)});
+}
+
+void AddCLeg(const CLegSpec& leg, Fields* fields) {
+  const auto add = [&](const char* key, double value) {
+    fields->push_back({"leg", key, FormatDouble(value)});
+  };
+  add("rest_radius_m", leg.rest_radius_m);
+  add("E_Pa", leg.E_Pa);
+  add("G_Pa", leg.G_Pa);
+  if (leg.width_m && leg.thickness_m) {
+    add("width_m", *leg.width_m);
+    add("thickness_m", *leg.thickness_m);
+  } else {
+    add("second_moment_m4", leg.second_moment_m4);
+    add("area_m2", leg.area_m2);
+  }
+  add("shear_factor", leg.shear_factor);
+  add("damping_N_s_per_m", leg.damping_N_s_per_m);
+}
+
+Fields MechanismFields(const MechanismSpec& m) {
+  Fields fields = {{"", "type", MechanismTypeName(m.type)},
+                   {"", "body_mass_kg", FormatDouble(m.body_mass_kg)},
+                   {"", "gravity_m_per_s2", FormatDouble(m.gravity_m_per_s2)}};
+  if (m.type == MechanismType::kBall) {
+    fields.push_back({"ball", "radius_m", FormatDouble(m.ball.radius_m)});
+    fields.push_back({"ball", "restitution", FormatDouble(m.ball.restitution)});
+    fields.push_back({"ball", "tangential_loss", FormatDouble(m.ball.tangential_loss)});
+    return fields;
+  }
+  fields.push_back({"", "liftoff", LiftoffRuleName(m.liftoff)});
+  AddOptional(&fields, "", "fall_height_m", m.fall_height_m);
+  AddOptional(&fields, "", "toe_mass_kg", m.toe_mass_kg);
+  if (m.type == MechanismType::kCLeg) {
+    AddCLeg(m.c_leg, &fields);
+  } else {
+    const StraightLegSpec& leg = m.straight_leg;
+    fields.push_back({"leg", "rest_length_m", FormatDouble(leg.rest_length_m)});
+    fields.push_back({"leg", "stiffness_N_per_m", FormatDouble(leg.stiffness_N_per_m)});
+    fields.push_back({"leg", "damping_N_s_per_m", FormatDouble(leg.damping_N_s_per_m)});
+  }
+  if (m.placement) {
+    fields.push_back({"placement", "kp_N_m_per_rad", FormatDouble(m.placement->kp_N_m_per_rad)});
+    fields.push_back(
+        {"placement", "kd_N_m_s_per_rad", FormatDouble(m.placement->kd_N_m_s_per_rad)});
+  }
+  return fields;
+}
+
+Fields ControllerFields(const ControllerSpec& controller) {
+  Fields fields = {{"", "kp_N_s", FormatDouble(controller.kp_N_s)},
+                   {"", "v_des_m_per_s", FormatDouble(controller.v_des_m_per_s)}};
+  AddOptional(&fields, "", "torque_limit_N_m", controller.torque_limit_N_m);
+  return fields;
+}
+
+Fields StateFields(const StateSpec& state) {
+  Fields fields;
+  const auto add = [&](const char* key, double value) {
+    if (value != kFreeSigma) fields.push_back({"", key, FormatDouble(value)});
+  };
+  add("x_m", state.x_m);
+  add("y_m", state.y_m);
+  add("vx_m_per_s", state.vx_m_per_s);
+  add("vy_m_per_s", state.vy_m_per_s);
+  return fields;
+}
+
+const Field* FindField(const Fields& fields, const Field& like) {
+  for (const Field& field : fields)
+    if (field.group == like.group && field.key == like.key) return &field;
+  return nullptr;
+}
+
+// What put over `base` gives `wanted`; null where `wanted` lacks a key of `base`.
+Fields Difference(const Fields& base, const Fields& wanted) {
+  Fields difference;
+  for (const Field& field : base)
+    if (FindField(wanted, field) == nullptr) difference.push_back({field.group, field.key, "null"});
+  // A block without any of its keys is no block.
+  const bool no_placement = FindField(wanted, {"placement", "kp_N_m_per_rad", ""}) == nullptr;
+  if (no_placement) {
+    std::erase_if(difference, [](const Field& field) { return field.group == "placement"; });
+    if (FindField(base, {"placement", "kp_N_m_per_rad", ""}) != nullptr)
+      difference.push_back({"", "placement", "null"});
+  }
+  for (const Field& field : wanted) {
+    const Field* present = FindField(base, field);
+    if (present == nullptr || present->value != field.value) difference.push_back(field);
+  }
+  return difference;
+}
+
+// {a: 1, leg: {b: 2}}
+std::string Flow(const Fields& fields) {
+  std::string text = "{";
+  std::string group;
+  bool first = true;
+  for (const Field& field : fields) {
+    if (field.group != group && !group.empty()) text += "}";
+    if (!first) text += ", ";
+    if (field.group != group && !field.group.empty()) text += field.group + ": {";
+    group = field.group;
+    text += field.key + ": " + field.value;
+    first = false;
+  }
+  return text + (group.empty() ? "}" : "}}");
+}
+
+Fields Grouped(const Fields& fields) {
+  Fields sorted;
+  for (const char* group : {"", "leg", "ball", "placement"})
+    for (const Field& field : fields)
+      if (field.group == group) sorted.push_back(field);
+  return sorted;
+}
+
+void AppendTrial(const Trial& trial, const Dataset& dataset, std::string* text) {
+  *text += "  - file: " + Quoted(trial.file) + "\n";
+  *text += std::string("    role: ") + RoleName(trial.role) + "\n";
+  *text += "    touchdown_angle_deg: " + FormatDegrees(trial.touchdown_angle_rad) + "\n";
+  const Fields mechanism =
+      Difference(MechanismFields(dataset.mechanism), MechanismFields(trial.mechanism));
+  if (!mechanism.empty()) *text += "    mechanism: " + Flow(Grouped(mechanism)) + "\n";
+  if (trial.controller && trial.controller != dataset.controller) {
+    const Fields base = dataset.controller ? ControllerFields(*dataset.controller) : Fields{};
+    *text +=
+        "    controller: " + Flow(Difference(base, ControllerFields(*trial.controller))) + "\n";
+  } else if (!trial.controller && dataset.controller) {
+    *text += "    controller: null\n";
+  }
+  if (trial.initial) *text += "    initial: " + Flow(StateFields(*trial.initial)) + "\n";
+  if (trial.initial_sigma)
+    *text += "    initial_sigma: " + Flow(StateFields(*trial.initial_sigma)) + "\n";
+}
+
+std::string FormatYaml(const Dataset& dataset) {
+  std::string text = "format: hoplab-dataset/1\nname: " + Quoted(dataset.name) + "\n";
+  if (!dataset.title.empty()) text += "title: " + Quoted(dataset.title) + "\n";
+  const SourceSpec& source = dataset.source;
+  if (source.kind != SourceKind::kUnstated) {
+    text += "source:\n";
+    text += source.kind == SourceKind::kRecorded ? "  kind: recorded\n" : "  kind: simulated\n";
+    if (!source.by.empty()) text += "  by: " + Quoted(source.by) + "\n";
+    if (!source.licence.empty()) text += "  licence: " + Quoted(source.licence) + "\n";
+    if (!source.note.empty()) text += "  note: " + Quoted(source.note) + "\n";
+  }
+  text += "mechanism: " + Flow(Grouped(MechanismFields(dataset.mechanism))) + "\n";
+  if (dataset.controller)
+    text += "controller: " + Flow(ControllerFields(*dataset.controller)) + "\n";
+  text += "channels:\n";
+  for (const ChannelSpec& channel : dataset.channels)
+    text += std::string("  ") + ChannelName(channel.id) +
+            ": {sigma: " + (channel.sigma ? FormatDouble(*channel.sigma) : "estimate") + "}\n";
+  text += "trials:\n";
+  for (const Trial& trial : dataset.trials) AppendTrial(trial, dataset, &text);
+  return text;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> FormatDataset(const Dataset& dataset) {
+  std::map<std::string, std::string> files;
+  files["dataset.yaml"] = FormatYaml(dataset);
+  for (const Trial& trial : dataset.trials) {
+    const bool is_new = files.emplace(trial.file, FormatTraceCsv(trial.trace)).second;
+    HOPLAB_CHECK(is_new);
+  }
+  return files;
+}
+
+void WriteDataset(const Dataset& dataset, const std::filesystem::path& folder,
+                  const WriteDatasetOptions& options) {
+  const std::map<std::string, std::string> files = FormatDataset(dataset);
+  OverwriteOptions overwrite;
+  overwrite.force = options.force;
+  overwrite.marker = "dataset.yaml";
+  WriteFolderAtomically(
+      folder,
+      [&](const std::filesystem::path& staged) {
+        for (const auto& [name, text] : files) WriteFileAtomically(staged / name, text);
+      },
+      overwrite);
+}
+
+}  // namespace hoplab
