@@ -1,0 +1,81 @@
+#pragma once
+
+#include <boost/container/static_vector.hpp>
+
+#include "base/check.h"
+#include "model/effects/effect.h"
+
+namespace hoplab {
+
+/// The effects that act in one run, in the scalar type of the run. Only effects off their null, or
+/// whose parameter is differentiated, are in it: the others cost nothing and change nothing.
+template <class T>
+class ActiveEffects {
+ public:
+  static constexpr int kMax = 48;
+
+  void Add(const Effect& effect, const std::array<T, kMaxEffectParameters>& values) {
+    HOPLAB_CHECK(entries_.size() < kMax);
+    entries_.push_back({&effect.Hooks<T>(), values, &effect});
+  }
+
+  /// The same effects in another scalar type; directions are dropped.
+  template <class To>
+  ActiveEffects<To> Convert() const {
+    ActiveEffects<To> to;
+    for (const Entry& e : entries_) {
+      std::array<To, kMaxEffectParameters> values;
+      for (int i = 0; i < kMaxEffectParameters; ++i) values[i] = To(Value(e.values[i]));
+      to.Add(*e.effect, values);
+    }
+    return to;
+  }
+
+  void ChangeParameters(Parameters<T>& parameters) const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->change_parameters) e.hooks->change_parameters(e.values.data(), parameters);
+    }
+  }
+  Vector2<T> BodyForce(const BodyMotion<T>& body) const {
+    Vector2<T> force{T(0.0), T(0.0)};
+    for (const Entry& e : entries_) {
+      if (e.hooks->add_body_force) e.hooks->add_body_force(e.values.data(), body, force);
+    }
+    return force;
+  }
+  T TouchdownAngle(const T& vx, T theta_td) const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->change_touchdown_angle)
+        e.hooks->change_touchdown_angle(e.values.data(), vx, theta_td);
+    }
+    return theta_td;
+  }
+  T ObservationTime(T t) const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->change_observation_time) e.hooks->change_observation_time(e.values.data(), t);
+    }
+    return t;
+  }
+  void ChangeObservation(Observation<T>& seen) const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->change_observation) e.hooks->change_observation(e.values.data(), seen);
+    }
+  }
+  /// Whether flight is still ballistic.
+  bool HasBodyForce() const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->add_body_force) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Entry {
+    const EffectHooks<T>* hooks;
+    std::array<T, kMaxEffectParameters> values;
+    const Effect* effect;
+  };
+  boost::container::static_vector<Entry, kMax> entries_;
+};
+
+}  // namespace hoplab

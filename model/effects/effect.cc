@@ -1,0 +1,44 @@
+#include "model/effects/effect.h"
+
+namespace hoplab {
+
+std::string_view NameOf(EffectKind kind) {
+  switch (kind) {
+    case EffectKind::kForce: return "force";
+    case EffectKind::kParameter: return "parameter";
+    case EffectKind::kGuard: return "guard";
+    case EffectKind::kObservation: return "observation";
+  }
+  return "";
+}
+
+std::optional<int> Effect::FindParameter(std::string_view name) const {
+  for (std::size_t i = 0; i < info.parameters.size(); ++i) {
+    if (info.parameters[i].name == name) return static_cast<int>(i);
+  }
+  return std::nullopt;
+}
+
+const Effect* FindEffect(std::string_view name) {
+  for (const Effect* effect : AllEffects()) {
+    if (effect->info.name == name) return effect;
+  }
+  return nullptr;
+}
+
+EffectSetting EffectSetting::Null(const Effect& effect) {
+  EffectSetting setting{.effect = &effect};
+  for (std::size_t i = 0; i < effect.info.parameters.size(); ++i) {
+    setting.values[i] = effect.info.parameters[i].null;
+  }
+  return setting;
+}
+
+bool EffectSetting::IsNull() const {
+  for (std::size_t i = 0; i < effect->info.parameters.size(); ++i) {
+    if (values[i] != effect->info.parameters[i].null) return false;
+  }
+  return true;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "model/jet.h"
+#include "model/observation.h"
+#include "model/parameters.h"
+
+namespace hoplab {
+
+/// Widths of the dual numbers the simulator is built for; a run with more directions is cut into
+/// chunks. Measured in docs/decisions/0002-sensitivities.md.
+inline constexpr int kNarrowJet = 4;
+inline constexpr int kWideJet = 8;
+
+/// Where an effect acts.
+enum class EffectKind { kForce, kParameter, kGuard, kObservation };
+std::string_view NameOf(EffectKind kind);
+
+/// One parameter of an effect. At `null` the effect changes nothing, bit for bit.
+struct EffectParameter {
+  std::string_view name;
+  std::string_view unit;
+  double null, lower, upper;
+  double typical;  // a size one would expect when the effect is present
+};
+
+struct EffectInfo {
+  std::string_view name;
+  EffectKind kind;
+  std::string_view equation;  // in the symbols of the equation sheet
+  std::string_view sentence;  // for a reader who does not know the symbols
+  bool for_legs, for_ball;    // mechanisms it applies to
+  bool dissipative;           // never creates energy
+  std::span<const EffectParameter> parameters;
+};
+
+/// Motion of the body at one instant, for forces on it. Frame W.
+template <class T>
+struct BodyMotion {
+  T t;                // time since the first row [s]
+  T x, y, vx, vy;     // [m], [m/s]
+};
+
+inline constexpr int kMaxEffectParameters = 2;
+
+/// The places an effect can plug into; null where it does not. `p` points at its parameters.
+template <class T>
+struct EffectHooks {
+  /// Changes the physical parameters before the trial starts.
+  void (*change_parameters)(const T* p, Parameters<T>& parameters) = nullptr;
+  /// Adds a force on the body [N], in flight and stance.
+  void (*add_body_force)(const T* p, const BodyMotion<T>& body, Vector2<T>& force) = nullptr;
+  /// Changes the leg angle that touches down (guard and reset) from the speed at that moment.
+  void (*change_touchdown_angle)(const T* p, const T& vx, T& theta_td) = nullptr;
+  /// Changes the time at which the row stamped `t` was really read.
+  void (*change_observation_time)(const T* p, T& t) = nullptr;
+  /// Changes what the sensors report.
+  void (*change_observation)(const T* p, Observation<T>& seen) = nullptr;
+};
+
+/// An effect as the registry holds it: what it is, and its hooks in every scalar type.
+struct Effect {
+  EffectInfo info;
+  EffectHooks<double> hooks0;
+  EffectHooks<Jet<1>> hooks1;
+  EffectHooks<Jet<kNarrowJet>> hooks_narrow;
+  EffectHooks<Jet<kWideJet>> hooks_wide;
+
+  template <class T>
+  const EffectHooks<T>& Hooks() const {
+    if constexpr (kJetWidth<T> == 0) return hooks0;
+    else if constexpr (kJetWidth<T> == 1) return hooks1;
+    else if constexpr (kJetWidth<T> == kNarrowJet) return hooks_narrow;
+    else return hooks_wide;
+  }
+  /// Index of a parameter by name.
+  std::optional<int> FindParameter(std::string_view name) const;
+};
+
+/// Every effect there is, by name. One entry per file in model/effects (cmake writes the list).
+std::span<const Effect* const> AllEffects();
+const Effect* FindEffect(std::string_view name);
+
+/// An effect with the values it acts with; parameters it does not have are ignored.
+struct EffectSetting {
+  const Effect* effect = nullptr;
+  std::array<double, kMaxEffectParameters> values{};
+  /// At its null values.
+  static EffectSetting Null(const Effect& effect);
+  bool IsNull() const;
+};
+
+namespace effect_detail {
+template <class Physics, class T>
+constexpr EffectHooks<T> HooksOf() {
+  EffectHooks<T> hooks;
+  if constexpr (requires(const T* p, Parameters<T>& q) { Physics::ChangeParameters(p, q); })
+    hooks.change_parameters = &Physics::template ChangeParameters<T>;
+  if constexpr (requires(const T* p, const BodyMotion<T>& b, Vector2<T>& f) {
+                  Physics::AddBodyForce(p, b, f);
+                })
+    hooks.add_body_force = &Physics::template AddBodyForce<T>;
+  if constexpr (requires(const T* p, const T& v, T& a) { Physics::ChangeTouchdownAngle(p, v, a); })
+    hooks.change_touchdown_angle = &Physics::template ChangeTouchdownAngle<T>;
+  if constexpr (requires(const T* p, T& t) { Physics::ChangeObservationTime(p, t); })
+    hooks.change_observation_time = &Physics::template ChangeObservationTime<T>;
+  if constexpr (requires(const T* p, Observation<T>& o) { Physics::ChangeObservation(p, o); })
+    hooks.change_observation = &Physics::template ChangeObservation<T>;
+  return hooks;
+}
+}  // namespace effect_detail
+
+/// The registry entry of a physics: a struct with `kInfo` and templated static hooks of the names
+/// above (ChangeParameters, AddBodyForce, ...).
+template <class Physics>
+constexpr Effect MakeEffect() {
+  using namespace effect_detail;
+  return {Physics::kInfo, HooksOf<Physics, double>(), HooksOf<Physics, Jet<1>>(),
+          HooksOf<Physics, Jet<kNarrowJet>>(), HooksOf<Physics, Jet<kWideJet>>()};
+}
+
+}  // namespace hoplab

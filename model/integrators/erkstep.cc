@@ -1,0 +1,107 @@
+#include "model/integrators/erkstep.h"
+
+#include <arkode/arkode_erkstep.h>
+#include <nvector/nvector_serial.h>
+
+#include <cmath>
+#include <sundials/sundials_context.hpp>
+
+#include "base/check.h"
+
+namespace hoplab {
+
+struct ErkStepSolver::Memory {
+  sundials::Context context;
+  FlatSystem system;
+  IntegratorOptions options;
+  N_Vector y = nullptr;
+  void* solver = nullptr;
+
+  Memory(const IntegratorOptions& o, const FlatSystem& s) : system(s), options(o) {}
+  ~Memory() {
+    if (solver) ERKStepFree(&solver);
+    if (y) N_VDestroy(y);
+  }
+
+  static int Derivative(double t, N_Vector y, N_Vector dy, void* user) {
+    const auto* self = static_cast<const Memory*>(user);
+    double* out = N_VGetArrayPointer(dy);
+    self->system.derivative(self->system.context, t, N_VGetArrayPointer(y), out);
+    return std::isfinite(out[self->system.controlled - 1]) ? 0 : 1;  // 1: try a smaller step
+  }
+  // Error weights of the state alone; the mean in the norm runs over the whole vector, hence the
+  // factor. Sensitivities follow the steps of the state.
+  static int Weights(N_Vector y, N_Vector weights, void* user) {
+    const auto* self = static_cast<const Memory*>(user);
+    const double factor =
+        std::sqrt(static_cast<double>(self->system.size) / self->system.controlled);
+    const double* value = N_VGetArrayPointer(y);
+    double* w = N_VGetArrayPointer(weights);
+    for (int i = 0; i < self->system.size; ++i) {
+      w[i] = i < self->system.controlled
+                 ? factor / (self->options.absolute_tolerance +
+                             self->options.relative_tolerance * std::abs(value[i]))
+                 : 1e-300;
+    }
+    return 0;
+  }
+};
+
+ErkStepSolver::ErkStepSolver(const IntegratorOptions& options, const FlatSystem& system)
+    : memory_(std::make_unique<Memory>(options, system)) {
+  memory_->y = N_VNew_Serial(system.size, memory_->context);
+  N_VConst(0.0, memory_->y);
+  HOPLAB_CHECK(memory_->y != nullptr);
+}
+ErkStepSolver::~ErkStepSolver() = default;
+
+void ErkStepSolver::Start(double t, const double* y, double first_step) {
+  Memory& m = *memory_;
+  std::copy(y, y + m.system.size, N_VGetArrayPointer(m.y));
+  if (m.solver == nullptr) {
+    m.solver = ERKStepCreate(&Memory::Derivative, t, m.y, m.context);
+    HOPLAB_CHECK(m.solver != nullptr);
+    HOPLAB_CHECK(ERKStepSetUserData(m.solver, &m) == ARK_SUCCESS);
+    HOPLAB_CHECK(ERKStepSetTableNum(m.solver, ARKODE_FEHLBERG_13_7_8) == ARK_SUCCESS);
+    HOPLAB_CHECK(ERKStepWFtolerances(m.solver, &Memory::Weights) == ARK_SUCCESS);
+    HOPLAB_CHECK(ERKStepSetMaxNumSteps(m.solver, 1000000) == ARK_SUCCESS);
+    HOPLAB_CHECK(ERKStepSetErrHandlerFn(
+                     m.solver, [](int, const char*, const char*, char*, void*) {}, nullptr) ==
+                 ARK_SUCCESS);
+  } else {
+    HOPLAB_CHECK(ERKStepReInit(m.solver, &Memory::Derivative, t, m.y) == ARK_SUCCESS);
+  }
+  HOPLAB_CHECK(ERKStepSetInitStep(m.solver, first_step) == ARK_SUCCESS);
+}
+
+StepStatus ErkStepSolver::Step(double t_limit, double* t, double* y) {
+  Memory& m = *memory_;
+  HOPLAB_CHECK(ERKStepSetStopTime(m.solver, t_limit) == ARK_SUCCESS);
+  const int flag = ERKStepEvolve(m.solver, t_limit, m.y, t, ARK_ONE_STEP);
+  std::copy(N_VGetArrayPointer(m.y), N_VGetArrayPointer(m.y) + m.system.size, y);
+  return flag < 0 ? StepStatus::kFailed : StepStatus::kOk;
+}
+
+StepStatus ErkStepSolver::RunTo(double t0, const double* y0, double t, double* y) {
+  Memory& m = *memory_;
+  Start(t0, y0, t - t0);
+  HOPLAB_CHECK(ERKStepSetStopTime(m.solver, t) == ARK_SUCCESS);
+  double reached = t0;
+  const int flag = ERKStepEvolve(m.solver, t, m.y, &reached, ARK_NORMAL);
+  std::copy(N_VGetArrayPointer(m.y), N_VGetArrayPointer(m.y) + m.system.size, y);
+  return flag < 0 ? StepStatus::kFailed : StepStatus::kOk;
+}
+
+void ErkStepSolver::Interpolate(double t, double* y) {
+  Memory& m = *memory_;
+  HOPLAB_CHECK(ERKStepGetDky(m.solver, t, 0, m.y) == ARK_SUCCESS);
+  std::copy(N_VGetArrayPointer(m.y), N_VGetArrayPointer(m.y) + m.system.size, y);
+}
+
+double ErkStepSolver::next_step() const {
+  double h = 0.0;
+  ERKStepGetCurrentStep(memory_->solver, &h);
+  return h;
+}
+
+}  // namespace hoplab

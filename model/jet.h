@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+#include "ceres/jet.h"
+
+namespace hoplab {
+
+/// Dual number: a value and its derivatives in N directions. The only header that names the
+/// third party it comes from.
+template <int N>
+using Jet = ceres::Jet<double, N>;
+
+template <class T>
+struct JetWidth : std::integral_constant<int, 0> {};
+template <int N>
+struct JetWidth<Jet<N>> : std::integral_constant<int, N> {};
+/// Number of directions a scalar type carries: 0 for double, N for Jet<N>.
+template <class T>
+inline constexpr int kJetWidth = JetWidth<T>::value;
+
+/// The value of a scalar, its directions dropped.
+inline double Value(double x) { return x; }
+template <int N>
+double Value(const Jet<N>& x) {
+  return x.a;
+}
+
+/// Derivative of `x` in direction `k`; 0 for a double.
+inline double Slope(double, int) { return 0.0; }
+template <int N>
+double Slope(const Jet<N>& x, int k) {
+  return x.v[k];
+}
+
+/// `value` with one direction seeded with `slope`.
+template <class T>
+T Seeded(double value, int k, double slope) {
+  T x(value);
+  if constexpr (kJetWidth<T> > 0) x.v[k] = slope;
+  return x;
+}
+
+/// A function of `x` from its value and slope there: chain rule for functions solved in doubles.
+inline double Chain(double, double value, double) { return value; }
+template <int N>
+Jet<N> Chain(const Jet<N>& x, double value, double slope) {
+  return Jet<N>(value, slope * x.v);
+}
+
+/// Vector of the plane of motion, frame W (x forward, y up).
+template <class T>
+struct Vector2 {
+  T x, y;
+};
+
+}  // namespace hoplab

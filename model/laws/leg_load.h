@@ -1,0 +1,24 @@
+#pragma once
+
+#include "model/jet.h"
+
+namespace hoplab {
+
+/// What a leg law says about one instant of stance. Chord quantities as in section 1 of the
+/// equation sheet.
+template <class T>
+struct LegLoad {
+  T u;              // contact lead x_c - x [m]
+  T l;              // chord length [m]
+  T phi;            // contact arc [rad]; pi in toe stance
+  T elastic_force;  // F_el along the chord [N], positive pushes the hip away from the contact
+  T damping_rate;   // rate the damper sees [m/s], positive while lengthening
+  T contact_rate;   // rate of the contact coordinate (state 4) [m/s]
+};
+
+/// State of a legged body: hip position and velocity, and the contact coordinate. The contact
+/// coordinate is x_c in toe stance and under `thesis` and `no_slip`; under `consistent` and
+/// `large_deflection` it is X0 = x_c - r phi while rolling (M11). Not used in flight.
+enum LegState { kX = 0, kY, kVx, kVy, kContact, kLegStateSize };
+
+}  // namespace hoplab

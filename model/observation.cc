@@ -1,0 +1,19 @@
+#include "model/observation.h"
+
+namespace hoplab {
+namespace {
+constexpr std::array<std::string_view, kChannelCount> kNames = {
+    "body_x_m",     "body_y_m",         "body_vx_m_per_s",  "body_vy_m_per_s", "leg_angle_rad",
+    "leg_length_m", "ground_force_x_N", "ground_force_y_N", "hip_torque_N_m",  "contact"};
+}  // namespace
+
+std::string_view NameOf(Channel channel) { return kNames[static_cast<std::size_t>(channel)]; }
+
+std::optional<Channel> FindChannel(std::string_view name) {
+  for (int i = 0; i < kChannelCount; ++i) {
+    if (kNames[i] == name) return static_cast<Channel>(i);
+  }
+  return std::nullopt;
+}
+
+}  // namespace hoplab

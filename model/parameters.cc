@@ -1,0 +1,135 @@
+#include "model/parameters.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/check.h"
+
+namespace hoplab {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+using enum ParameterId;
+
+constexpr std::array<ParameterInfo, 17> kParameters = {{
+    {kE, "E", "Pa", 1e3, 1e13},
+    {kG, "G", "Pa", 1e3, 1e13},
+    {kD, "d", "N s/m", 0.0, 1e5},
+    {kM, "m", "kg", 1e-6, 1e6},
+    {kR, "r", "m", 1e-4, 1e2},
+    {kGravity, "g", "m/s^2", 0.0, 1e3},
+    {kKp, "kp", "N s", -1e6, 1e6},
+    {kVDes, "v_des", "m/s", -1e3, 1e3},
+    {kThetaTd, "theta_td", "rad", -1.55, 2.9},
+    {kSecondMoment, "I", "m^4", 1e-20, 1.0},
+    {kArea, "A", "m^2", 1e-12, 1e2},
+    {kShearFactor, "kappa", "-", 0.0, 10.0},
+    {kStiffness, "k", "N/m", 1e-3, 1e9},
+    {kRestLength, "l0", "m", 1e-4, 1e2},
+    {kRestitution, "restitution", "-", 0.0, 1.0},
+    {kTangentialLoss, "tangential_loss", "-", -1.0, 2.0},
+    {kRadius, "radius", "m", 0.0, 1e2},
+}};
+
+constexpr std::array kCLegParameters = {kE,   kD,       kG,            kM,    kR,          kGravity, kKp,
+                                        kVDes, kThetaTd, kSecondMoment, kArea, kShearFactor};
+constexpr std::array kStraightLegParameters = {kStiffness, kD,  kRestLength, kM,
+                                               kGravity,   kKp, kVDes,       kThetaTd};
+constexpr std::array kBallParameters = {kRestitution, kTangentialLoss, kM, kGravity, kRadius};
+
+constexpr std::array kCLegLaws = {Law::kLargeDeflection, Law::kConsistent, Law::kNoSlip,
+                                  Law::kThesis};
+constexpr std::array kStraightLegLaws = {Law::kStraightLeg};
+constexpr std::array kBallLaws = {Law::kBall};
+
+struct LawText {
+  Law law;
+  std::string_view name;
+  std::string_view sentence;
+};
+constexpr std::array<LawText, 6> kLaws = {{
+    {Law::kLargeDeflection, "large_deflection",
+     "c_leg, default: static equilibrium of the elastic arc with the next term of the elastica; "
+     "conserves energy."},
+    {Law::kConsistent, "consistent",
+     "c_leg: static equilibrium of the elastic arc, first-order bending with tip rotation; "
+     "conserves energy."},
+    {Law::kNoSlip, "no_slip",
+     "c_leg: half circle of varying radius, the contact advances by the arc laid on the ground."},
+    {Law::kThesis, "thesis",
+     "c_leg: half circle of varying radius, the law of the published tables; does not conserve "
+     "energy."},
+    {Law::kStraightLeg, "straight_leg", "straight_leg: linear spring and damper on a fixed toe."},
+    {Law::kBall, "ball", "ball: ballistic flight, restitution and tangential loss at each bounce."},
+}};
+
+}  // namespace
+
+std::span<const ParameterInfo> AllParameters() { return kParameters; }
+
+const ParameterInfo& InfoOf(ParameterId id) {
+  return kParameters[static_cast<std::size_t>(id)];
+}
+
+std::optional<ParameterId> FindParameter(std::string_view name) {
+  for (const ParameterInfo& info : kParameters) {
+    if (info.name == name) return info.id;
+  }
+  return std::nullopt;
+}
+
+std::span<const ParameterId> ParametersOf(MechanismKind mechanism) {
+  switch (mechanism) {
+    case MechanismKind::kCLeg: return kCLegParameters;
+    case MechanismKind::kStraightLeg: return kStraightLegParameters;
+    case MechanismKind::kBall: return kBallParameters;
+  }
+  return {};
+}
+
+std::span<const ParameterId> FreeByDefault(MechanismKind mechanism) {
+  return ParametersOf(mechanism).first(2);
+}
+
+std::span<const Law> LawsOf(MechanismKind mechanism) {
+  switch (mechanism) {
+    case MechanismKind::kCLeg: return kCLegLaws;
+    case MechanismKind::kStraightLeg: return kStraightLegLaws;
+    case MechanismKind::kBall: return kBallLaws;
+  }
+  return {};
+}
+
+MechanismKind MechanismOf(Law law) {
+  if (law == Law::kStraightLeg) return MechanismKind::kStraightLeg;
+  return law == Law::kBall ? MechanismKind::kBall : MechanismKind::kCLeg;
+}
+
+std::string_view NameOf(Law law) {
+  return std::find_if(kLaws.begin(), kLaws.end(), [&](const LawText& t) { return t.law == law; })
+      ->name;
+}
+
+std::string_view SentenceOf(Law law) {
+  return std::find_if(kLaws.begin(), kLaws.end(), [&](const LawText& t) { return t.law == law; })
+      ->sentence;
+}
+
+std::string_view NameOf(MechanismKind mechanism) {
+  switch (mechanism) {
+    case MechanismKind::kCLeg: return "c_leg";
+    case MechanismKind::kStraightLeg: return "straight_leg";
+    case MechanismKind::kBall: return "ball";
+  }
+  return "";
+}
+
+std::optional<Law> FindLaw(std::string_view name) {
+  for (const LawText& text : kLaws) {
+    if (text.name == name) return text.law;
+  }
+  return std::nullopt;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace hoplab {
+
+/// Which leg (or none) the body hops on.
+enum class MechanismKind { kCLeg, kStraightLeg, kBall };
+
+/// How a C-leg carries its load; section 3 of the equation sheet.
+enum class Law { kThesis, kNoSlip, kConsistent, kLargeDeflection, kStraightLeg, kBall };
+
+/// What ends a stance: the chord force back at zero, or the chord back at its rest length.
+enum class LiftoffRule { kZeroForce, kRestLength };
+
+/// Everything physical about one trial, in SI units and radians. Fields a mechanism does not use
+/// stay at their defaults. Differentiable fields are of type T.
+template <class T>
+struct Parameters {
+  // Every mechanism.
+  T m{1.0};     // body mass [kg]
+  T g{9.81};    // gravity [m/s^2]
+  // Speed controller (M15), legs only.
+  T kp{0.0};     // gain [N s]
+  T v_des{0.0};  // desired speed [m/s]
+  T theta_td{0.0};  // commanded touch-down leg angle [rad]
+  // Legs.
+  T d{0.0};  // leg damping [N s/m]
+  // C-leg.
+  T r{0.1};          // rest radius [m]
+  T E{1.0};          // Young's modulus [Pa]
+  T G{1.0};          // shear modulus [Pa]
+  T I{1.0};          // second moment of the section [m^4]
+  T A{1.0};          // section area [m^2]
+  T kappa{1.5};      // shear factor [-]
+  // Straight leg.
+  T k{1.0};   // stiffness [N/m]
+  T l0{1.0};  // rest length [m]
+  // Ball.
+  T radius{0.0};           // [m]
+  T restitution{1.0};      // [-]
+  T tangential_loss{0.0};  // [-]
+  // Settings without derivatives.
+  double torque_limit = std::numeric_limits<double>::infinity();  // T_max [N m]
+  double fall_height = std::numeric_limits<double>::quiet_NaN();  // y_min [m]; NaN: the default
+};
+
+/// The differentiable fields of `Parameters`, in a fixed order.
+enum class ParameterId {
+  kE, kG, kD, kM, kR, kGravity, kKp, kVDes, kThetaTd, kSecondMoment, kArea, kShearFactor,
+  kStiffness, kRestLength, kRestitution, kTangentialLoss, kRadius
+};
+
+/// Name, unit and physical range of a parameter.
+struct ParameterInfo {
+  ParameterId id;
+  std::string_view name;  // as in `--free` and run.json
+  std::string_view unit;
+  double lower, upper;  // closed physical bounds
+};
+
+/// All parameters, in the order of ParameterId.
+std::span<const ParameterInfo> AllParameters();
+const ParameterInfo& InfoOf(ParameterId id);
+/// Parameter of that name, if there is one.
+std::optional<ParameterId> FindParameter(std::string_view name);
+/// Parameters that mean something for a mechanism, the ones fitted by default first.
+std::span<const ParameterId> ParametersOf(MechanismKind mechanism);
+/// Parameters that are free unless asked otherwise.
+std::span<const ParameterId> FreeByDefault(MechanismKind mechanism);
+
+/// The field `id` of `p`.
+template <class T>
+T& Field(Parameters<T>& p, ParameterId id) {
+  switch (id) {
+    case ParameterId::kE: return p.E;
+    case ParameterId::kG: return p.G;
+    case ParameterId::kD: return p.d;
+    case ParameterId::kM: return p.m;
+    case ParameterId::kR: return p.r;
+    case ParameterId::kGravity: return p.g;
+    case ParameterId::kKp: return p.kp;
+    case ParameterId::kVDes: return p.v_des;
+    case ParameterId::kThetaTd: return p.theta_td;
+    case ParameterId::kSecondMoment: return p.I;
+    case ParameterId::kArea: return p.A;
+    case ParameterId::kShearFactor: return p.kappa;
+    case ParameterId::kStiffness: return p.k;
+    case ParameterId::kRestLength: return p.l0;
+    case ParameterId::kRestitution: return p.restitution;
+    case ParameterId::kTangentialLoss: return p.tangential_loss;
+    case ParameterId::kRadius: return p.radius;
+  }
+  return p.m;  // unreachable: every enumerator is listed above
+}
+template <class T>
+const T& Field(const Parameters<T>& p, ParameterId id) {
+  return Field(const_cast<Parameters<T>&>(p), id);
+}
+
+/// The same parameters in another scalar type; directions are dropped.
+template <class To, class From>
+Parameters<To> ConvertParameters(const Parameters<From>& from);
+
+/// Laws a mechanism can use; the first is its default.
+std::span<const Law> LawsOf(MechanismKind mechanism);
+MechanismKind MechanismOf(Law law);
+std::string_view NameOf(Law law);
+std::string_view NameOf(MechanismKind mechanism);
+/// One sentence on what the law assumes, for `hoplab laws`.
+std::string_view SentenceOf(Law law);
+std::optional<Law> FindLaw(std::string_view name);
+
+}  // namespace hoplab
+
+#include "model/parameters_inl.h"

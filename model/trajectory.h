@@ -1,0 +1,79 @@
+#pragma once
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "model/hybrid/automaton.h"
+
+namespace hoplab {
+
+/// A located guard crossing.
+struct Event {
+  EventKind kind = EventKind::kApex;
+  Mode mode_before = Mode::kFlight, mode_after = Mode::kFlight;
+  double time = 0.0;                             // s since the start
+  double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0;   // just before the reset [m], [m/s]
+  double vx_after = 0.0, vy_after = 0.0;         // just after it [m/s]
+  /// Rate of the guard in units of its scale [1/s]: M16's denominator. Near 0 the event grazes.
+  double crossing_rate = 0.0;
+  /// Another guard of the mode is at zero at the same instant: derivatives are one-sided.
+  bool simultaneous = false;
+};
+
+/// A stretch of time in one mode.
+struct Segment {
+  Mode mode = Mode::kFlight;
+  double begin = 0.0, end = 0.0;  // s
+};
+
+/// A simulated run: outcome, events, segments, and the samples asked for.
+/// `samples` is row-major [row][channel]; rows past the end of the run are NaN.
+/// `sensitivities` is row-major [row][channel][direction].
+/// `final_state` and `final_sensitivities` ([component][direction]) belong to `end_time`.
+struct Trajectory {
+  Outcome outcome = Outcome::kCompleted;
+  double end_time = 0.0;  // s
+  Mode final_mode = Mode::kFlight;
+  std::vector<Event> events;
+  std::vector<double> event_time_sensitivities;  // row-major [event][direction], M16
+  std::vector<Segment> segments;
+  std::vector<double> samples;
+  std::vector<double> sensitivities;
+  std::vector<double> final_state;
+  std::vector<double> final_sensitivities;
+  int hops = 0;                 // apexes after a stance (bounces of a ball)
+  long steps = 0;               // integrator steps taken
+  /// Smallest |crossing_rate| over the events that reset something.
+  double least_crossing_rate = std::numeric_limits<double>::infinity();
+  /// Smallest value, in units of its scale, of a guard that came down and turned back without
+  /// crossing: how close the run came to another event sequence.
+  double nearest_miss = std::numeric_limits<double>::infinity();
+  bool has_simultaneous_events = false;
+  /// Largest F C/l0 met (`large_deflection` only): beyond 0.2 its expansion is not to be trusted.
+  double max_flexure = 0.0;
+
+  int directions = 0;
+  int channels = 0;
+  /// Back to the state of a new one, keeping the memory.
+  void Clear() {
+    Trajectory fresh;
+    const auto keep = [](auto& mine, auto& other) {
+      mine.clear();
+      other.swap(mine);
+    };
+    keep(events, fresh.events);
+    keep(event_time_sensitivities, fresh.event_time_sensitivities);
+    keep(segments, fresh.segments);
+    keep(samples, fresh.samples);
+    keep(sensitivities, fresh.sensitivities);
+    keep(final_state, fresh.final_state);
+    keep(final_sensitivities, fresh.final_sensitivities);
+    *this = std::move(fresh);
+  }
+};
+
+/// Beyond this F C/l0 the expansion of `large_deflection` is not to be trusted (section 3).
+inline constexpr double kMaxFlexure = 0.2;
+
+}  // namespace hoplab
