@@ -41,7 +41,7 @@ MechanismSpec AnyMechanism(MechanismType type, RandomStream* random) {
     mechanism.ball = {Any(random), random->Uniform(0, 1), random->Uniform(0, 1)};
     return mechanism;
   }
-  if (random->Normal() > 0) mechanism.liftoff = LiftoffRule::kRestLength;
+  if (random->Normal() > 0) mechanism.liftoff = LiftoffSpec::kRestLength;
   if (random->Normal() > 0) mechanism.fall_height_m = Any(random);
   if (random->Normal() > 0) mechanism.toe_mass_kg = Any(random);
   if (mechanism.toe_mass_kg && random->Normal() > 0)
