@@ -144,7 +144,7 @@ const char* MechanismTypeName(MechanismType type) {
   return kNames[static_cast<std::size_t>(type)];
 }
 
-const char* LiftoffRuleName(LiftoffSpec rule) {
+const char* LiftoffName(LiftoffSpec rule) {
   return rule == LiftoffSpec::kZeroForce ? "zero_force" : "rest_length";
 }
 
