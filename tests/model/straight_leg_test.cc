@@ -25,7 +25,7 @@ Eigen::Matrix2d ReturnMap(SimulationRequest q) {
   const std::array directions = {D::InitialState(2), D::InitialState(1)};
   q.directions = directions;
   const Trajectory run = Simulate(q);
-  const double f[4] = {run.final_state[2], run.final_state[3], 0.0, -q.parameters.g};
+  const std::vector<double>& f = run.final_rate;
   const double* dt = &run.event_time_sensitivities[(run.events.size() - 1) * 2];
   Eigen::Matrix4Xd along(4, 2);
   for (int i = 0; i < 4; ++i) {

@@ -25,7 +25,7 @@ inline SimulationRequest ThickLegRequest(Law law) {
   q.parameters.A = 6e-4;
   q.parameters.d = 3.0;
   q.parameters.theta_td = Degrees(30.0);
-  q.initial = {0.0, 0.25, 1.0, 0.0};
+  q.initial = {0.0, 0.25, 1.0, -0.1};
   q.horizon = 5.0;
   q.max_hops = 1;
   q.integrator.relative_tolerance = kOracleRelative;

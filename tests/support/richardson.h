@@ -7,10 +7,10 @@
 
 namespace hoplab::testing {
 
-/// A derivative by differences, with the error it may still have (norm over all components).
+/// A derivative by differences, with the error each component may still have.
 struct DifferenceColumn {
-  std::vector<double> value;
-  double error = std::numeric_limits<double>::infinity();
+  std::vector<double> value, error;
+  double error_norm = std::numeric_limits<double>::infinity();
 };
 
 /// d f/dx at x: central differences with steps h, h/2, h/4, ..., extrapolated (Neville in h^2). Of
@@ -42,7 +42,12 @@ DifferenceColumn RichardsonDerivative(const Function& f, double x, double h) {
       }
       const double error = std::max(norm_of_change(table[i][j], table[i][j - 1]),
                                     norm_of_change(table[i][j], table[i - 1][j - 1]));
-      if (error < best.error) best = {table[i][j], error};
+      if (error >= best.error_norm) continue;
+      best = {table[i][j], std::vector<double>(up.size()), error};
+      for (std::size_t c = 0; c < up.size(); ++c) {
+        best.error[c] = std::max(std::abs(table[i][j][c] - table[i][j - 1][c]),
+                                 std::abs(table[i][j][c] - table[i - 1][j - 1][c]));
+      }
     }
   }
   return best;
