@@ -108,6 +108,9 @@ class Engine {
     out_.final_mode = mode_;
     out_.final_state.resize(kDim);
     for (int i = 0; i < kDim; ++i) out_.final_state[i] = Value(z_[i]);
+    out_.final_rate.resize(kDim);
+    value_system_.CopyHidden(system_);
+    value_system_.Derivative(mode_, t_, out_.final_state.data(), out_.final_rate.data());
   }
   const std::array<T, kDim>& final_state() const { return z_; }
 
@@ -316,7 +319,8 @@ class Engine {
     const double ay = Value(flight.ay), vy = Value(z_[3]);
     const double above = Value(z_[1] - flight.contact_height);
     double to_apex = std::numeric_limits<double>::infinity();
-    if (vy > 0.0 && ay < 0.0) to_apex = -vy / ay;
+    // Armed like any guard: what rounding leaves of vy at an apex is not another apex.
+    if (vy > kAtZero && ay < 0.0) to_apex = -vy / ay;
     double to_contact = std::numeric_limits<double>::infinity();
     const double square = vy * vy - 2.0 * ay * above;
     if (ay == 0.0) {
