@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fitting/apex_segments.h"
+#include "fitting/fit_dataset.h"
 #include "fitting/profile.h"
 #include "fitting/trial_errors.h"
 #include "fitting/uncertainty.h"
@@ -24,8 +25,7 @@ TEST(ApexSegments, CutsATraceIntoItsHops) {
     EXPECT_EQ(piece.row_times.front(), 0.0);
     rows += static_cast<long>(piece.row_times.size());
   }
-  // Neighbours share their apex row.
-  EXPECT_EQ(rows, static_cast<long>(p.trials[0].row_times.size()) + 2);
+  EXPECT_EQ(rows, static_cast<long>(p.trials[0].row_times.size()));
   EXPECT_NEAR(pieces[1].start[3], 0.0, 0.05);  // vy at an apex, one row off at most
 }
 
@@ -92,6 +92,31 @@ TEST(Fit, ContactTimesAloneDetermineTheModulus) {
   const FitResult fit = Fit(p, {});
   ASSERT_TRUE(fit.ok) << fit.message;
   EXPECT_NEAR(fit.shared[0] / 22e9, 1.0, 0.01);
+}
+
+TEST(FitDataset, FitsWholeTracesWhereTheyCanBeSimulated) {
+  const DatasetFit fit = FitDataset(SmallDataset(), {}, {});
+  EXPECT_TRUE(fit.result.ok);
+  EXPECT_FALSE(fit.by_hop);
+  EXPECT_EQ(fit.problem.trials.size(), 3u);
+}
+
+TEST(FitDataset, FallsBackToSingleHopsAndSaysSo) {
+  // With five times the damping no modulus carries the leg through three hops.
+  Dataset d = testing::HopDataset(3, 1);
+  const DatasetFit fit = FitDataset(d, {.free = {"E"}, .fix = {{"d", 15.0}}}, {});
+  ASSERT_TRUE(fit.result.ok) << fit.result.message;
+  EXPECT_TRUE(fit.by_hop);
+  EXPECT_NE(fit.note.find("hop by hop"), std::string::npos);
+  EXPECT_GT(fit.problem.trials.size(), d.trials.size());
+}
+
+TEST(FitDataset, HopByHopFindsTheSameModulus) {
+  const Dataset d = testing::HopDataset(3, 1);
+  const DatasetFit hops = FitDataset(d, {}, {}, FitSpan::kHops);
+  ASSERT_TRUE(hops.result.ok);
+  EXPECT_TRUE(hops.by_hop);
+  EXPECT_NEAR(hops.result.shared[0] / 22e9, 1.0, 0.005);
 }
 
 TEST(Uncertainty, AgreesWithTheProfile) {
