@@ -102,9 +102,9 @@ TEST(FitDataset, FitsWholeTracesWhereTheyCanBeSimulated) {
 }
 
 TEST(FitDataset, FallsBackToSingleHopsAndSaysSo) {
-  // With five times the damping no modulus carries the leg through three hops.
+  // With twenty times the damping no modulus carries the leg through three hops.
   Dataset d = testing::HopDataset(3, 1);
-  const DatasetFit fit = FitDataset(d, {.free = {"E"}, .fix = {{"d", 15.0}}}, {});
+  const DatasetFit fit = FitDataset(d, {.free = {"E"}, .fix = {{"d", 60.0}}}, {});
   ASSERT_TRUE(fit.result.ok) << fit.result.message;
   EXPECT_TRUE(fit.by_hop);
   EXPECT_NE(fit.note.find("hop by hop"), std::string::npos);
