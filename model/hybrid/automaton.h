@@ -64,14 +64,6 @@ struct ResetResult {
   std::optional<Outcome> end = std::nullopt;
 };
 
-/// Flight under constant acceleration: everything in closed form.
-/// The body meets the ground where its height is `contact_height`.
-template <class T>
-struct BallisticFlight {
-  T ax, ay;           // [m/s^2]
-  T contact_height;   // [m]
-};
-
 inline constexpr int kMaxGuards = 6;
 
 }  // namespace hoplab

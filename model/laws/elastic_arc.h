@@ -21,6 +21,8 @@ struct ArcRoot {
 template <class T, bool kSecondOrder>
 class ElasticArc {
  public:
+  static constexpr bool kIsExpansion = kSecondOrder;
+
   explicit ElasticArc(const Parameters<T>& p) : r_(p.r), compliance_(p) {
     const HalfAngle toe(std::numbers::pi);
     const ShapeValue b = BendingShape(toe), a = AxialShape(toe), s = ShearShape(toe);

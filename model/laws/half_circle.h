@@ -13,6 +13,8 @@ namespace hoplab {
 template <class T, bool kNoSlip>
 class HalfCircle {
  public:
+  static constexpr bool kIsExpansion = false;
+
   explicit HalfCircle(const Parameters<T>& p) : parameters_(p), r_(p.r) {}
 
   void StartRootAt(double) {}  // nothing is solved for
