@@ -1,5 +1,8 @@
 #include "fitting/fit_dataset.h"
 
+#include <cmath>
+#include <cstdio>
+
 #include "fitting/apex_segments.h"
 
 namespace hoplab {
@@ -20,12 +23,38 @@ std::optional<FitSpan> FindSpan(std::string_view name) {
   return std::nullopt;
 }
 
+namespace {
+
+// Whole traces that pull a value this far from what their single hops say are fitting the model's
+// error, not the value.
+constexpr double kDisagreement = 0.25;
+
+std::string Disagreement(const FitProblem& problem, const FitResult& fit) {
+  if (!fit.ok) return "";
+  const Eigen::VectorXd& hops = fit.records[fit.best_start].hops;
+  for (int k = 0; k < hops.size(); ++k) {
+    const SharedParameter& s = problem.shared[k];
+    // What may be zero has no ratio.
+    if (s.lower <= 0.0 || std::abs(fit.shared[k] / hops[k] - 1.0) <= kDisagreement) continue;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "single hops alone say %s = %.3g %s, whole traces %.3g: this law does not carry "
+                  "from hop to hop",
+                  s.name.c_str(), hops[k], s.unit.c_str(), fit.shared[k]);
+    return text;
+  }
+  return "";
+}
+
+}  // namespace
+
 DatasetFit FitDataset(const Dataset& dataset, const ProblemOptions& problem_options,
                       const FitOptions& fit_options, FitSpan span) {
   DatasetFit fit;
   fit.problem = MakeProblem(dataset, problem_options);
   if (span != FitSpan::kHops) {
     fit.result = Fit(fit.problem, fit_options);
+    fit.note = Disagreement(fit.problem, fit.result);
     if (fit.result.ok || fit.result.interrupted || span == FitSpan::kWhole) return fit;
   }
   FitProblem hops = SplitIntoHops(fit.problem);

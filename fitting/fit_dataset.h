@@ -20,7 +20,7 @@ struct DatasetFit {
   FitProblem problem;  // the one that was fitted: trials are hops if `by_hop`
   FitResult result;
   bool by_hop = false;
-  std::string note;    // why it was fitted hop by hop; empty if it was not
+  std::string note;    // why it was fitted hop by hop, or that hops and whole traces disagree
 };
 
 /// Sets up and fits a dataset. A law that cannot carry a simulation through a whole trace (it falls
