@@ -127,6 +127,27 @@ TEST(FitDataset, HopByHopFindsTheSameModulus) {
   EXPECT_NEAR(hops.result.shared[0] / 22e9, 1.0, 0.005);
 }
 
+// The quick part of recovery_statistics_test.cc.
+TEST(Fit, RecoversGeneratedValuesWithinItsIntervals) {
+  double E_mean = 0;
+  int covered = 0;
+  constexpr int kSeeds = 6;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const FitProblem p = MakeProblem(testing::HopDataset(3, seed), {});
+    const FitResult fit = Fit(p, {});
+    ASSERT_TRUE(fit.ok);
+    const Uncertainty u =
+        AssessUncertainty(p, TrialsOf(p, TrialRole::kTrain), fit.shared, fit.starts, {}, 1);
+    E_mean += fit.shared[0] / kSeeds;
+    const double truth[] = {22e9, 3.0};
+    for (int k = 0; k < 2; ++k)
+      covered += std::abs(fit.shared[k] - truth[k]) < 3.0 * *u.parameters[k].std_error;
+    EXPECT_NEAR(u.chi2_per_dof, 1.0, 0.1);
+  }
+  EXPECT_NEAR(E_mean / 22e9, 1.0, 0.002);
+  EXPECT_EQ(covered, 2 * kSeeds);  // three standard errors: 99.7 % each
+}
+
 TEST(Uncertainty, AgreesWithTheProfile) {
   const FitProblem p = MakeProblem(SmallDataset(), {});
   const FitResult fit = Fit(p, {});
