@@ -53,9 +53,9 @@ inline bool IsComplete(Outcome outcome) {
 struct GuardSpec {
   EventKind event;
   double scale;
-  /// The guard must open (be or become positive) when its mode is entered, else the run ends as
-  /// `no_support`.
-  bool must_open = false;
+  /// How the run ends if the guard is found closed (negative, or at zero and not opening) where its
+  /// mode is entered. A lift-off guard closed by a change of stance fires at once instead.
+  std::optional<Outcome> if_closed = std::nullopt;
 };
 
 /// What a reset did: the next mode, and the outcome if the run ends there.

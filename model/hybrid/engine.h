@@ -56,6 +56,7 @@ class Engine {
     t_ = 0.0;
     next_row_ = 0;
     stance_step_ = 0.0;
+    event_times_.reserve(kWidth * kUsualEvents);
     RowsBeforeStart(row_time);
     out_.outcome = Loop(row_time);
     FinishSegment();
@@ -71,6 +72,7 @@ class Engine {
 
  private:
   static constexpr int kMaxEvents = 20000;
+  static constexpr int kUsualEvents = 64;
   // Events at one instant, one after the other, beyond which the run is going round in circles.
   static constexpr int kMaxChained = 4;
 
@@ -91,15 +93,20 @@ class Engine {
           return Outcome::kStartsInGround;
       }
       int immediate = -1;
-      for (int i = 0; i < guards; ++i) {
+      bool with_last_event = false;
+      for (int i = 0; i < guards && immediate < 0; ++i) {
+        const GuardSpec spec = system_.Guard(mode_, i);
         const bool at_zero = std::abs(at_start.value[i]) <= kAtZero;
-        if (system_.Guard(mode_, i).must_open && after_reset_ &&
-            (at_start.value[i] < -kAtZero || (at_zero && at_start.rate[i] <= 0.0)) &&
-            last_event_ == EventKind::kTouchdown)
-          return Outcome::kNoSupport;
-        if (at_zero && at_start.rate[i] < 0.0 && immediate < 0 &&
-            system_.Guard(mode_, i).event != EventKind::kApex)
+        const bool closed =
+            at_start.value[i] < -kAtZero || (at_zero && at_start.rate[i] <= 0.0);
+        if (spec.if_closed && closed && entered_) {
+          if (spec.event != EventKind::kLiftoff || last_event_ == EventKind::kTouchdown)
+            return *spec.if_closed;
           immediate = i;
+          with_last_event = true;
+        } else if (at_zero && at_start.rate[i] < 0.0 && spec.event != EventKind::kApex) {
+          immediate = i;
+        }
       }
       Crossing crossing;
       if (immediate >= 0) {
@@ -113,7 +120,7 @@ class Engine {
       chained = crossing.time - last_event_time < kSimultaneous ? chained + 1 : 0;
       last_event_time = crossing.time;
       if (chained > kMaxChained) return Outcome::kChattering;
-      if (const auto end = Process(crossing.guard)) return *end;
+      if (const auto end = Process(crossing.guard, with_last_event)) return *end;
       if (settings_.max_hops > 0 && out_.hops >= settings_.max_hops) return Outcome::kHopLimit;
     }
     return Outcome::kEventLimit;
@@ -132,20 +139,21 @@ class Engine {
   }
 
   // The state at a crossing is in z_ at time t_ (both as values with the solver's accuracy).
-  // Applies M16, the reset, M17; records the event.
-  std::optional<Outcome> Process(int guard) {
+  // Applies M16, the reset, M17; records the event. `with_last_event`: the guard was closed by the
+  // last event, so that this one happens when that one does.
+  std::optional<Outcome> Process(int guard, bool with_last_event) {
     const GuardSpec spec = system_.Guard(mode_, guard);
     std::array<double, kDim> z, f_before;
     for (int i = 0; i < kDim; ++i) z[i] = Value(z_[i]);
     const GuardRates at = watch_.RatesAt(mode_, t_, z.data());
     watch_.Flow(mode_, t_, z.data(), f_before.data());
     const double rate = at.rate[guard];
-    if (!(std::abs(rate) > kGrazingRate)) return Outcome::kGrazing;
+    if (!with_last_event && !(std::abs(rate) > kGrazingRate)) return Outcome::kGrazing;
 
     // M16 in duals; the value part is the last correction of the event time, below rounding.
     std::array<T, kMaxGuards> g;
     system_.Guards(mode_, T(t_), z_.data(), g.data());
-    T shift = -g[guard] / (rate * spec.scale);
+    T shift = with_last_event ? last_moving_ : T(-g[guard] / (rate * spec.scale));
     if (std::abs(Value(shift)) > kSimultaneous) shift = shift - Value(shift);
     const T event_time = t_ + shift;
     for (int i = 0; i < kDim; ++i) z_[i] += f_before[i] * shift;
@@ -183,10 +191,8 @@ class Engine {
     for (int i = 0; i < kDim; ++i) z[i] = Value(z_[i]);
     std::array<double, kDim> f_after;
     watch_.Flow(mode_, t_, z.data(), f_after.data());
-    if constexpr (kWidth > 0) {
-      const T moving = event_time - t_;  // value 0
-      for (int i = 0; i < kDim; ++i) z_[i] -= f_after[i] * moving;
-    }
+    last_moving_ = event_time - t_;  // value 0
+    for (int i = 0; i < kDim; ++i) z_[i] -= f_after[i] * last_moving_;
     event.mode_after = mode_;
     if constexpr (kDim >= 4) {
       event.vx_after = z[2];
@@ -194,7 +200,7 @@ class Engine {
     }
     out_.events.push_back(event);
     for (int k = 0; k < kWidth; ++k) event_times_.push_back(Slope(event_time, k));
-    after_reset_ = resets;
+    entered_ = mode_ != event.mode_before;
     last_event_ = spec.event;
     if (spec.event == EventKind::kLiftoff) hopped_ = true;
     if (spec.event == EventKind::kBounce || (spec.event == EventKind::kApex && hopped_)) {
@@ -386,7 +392,9 @@ class Engine {
   std::array<T, kDim> z_;
   double t_ = 0.0, segment_begin_ = 0.0, stance_step_ = 0.0;
   int next_row_ = 0;
-  bool after_reset_ = false, hopped_ = false;
+  bool entered_ = false;  // the last event led into another mode
+  bool hopped_ = false;
+  T last_moving_{0.0};
   EventKind last_event_ = EventKind::kApex;
   std::vector<double> event_times_;
 };

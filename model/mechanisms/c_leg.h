@@ -57,7 +57,7 @@ class CLeg {
 
   int OwnGuardCount(Mode mode) const { return mode == Mode::kRolling ? 2 : 1; }
   GuardSpec OwnGuard(Mode mode, int i) const {
-    if (i == 1) return {EventKind::kFallArc, 1.0};
+    if (i == 1) return {EventKind::kFallArc, 1.0, Outcome::kFellArc};
     return {mode == Mode::kRolling ? EventKind::kRollingToToe : EventKind::kToeToRolling, 1.0};
   }
   void OwnGuards(Mode mode, const LegLoad<T>& load, T* g) const {

@@ -87,12 +87,13 @@ class LeggedBody {
     if (mode == Mode::kFlight)
       return i == 0 ? GuardSpec{EventKind::kTouchdown, length} : GuardSpec{EventKind::kApex, 1.0};
     if (i == 0)
-      return {EventKind::kLiftoff, liftoff_ == LiftoffRule::kZeroForce ? weight : length, true};
+      return {EventKind::kLiftoff, liftoff_ == LiftoffRule::kZeroForce ? weight : length,
+              Outcome::kNoSupport};
     const int own = leg_.OwnGuardCount(mode);
     if (i <= own) return leg_.OwnGuard(mode, i - 1);
     switch (i - own) {
-      case 1: return {EventKind::kFallHeight, length};
-      case 2: return {EventKind::kFallAngle, 1.0};
+      case 1: return {EventKind::kFallHeight, length, Outcome::kFellHeight};
+      case 2: return {EventKind::kFallAngle, 1.0, Outcome::kFellAngle};
       default: return {EventKind::kTorqueLimit, controller_.limit()};
     }
   }
