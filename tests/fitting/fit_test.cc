@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "datasets/read_dataset.h"
 #include "fitting/apex_segments.h"
+#include "fitting/fit_dataset.h"
 #include "fitting/profile.h"
 #include "fitting/trial_errors.h"
 #include "fitting/uncertainty.h"
@@ -24,8 +26,7 @@ TEST(ApexSegments, CutsATraceIntoItsHops) {
     EXPECT_EQ(piece.row_times.front(), 0.0);
     rows += static_cast<long>(piece.row_times.size());
   }
-  // Neighbours share their apex row.
-  EXPECT_EQ(rows, static_cast<long>(p.trials[0].row_times.size()) + 2);
+  EXPECT_EQ(rows, static_cast<long>(p.trials[0].row_times.size()));
   EXPECT_NEAR(pieces[1].start[3], 0.0, 0.05);  // vy at an apex, one row off at most
 }
 
@@ -92,6 +93,59 @@ TEST(Fit, ContactTimesAloneDetermineTheModulus) {
   const FitResult fit = Fit(p, {});
   ASSERT_TRUE(fit.ok) << fit.message;
   EXPECT_NEAR(fit.shared[0] / 22e9, 1.0, 0.01);
+}
+
+TEST(FitDataset, FitsWholeTracesWhereTheyCanBeSimulated) {
+  const DatasetFit fit = FitDataset(SmallDataset(), {}, {});
+  EXPECT_TRUE(fit.result.ok);
+  EXPECT_FALSE(fit.by_hop);
+  EXPECT_EQ(fit.problem.trials.size(), 3u);
+}
+
+TEST(FitDataset, FallsBackToSingleHopsAndSaysSo) {
+  // `thesis` loses so much energy in these drops that no modulus carries all of them to the end.
+  const Dataset d = ReadDataset(std::filesystem::path(HOPLAB_SOURCE_DIR) / "datasets/rig-drops");
+  const DatasetFit fit = FitDataset(d, {.law = "thesis"}, {});
+  ASSERT_TRUE(fit.result.ok) << fit.result.message;
+  EXPECT_TRUE(fit.by_hop);
+  EXPECT_NE(fit.note.find("hop by hop"), std::string::npos);
+  EXPECT_GT(fit.problem.trials.size(), d.trials.size());
+}
+
+TEST(FitDataset, SaysWhenWholeTracesAndSingleHopsDisagree) {
+  const Dataset d = ReadDataset(std::filesystem::path(HOPLAB_SOURCE_DIR) / "datasets/rig-drops");
+  const DatasetFit fit = FitDataset(d, {.law = "no_slip"}, {}, FitSpan::kWhole);
+  ASSERT_TRUE(fit.result.ok) << fit.result.message;
+  EXPECT_NE(fit.note.find("single hops alone say E"), std::string::npos) << fit.note;
+}
+
+TEST(FitDataset, HopByHopFindsTheSameModulus) {
+  const Dataset d = testing::HopDataset(3, 1);
+  const DatasetFit hops = FitDataset(d, {}, {}, FitSpan::kHops);
+  ASSERT_TRUE(hops.result.ok);
+  EXPECT_TRUE(hops.by_hop);
+  EXPECT_NEAR(hops.result.shared[0] / 22e9, 1.0, 0.005);
+}
+
+// The quick part of recovery_statistics_test.cc.
+TEST(Fit, RecoversGeneratedValuesWithinItsIntervals) {
+  double E_mean = 0;
+  int covered = 0;
+  constexpr int kSeeds = 6;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const FitProblem p = MakeProblem(testing::HopDataset(3, seed), {});
+    const FitResult fit = Fit(p, {});
+    ASSERT_TRUE(fit.ok);
+    const Uncertainty u =
+        AssessUncertainty(p, TrialsOf(p, TrialRole::kTrain), fit.shared, fit.starts, {}, 1);
+    E_mean += fit.shared[0] / kSeeds;
+    const double truth[] = {22e9, 3.0};
+    for (int k = 0; k < 2; ++k)
+      covered += std::abs(fit.shared[k] - truth[k]) < 3.0 * *u.parameters[k].std_error;
+    EXPECT_NEAR(u.chi2_per_dof, 1.0, 0.1);
+  }
+  EXPECT_NEAR(E_mean / 22e9, 1.0, 0.002);
+  EXPECT_EQ(covered, 2 * kSeeds);  // three standard errors: 99.7 % each
 }
 
 TEST(Uncertainty, AgreesWithTheProfile) {

@@ -53,7 +53,7 @@ TEST(RecoveryStatistics, ValuesAreUnbiasedAndIntervalsCoverTheTruth) {
   const HopTruth truth;
   std::vector<Recovered> runs(kSeeds);
   ParallelFor(kSeeds, static_cast<int>(std::thread::hardware_concurrency()),
-              [&](int i) { runs[i] = Recover(static_cast<std::uint64_t>(i + 1), truth); });
+              [&](int i) { runs[i] = Recover(static_cast<std::uint64_t>(i) + 1, truth); });
   double E = 0, d = 0, chi2 = 0;
   int E_covered = 0, d_covered = 0, converged = 0;
   for (const Recovered& r : runs) {

@@ -14,8 +14,14 @@ namespace {
 
 using namespace testing;
 
-template <template <class> class LawT>
-using Leg = CLeg<double, LawT>;
+template <class T>
+using TestThesisLeg = CLeg<T, ThesisLaw>;
+template <class T>
+using TestNoSlipLeg = CLeg<T, NoSlipLaw>;
+template <class T>
+using TestConsistentLeg = CLeg<T, ConsistentLaw>;
+template <class T>
+using TestLargeDeflectionLeg = CLeg<T, LargeDeflectionLaw>;
 
 Parameters<double> Undamped() {
   Parameters<double> p = ThickLegRequest(Law::kConsistent).parameters;
@@ -29,8 +35,9 @@ std::array<double, 5> AtTouchdown(const Parameters<double>& p) {
 
 template <class LegT>
 struct CLegWithLaw : ::testing::Test {};
-using Legs = ::testing::Types<Leg<ThesisLaw>, Leg<NoSlipLaw>, Leg<ConsistentLaw>,
-                              Leg<LargeDeflectionLaw>>;
+using Legs = ::testing::Types<
+    LeggedBody<double, TestThesisLeg>, LeggedBody<double, TestNoSlipLeg>,
+    LeggedBody<double, TestConsistentLeg>, LeggedBody<double, TestLargeDeflectionLeg>>;
 TYPED_TEST_SUITE(CLegWithLaw, Legs);
 
 TYPED_TEST(CLegWithLaw, TouchesDownWithoutAForce) {
@@ -164,7 +171,7 @@ std::vector<std::array<double, 5>> LoadedStates(double r) {
 
 TEST(ThesisLaw, ContactMovesAsTheImplicitEquationM7Says) {
   const Parameters<double> p = Undamped();
-  Leg<ThesisLaw> leg(p, {}, LiftoffRule::kZeroForce);
+  LeggedBody<double, TestThesisLeg> leg(p, {}, LiftoffRule::kZeroForce);
   for (const auto& z : LoadedStates(p.r)) {
     double dz[5];
     leg.Derivative(Mode::kRolling, 0.0, z.data(), dz);
@@ -176,7 +183,7 @@ TEST(ThesisLaw, ContactMovesAsTheImplicitEquationM7Says) {
 
 TEST(NoSlipLaw, ContactMovesByTheArcLaidDownM8) {
   const Parameters<double> p = Undamped();
-  Leg<NoSlipLaw> leg(p, {}, LiftoffRule::kZeroForce);
+  LeggedBody<double, TestNoSlipLeg> leg(p, {}, LiftoffRule::kZeroForce);
   for (const auto& z : LoadedStates(p.r)) {
     double dz[5];
     leg.Derivative(Mode::kRolling, 0.0, z.data(), dz);

@@ -60,6 +60,24 @@ TEST(Chattering, TwoEventsThatUndoEachOtherEndTheRun) {
   EXPECT_NEAR(run.end_time, 1.0, 1e-12);
 }
 
+TEST(ClosedGuard, OfLiftoffAfterAChangeOfStanceFiresWithTheChange) {
+  using T = Jet<kNarrowJet>;
+  LosesSupport<T> system;
+  system.rate = Seeded<T>(1.0, 0, 1.0);
+  const RunSettings settings{.horizon = 2.0, .max_hops = 0, .row_times = {}, .channels = {}};
+  NoRows sink;
+  Trajectory out;
+  Engine<LosesSupport, T, Dop853, NoRows> engine(system, {}, {}, {}, settings, sink, out);
+  const T z[2] = {T(1.0), T(0.5)};
+  engine.Run(Mode::kRolling, z, [](int) { return T(0.0); });
+  ASSERT_EQ(EventNames(out), "rolling_to_toe liftoff");
+  EXPECT_EQ(out.events[1].time, out.events[0].time);
+  EXPECT_EQ(out.final_mode, Mode::kFlight);
+  // t_e = 1/rate, for both.
+  EXPECT_NEAR(engine.event_times()[0], -1.0, 1e-12);
+  EXPECT_NEAR(engine.event_times()[kNarrowJet], -1.0, 1e-12);
+}
+
 TEST(GuardDip, InsideOneStepIsFound) {
   Dip<double> system;
   system.depth = 1e-4;  // below zero for 0.02 s of a 2 s step
@@ -248,6 +266,22 @@ TEST(Fall, ByHeight) {
   EXPECT_EQ(run.outcome, Outcome::kFellHeight);
   EXPECT_EQ(EventNames(run), "touchdown fall_height");
   EXPECT_NEAR(run.final_state[1], 0.165, kEventResidual);
+}
+
+TEST(Fall, AtTouchdownIfThatIsBelowTheLowestHeightAlready) {
+  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
+  q.parameters.fall_height = 0.18;  // touch-down is at 0.168 m
+  const Trajectory run = Simulate(q);
+  EXPECT_EQ(run.outcome, Outcome::kFellHeight);
+  EXPECT_EQ(EventNames(run), "touchdown");
+}
+
+TEST(Fall, ByArcIfTheLegLandsNearItsHip) {
+  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
+  q.parameters.theta_td = std::numbers::pi - 0.15;
+  q.parameters.fall_height = 0.0;
+  q.initial[2] = 0.0;
+  EXPECT_EQ(Simulate(q).outcome, Outcome::kFellArc);
 }
 
 TEST(Fall, ByAngle) {

@@ -72,4 +72,35 @@ struct Dip {
   double Flexure(Mode, const T*) const { return 0.0; }
 };
 
+/// A stance that loses its support as it changes: z0 at zero leads from kRolling to kToe and takes
+/// 1 from z1, which is the lift-off guard of both and then stands closed. z0' = -rate.
+template <class T>
+struct LosesSupport {
+  using Scalar = T;
+  static constexpr int kDim = 2;
+  T rate{1.0};
+  template <class Other>
+  void CopyHidden(const Other&) {}
+  void Derivative(Mode, const T&, const T*, T* dz) const {
+    dz[0] = -rate;
+    dz[1] = T(0.1);
+  }
+  int GuardCount(Mode mode) const { return mode == Mode::kRolling ? 2 : mode == Mode::kToe; }
+  GuardSpec Guard(Mode, int i) const {
+    if (i == 1) return {EventKind::kRollingToToe, 1.0};
+    return {EventKind::kLiftoff, 1.0, Outcome::kNoSupport};
+  }
+  void Guards(Mode, const T&, const T* z, T* g) const {
+    g[0] = z[1];
+    g[1] = z[0];
+  }
+  ResetResult Reset(Mode, int i, const T&, T* z) {
+    if (i == 0) return {Mode::kFlight};
+    z[1] -= 1.0;
+    return {Mode::kToe};
+  }
+  double FirstStep(Mode, const T*) const { return 0.1; }
+  double Flexure(Mode, const T*) const { return 0.0; }
+};
+
 }  // namespace hoplab::testing
