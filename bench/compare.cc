@@ -14,7 +14,7 @@
 
 #include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "bench/counted_leg.h"
+#include "bench/counted_calls.h"
 #include "bench/legs.h"
 #include "bench/odeint_stance.h"
 #include "bench/peer_process.h"
@@ -95,11 +95,11 @@ class Comparison {
   };
 
   void AddProblems() {
-    problems_.push_back(MakeProblem<BenchArcLeg>(Law::kLargeDeflection));
-    problems_.push_back(MakeProblem<BenchStraightLeg>(Law::kStraightLeg));
+    problems_.push_back(MakeProblem<ArcBody>(Law::kLargeDeflection));
+    problems_.push_back(MakeProblem<SpringBody>(Law::kStraightLeg));
   }
 
-  template <template <class> class LegT>
+  template <template <class> class Body>
   Problem MakeProblem(Law law) {
     Problem problem{law};
     const SimulationRequest request = StanceRequest(law);
@@ -107,13 +107,13 @@ class Comparison {
     strict.integrator = {IntegratorKind::kErkStep, 1e-13, 1e-15};
     problem.reference = LiftoffTime(Simulate(strict));
     problem.ours = LiftoffTime(Simulate(request));
-    problem.calls = CountCalls<LegT>(request);
+    problem.calls = CountCalls<Body>(request);
     problem.our_timing = AddRun(request);
-    const auto leg = std::make_shared<LegT<double>>(MakeLeg<LegT>(law));
+    const auto mechanism = std::make_shared<Body<double>>(MakeBody<Body>(law));
     const std::array<double, 4> body = TouchdownState(law);
-    problem.odeint = OdeintStance(*leg, body, IntegratorOptions{});
+    problem.odeint = OdeintStance(*mechanism, body, IntegratorOptions{});
     problem.odeint_timing =
-        timer_.Add("odeint", [leg, body] { OdeintStance(*leg, body, IntegratorOptions{}); });
+        timer_.Add("odeint", [mechanism, body] { OdeintStance(*mechanism, body, IntegratorOptions{}); });
     return problem;
   }
 

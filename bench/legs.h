@@ -4,20 +4,23 @@
 #include "model/effects/active_effects.h"
 #include "model/laws/elastic_arc.h"
 #include "model/mechanisms/c_leg.h"
+#include "model/mechanisms/legged_body.h"
 #include "model/mechanisms/straight_leg.h"
 
 namespace hoplab::bench {
 
-/// The mechanism behind law `large_deflection`, as the model compiles it.
 template <class T>
 using BenchArcLeg = CLeg<T, LargeDeflectionLaw>;
+/// The mechanisms behind the laws `large_deflection` and `straight_leg`, as the model compiles them.
 template <class T>
-using BenchStraightLeg = StraightLeg<T>;
+using ArcBody = LeggedBody<T, BenchArcLeg>;
+template <class T>
+using SpringBody = LeggedBody<T, StraightSpring>;
 
-/// The mechanism alone, with the parameters of the benchmarks.
-template <template <class> class LegT>
-LegT<double> MakeLeg(Law law) {
-  return LegT<double>(LegParameters(law), ActiveEffects<double>{}, LiftoffRule::kZeroForce);
+/// A mechanism alone, with the parameters of the benchmarks.
+template <template <class> class Body>
+Body<double> MakeBody(Law law) {
+  return Body<double>(LegParameters(law), ActiveEffects<double>{}, LiftoffRule::kZeroForce);
 }
 
 }  // namespace hoplab::bench

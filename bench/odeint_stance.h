@@ -20,34 +20,34 @@ struct PeerStance {
 
 /// One stance by Boost.Odeint as its manual would have it: runge_kutta_dopri5 with step control and
 /// dense output, and the lift-off (chord force back at zero) by bisection on the dense output down
-/// to 1e-12 s. Right-hand side and guard are those of `leg`, the mechanism our own runs use; its
+/// to 1e-12 s. Right-hand side and guard are those of `mechanism`, the mechanism our own runs use; its
 /// construction is not part of the stance. `body` is (x, y, vx, vy) at touch-down.
-template <class Leg>
-PeerStance OdeintStance(Leg& leg, const std::array<double, 4>& body,
+template <class Mechanism>
+PeerStance OdeintStance(Mechanism& mechanism, const std::array<double, 4>& body,
                         const IntegratorOptions& options) {
   namespace odeint = boost::numeric::odeint;
-  using State = std::array<double, Leg::kDim>;
+  using State = std::array<double, Mechanism::kDim>;
   constexpr double kTimeTolerance = 1e-12;  // s
   constexpr double kLongestStance = 1.0;    // s
 
   PeerStance out;
   State z{body[0], body[1], body[2], body[3], 0.0};
-  const Mode mode = leg.Reset(Mode::kFlight, 0, 0.0, z.data()).next;
+  const Mode mode = mechanism.Reset(Mode::kFlight, 0, 0.0, z.data()).next;
   const auto rhs = [&](const State& y, State& dy, double t) {
     ++out.rhs_calls;
-    leg.Derivative(mode, t, y.data(), dy.data());
+    mechanism.Derivative(mode, t, y.data(), dy.data());
   };
   const auto chord_force = [&](double t, const State& y) {
     ++out.guard_calls;
     std::array<double, kMaxGuards> g;
-    leg.Guards(mode, t, y.data(), g.data());
+    mechanism.Guards(mode, t, y.data(), g.data());
     return g[0];
   };
 
   auto stepper =
       odeint::make_dense_output(options.absolute_tolerance, options.relative_tolerance,
                                 odeint::runge_kutta_dopri5<State>());
-  stepper.initialize(z, 0.0, leg.FirstStep(mode, z.data()));
+  stepper.initialize(z, 0.0, mechanism.FirstStep(mode, z.data()));
   while (stepper.current_time() < kLongestStance) {
     const auto [begin, end] = stepper.do_step(rhs);
     if (chord_force(end, stepper.current_state()) >= 0.0) continue;

@@ -36,23 +36,23 @@ void StanceBy(benchmark::State& state, IntegratorKind kind) {
   Run(state, StanceRequest(Law::kLargeDeflection, static_cast<int>(state.range(0))), kind);
 }
 
-template <template <class> class LegT>
+template <template <class> class Body>
 void StanceByOdeint(benchmark::State& state, Law law) {
   const std::array<double, 4> body = TouchdownState(law);
-  LegT<double> leg = MakeLeg<LegT>(law);
+  Body<double> mechanism = MakeBody<Body>(law);
   PeerStance stance;
   for (auto _ : state) {
-    stance = OdeintStance(leg, body, IntegratorOptions{});
+    stance = OdeintStance(mechanism, body, IntegratorOptions{});
     benchmark::DoNotOptimize(stance.liftoff_time);
   }
   state.counters["rhs"] = static_cast<double>(stance.rhs_calls);
 }
 
 void ArcStanceByOdeint(benchmark::State& state) {
-  StanceByOdeint<BenchArcLeg>(state, Law::kLargeDeflection);
+  StanceByOdeint<ArcBody>(state, Law::kLargeDeflection);
 }
 void StraightStanceByOdeint(benchmark::State& state) {
-  StanceByOdeint<BenchStraightLeg>(state, Law::kStraightLeg);
+  StanceByOdeint<SpringBody>(state, Law::kStraightLeg);
 }
 
 void WholeFit(benchmark::State& state) {
