@@ -78,9 +78,12 @@ std::string FormatDouble(double value) {
   const std::to_chars_result result =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   std::string text(buffer.data(), result.ptr);
-  // "1e+09" reads as well without the plus, and agrees with how people write it.
-  const std::size_t plus = text.find("e+");
-  if (plus != text.npos) text.erase(plus + 1, 1);
+  // People write 1e9 and 1e-4 where to_chars has 1e+09 and 1e-04.
+  const std::size_t e = text.find('e');
+  if (e == text.npos) return text;
+  if (text[e + 1] == '+') text.erase(e + 1, 1);
+  const std::size_t digits = e + (text[e + 1] == '-' ? 2 : 1);
+  if (text[digits] == '0') text.erase(digits, 1);
   return text;
 }
 

@@ -10,7 +10,7 @@ struct ChannelRow {
 
 // Far beyond any hopper, near enough to catch a value in the wrong unit or a broken line.
 const ChannelRow& Row(ChannelId id) {
-  static const std::array<ChannelRow, kChannelCount> kRows = {{
+  static const std::array<ChannelRow, kChannelIdCount> kRows = {{
       {"body_x_m", Within(1e6, "m")},
       {"body_y_m", Within(1e6, "m")},
       {"body_vx_m_per_s", Within(1e6, "m/s")},

@@ -26,9 +26,9 @@ enum class ChannelId {
   kContact,
 };
 
-inline constexpr std::size_t kChannelCount = 10;
+inline constexpr std::size_t kChannelIdCount = 10;
 
-inline constexpr std::array<ChannelId, kChannelCount> kAllChannels = {
+inline constexpr std::array<ChannelId, kChannelIdCount> kAllChannels = {
     ChannelId::kBodyX,        ChannelId::kBodyY,        ChannelId::kBodyVx,
     ChannelId::kBodyVy,       ChannelId::kLegAngle,     ChannelId::kLegLength,
     ChannelId::kGroundForceX, ChannelId::kGroundForceY, ChannelId::kHipTorque,

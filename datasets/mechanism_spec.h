@@ -10,7 +10,7 @@ namespace hoplab {
 enum class MechanismType { kCLeg, kStraightLeg, kBall };
 
 /// When a leg leaves the ground: at zero chord force, or when it is back at its rest length.
-enum class LiftoffRule { kZeroForce, kRestLength };
+enum class LiftoffSpec { kZeroForce, kRestLength };
 
 /// Half-circular compliant leg.
 struct CLegSpec {
@@ -57,7 +57,7 @@ struct MechanismSpec {
   MechanismType type = MechanismType::kCLeg;
   double body_mass_kg = 0;
   double gravity_m_per_s2 = 0;
-  LiftoffRule liftoff = LiftoffRule::kZeroForce;
+  LiftoffSpec liftoff = LiftoffSpec::kZeroForce;
   std::optional<double> fall_height_m;  // absent: the mechanism's own default
   std::optional<double> toe_mass_kg;    // absent: massless leg
   std::optional<PlacementSpec> placement;

@@ -178,7 +178,8 @@ class DatasetReader {
       bool found = false;
       std::set<std::string> others;
       for (const Trial& trial : dataset_.trials) {
-        for (const TraceColumn& column : trial.trace.columns) others.insert(column.name);
+        for (const TraceColumn& column : trial.trace.columns)
+          if (!ChannelFromName(column.name)) others.insert(column.name);
         const std::vector<double>* values = trial.trace.Find(channel.id);
         if (values == nullptr) continue;
         found = std::any_of(values->begin(), values->end(),
@@ -187,7 +188,6 @@ class DatasetReader {
       }
       if (found) continue;
       const std::string name = ChannelName(channel.id);
-      others.erase(name);
       const auto nearest = NearestWord(name, {others.begin(), others.end()});
       throw InputError(
           {channel.origin.place, "channels." + name, "no trial has a sample of this column",

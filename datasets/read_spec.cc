@@ -108,7 +108,7 @@ BallSpec ReadBall(const YamlCursor& cursor) {
 
 void ReadLegOptions(const YamlCursor& cursor, MechanismSpec* mechanism) {
   if (const auto liftoff = cursor.Optional("liftoff"))
-    mechanism->liftoff = static_cast<LiftoffRule>(liftoff->Choice({"zero_force", "rest_length"}));
+    mechanism->liftoff = static_cast<LiftoffSpec>(liftoff->Choice({"zero_force", "rest_length"}));
   mechanism->fall_height_m = cursor.OptionalNumber("fall_height_m", NonNegative(100, "m"));
   mechanism->toe_mass_kg = cursor.OptionalNumber("toe_mass_kg", NonNegative(1e6, "kg"));
   const std::optional<YamlCursor> placement = cursor.Optional("placement");
@@ -144,8 +144,8 @@ const char* MechanismTypeName(MechanismType type) {
   return kNames[static_cast<std::size_t>(type)];
 }
 
-const char* LiftoffRuleName(LiftoffRule rule) {
-  return rule == LiftoffRule::kZeroForce ? "zero_force" : "rest_length";
+const char* LiftoffName(LiftoffSpec rule) {
+  return rule == LiftoffSpec::kZeroForce ? "zero_force" : "rest_length";
 }
 
 MechanismSpec ReadMechanism(const YamlCursor& cursor) {

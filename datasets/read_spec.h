@@ -16,7 +16,7 @@ namespace hoplab {
 /// "c_leg", "straight_leg", "ball".
 const char* MechanismTypeName(MechanismType type);
 /// "zero_force", "rest_length".
-const char* LiftoffRuleName(LiftoffRule rule);
+const char* LiftoffName(LiftoffSpec rule);
 
 MechanismSpec ReadMechanism(const YamlCursor& cursor);
 ControllerSpec ReadController(const YamlCursor& cursor);

@@ -22,6 +22,8 @@ constexpr double kSmallestUsualAngle_deg = 1.6;
 // The median over a trace that moves quickly overrates the noise by a factor of a few, and filtered
 // or rounded recordings have less of it than their error.
 constexpr double kSigmaFactor = 20;
+// Relative to the size of a column, what differences of doubles leave of a smooth one.
+constexpr double kRounding = 1e-9;
 
 std::vector<double> Finite(const std::vector<double>& values) {
   std::vector<double> finite;
@@ -183,12 +185,17 @@ class Inspector {
   void InspectSigma(const ChannelSpec& channel) {
     if (!channel.sigma || channel.id == ChannelId::kContact) return;
     std::vector<double> noises;
-    for (const Trial& trial : dataset_.trials)
-      if (const std::vector<double>* values = trial.trace.Find(channel.id))
-        noises.push_back(HighFrequencyNoise(trial.trace.time_s, *values));
-    const double noise = Quantile(Finite(noises), 0.5);
-    // No noise at all is a simulated or a rounded trace and says nothing of the sensor.
-    if (!(noise > 0)) return;
+    for (const Trial& trial : dataset_.trials) {
+      const std::vector<double>* values = trial.trace.Find(channel.id);
+      if (values == nullptr) continue;
+      const double noise = HighFrequencyNoise(trial.trace.time_s, *values);
+      const std::vector<double> finite = Finite(*values);
+      // Rounding alone, as in a constant or simulated trace, says nothing of the sensor.
+      const double size = std::max(std::abs(Quantile(finite, 0)), std::abs(Quantile(finite, 1)));
+      if (noise > kRounding * size) noises.push_back(noise);
+    }
+    const double noise = Quantile(noises, 0.5);
+    if (std::isnan(noise)) return;
     const double ratio = *channel.sigma / noise;
     if (ratio > 1 / kSigmaFactor && ratio < kSigmaFactor) return;
     Warn(channel.origin.place, std::string(ChannelName(channel.id)) +
@@ -202,6 +209,10 @@ class Inspector {
 };
 
 }  // namespace
+
+std::vector<std::string> SuspectThings(const Dataset& dataset) {
+  return Inspector(dataset).Inspect();
+}
 
 double HighFrequencyNoise(const std::vector<double>& times_s, const std::vector<double>& values) {
   std::vector<double> off;

@@ -88,7 +88,7 @@ Fields MechanismFields(const MechanismSpec& m) {
     fields.push_back({"ball", "tangential_loss", FormatDouble(m.ball.tangential_loss)});
     return fields;
   }
-  fields.push_back({"", "liftoff", LiftoffRuleName(m.liftoff)});
+  fields.push_back({"", "liftoff", LiftoffName(m.liftoff)});
   AddOptional(&fields, "", "fall_height_m", m.fall_height_m);
   AddOptional(&fields, "", "toe_mass_kg", m.toe_mass_kg);
   if (m.type == MechanismType::kCLeg) {

@@ -200,9 +200,24 @@ class TreeBuilder : public YAML::EventHandler {
   std::map<YAML::anchor_t, Sized> anchors_;  // finished ones only
 };
 
+// CRLF and CR become LF: yaml-cpp does not know a CR alone, and a block text would keep both.
+std::string WithUnixLineEnds(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool before_lf = i + 1 < text.size() && text[i + 1] == '\n';
+    if (text[i] != '\r') {
+      out += text[i];
+    } else if (!before_lf) {
+      out += '\n';
+    }
+  }
+  return out;
+}
+
 YamlNode Parse(std::string_view text, const TreeBuilder::PlaceOf& place_of,
                const YamlLimits& limits) {
-  std::istringstream stream{std::string(text)};
+  std::istringstream stream(WithUnixLineEnds(text));
   TreeBuilder builder(place_of, limits);
   try {
     YAML::Parser parser(stream);

@@ -33,6 +33,9 @@ class CLeg {
     using std::cos;
     return Value(theta) > 0.0 ? T(r_ * (1.0 + cos(theta))) : T(2.0 * r_ * cos(theta));
   }
+  T ChordAngle(const T& theta) const { return Value(theta) > 0.0 ? T(0.5 * theta) : theta; }
+  /// k(phi) = 1/C(phi) at the rest radius, M3.
+  T Stiffness(const LegLoad<T>& load) const { return 1.0 / compliance_.ChordAt(load.phi); }
   Mode Land(const T& theta, T* z) {
     using std::sin;
     if (Value(theta) <= 0.0) {

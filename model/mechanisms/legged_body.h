@@ -23,6 +23,8 @@ inline constexpr double kFallCosine = 0.17364817766693041;
 ///   Load(mode, z)           LegLoad of a stance
 ///   RestChord(load)         chord length at which that leg carries nothing [m]
 ///   TouchdownHeight(theta)  height of the hip when a leg at that angle meets the ground [m]
+///   ChordAngle(theta)       chord angle from the vertical at touch-down [rad]
+///   Stiffness(load)         small-load chord stiffness there [N/m]
 ///   ShownAngle(mode, load, z), ShownLength(theta)  leg angle in stance, leg length in flight
 ///   StrainEnergy(load), Flexure(load), TimeScale(mode, z)
 ///   Size(), LowestHip()     a length of it; the default y_min [m]
@@ -39,7 +41,8 @@ class LeggedBody {
   LeggedBody(const Parameters<T>& parameters, const ActiveEffects<T>& effects,
              LiftoffRule liftoff)
       : p_(parameters), effects_(effects), liftoff_(liftoff),
-        has_body_force_(effects.HasBodyForce()), leg_(p_), controller_(p_),
+        has_body_force_(effects.HasBodyForce()), has_chord_force_(effects.HasChordForce()),
+        leg_(p_), controller_(p_),
         y_min_(std::isnan(p_.fall_height) ? leg_.LowestHip() : T(p_.fall_height)) {}
 
   /// The discrete state that guards and rates depend on but derivatives do not.
@@ -115,9 +118,13 @@ class LeggedBody {
   ResetResult Reset(Mode mode, int i, const T&, T* z) {
     const EventKind event = Guard(mode, i).event;
     switch (event) {
-      case EventKind::kTouchdown:
+      case EventKind::kTouchdown: {
+        const T theta = TouchdownAngle(z);
+        const Mode stance = leg_.Land(theta, z);
+        ApplyLanding(theta, z);
         controller_.Enter(Value(z[kVx]));
-        return {leg_.Land(TouchdownAngle(z), z)};
+        return {stance};
+      }
       case EventKind::kLiftoff:
         z[kContact] = T(0.0);
         if (Value(z[kVy]) <= 0.0 && Value(z[kY] - TouchdownHeight(z)) < 0.0)
@@ -193,7 +200,20 @@ class LeggedBody {
   T TouchdownAngle(const T* z) const { return effects_.TouchdownAngle(z[kVx], p_.theta_td); }
   T TouchdownHeight(const T* z) const { return leg_.TouchdownHeight(TouchdownAngle(z)); }
   T ChordForce(const LegLoad<T>& load) const {
-    return load.elastic_force - p_.d * load.damping_rate;  // M6, M12
+    T force = load.elastic_force - p_.d * load.damping_rate;  // M6, M12
+    if (has_chord_force_)
+      force += effects_.ChordForce({load.elastic_force, leg_.Stiffness(load), load.damping_rate});
+    return force;
+  }
+  // What a touch-down at leg angle `theta` does to the velocity.
+  void ApplyLanding(const T& theta, T* z) const {
+    using std::cos;
+    using std::sin;
+    const T alpha = leg_.ChordAngle(theta);
+    Vector2<T> velocity{z[kVx], z[kVy]};
+    effects_.ChangeLandingVelocity({{-sin(alpha), cos(alpha)}}, velocity);
+    z[kVx] = velocity.x;
+    z[kVy] = velocity.y;
   }
   // F e + (T/l) n, the bracket of M13 and M14; by reaction, the ground's force on the leg.
   Vector2<T> HipForce(const LegLoad<T>& load, const T* z) const {
@@ -205,7 +225,7 @@ class LeggedBody {
   Parameters<T> p_;
   ActiveEffects<T> effects_;
   LiftoffRule liftoff_;
-  bool has_body_force_;
+  bool has_body_force_, has_chord_force_;
   LegT<T> leg_;
   SpeedController<T> controller_;
   T y_min_;

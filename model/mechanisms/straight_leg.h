@@ -23,6 +23,8 @@ class StraightSpring {
     using std::cos;
     return l0_ * cos(theta);
   }
+  T ChordAngle(const T& theta) const { return theta; }
+  T Stiffness(const LegLoad<T>&) const { return k_; }
   Mode Land(const T& theta, T* z) const {
     using std::sin;
     z[kContact] = z[kX] + l0_ * sin(theta);

@@ -1,0 +1,130 @@
+#include "fitting/apex_segments.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "fitting/trial_evaluator.h"
+#include "model/leg_compliance.h"
+
+namespace hoplab {
+namespace {
+
+// A flight as the trace shows it: the apex row and the state there.
+struct Apex {
+  int row;
+  std::array<double, 4> state;
+};
+
+double UnloadedContactHeight(const FitProblem& problem, const TrialProblem& trial) {
+  const Parameters<double>& p = trial.parameters;
+  if (problem.law == Law::kBall) return p.radius;
+  if (problem.law == Law::kStraightLeg) return p.l0 * std::cos(p.theta_td);
+  return p.theta_td > 0.0 ? p.r * (1.0 + std::cos(p.theta_td)) : 2.0 * p.r * std::cos(p.theta_td);
+}
+
+int ColumnOf(const FitProblem& problem, Channel channel) {
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    if (problem.channels[c].channel == channel) return static_cast<int>(c);
+  }
+  return -1;
+}
+
+// Least-squares value and slope at time `at` of values - curvature (t - at)^2 over rows [a, b).
+bool FitLine(const TrialProblem& trial, int column, int width, int a, int b, double at,
+             double curvature, double& value, double& slope) {
+  double n = 0, st = 0, stt = 0, sv = 0, stv = 0;
+  for (int row = a; row < b; ++row) {
+    const double v = trial.data[static_cast<std::size_t>(row) * width + column];
+    if (std::isnan(v)) continue;
+    const double t = trial.row_times[row] - at, w = v - curvature * t * t;
+    n += 1;
+    st += t;
+    stt += t * t;
+    sv += w;
+    stv += t * w;
+  }
+  const double det = n * stt - st * st;
+  if (n < 4 || det <= 0) return false;
+  slope = (n * stv - st * sv) / det;
+  value = (sv - slope * st) / n;
+  return true;
+}
+
+}  // namespace
+
+std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProblem& trial) {
+  const int width = static_cast<int>(problem.channels.size());
+  const int y_column = ColumnOf(problem, Channel::kBodyY);
+  const int x_column = ColumnOf(problem, Channel::kBodyX);
+  if (y_column < 0) return {};
+  const double contact = UnloadedContactHeight(problem, trial);
+  const int rows = static_cast<int>(trial.row_times.size());
+  const auto y = [&](int row) {
+    return trial.data[static_cast<std::size_t>(row) * width + y_column];
+  };
+  const double sigma = problem.channels[y_column].sigma;
+
+  // A flight is a stretch of rows above contact height by a margin; lift-off happens somewhat
+  // above that height, so only the upper two thirds of each arc are trusted to be parabolas.
+  std::vector<Apex> apexes;
+  for (int row = 0; row < rows;) {
+    if (!(y(row) > contact + 4.0 * sigma)) {
+      ++row;
+      continue;
+    }
+    int end = row, top = row;
+    for (int r = row; r < rows && !(y(r) < contact + 4.0 * sigma); ++r) {
+      end = r + 1;
+      if (y(r) > y(top)) top = r;
+    }
+    const double floor = contact + (y(top) - contact) / 3.0;
+    int a = top, b = top + 1;
+    while (a > row && !(y(a - 1) < floor)) --a;
+    while (b < end && !(y(b) < floor)) ++b;
+    const bool falls_after = b < end || end < rows;  // the trace goes on after the apex
+    Apex apex{top, {0.0, 0.0, 0.0, 0.0}};
+    const double at = trial.row_times[top];
+    const bool seen = b - a >= 8 && FitLine(trial, y_column, width, a, b, at,
+                                            -0.5 * trial.parameters.g, apex.state[1],
+                                            apex.state[3]);
+    if (x_column >= 0 && seen)
+      FitLine(trial, x_column, width, a, b, at, 0.0, apex.state[0], apex.state[2]);
+    else
+      apex.state[2] = trial.start[2];
+    if (seen && falls_after && row > 0) apexes.push_back(apex);
+    row = end;
+  }
+
+  std::vector<TrialProblem> pieces;
+  int first = 0;
+  for (std::size_t i = 0; i <= apexes.size(); ++i) {
+    const int last = i < apexes.size() ? apexes[i].row : rows;
+    if (last - first >= 8) {
+      TrialProblem piece = CutTrial(problem, trial, first, last);
+      if (i > 0) piece.start = apexes[i - 1].state;
+      if (piece.sample_count > 0) pieces.push_back(std::move(piece));
+    }
+    if (i < apexes.size()) first = apexes[i].row;
+  }
+  return pieces;
+}
+
+FitProblem SplitIntoHops(const FitProblem& problem) {
+  FitProblem split = problem;
+  split.trials.clear();
+  for (const TrialProblem& trial : problem.trials) {
+    std::vector<TrialProblem> pieces = CutAtApexes(problem, trial);
+    if (pieces.size() < 2) {
+      split.trials.push_back(trial);
+      continue;
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      pieces[i].file = trial.file + " hop " + std::to_string(i + 1);
+      split.trials.push_back(std::move(pieces[i]));
+    }
+  }
+  return split;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,84 @@
+#include "fitting/check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "datasets/suspect_things.h"
+#include "fitting/apex_segments.h"
+
+namespace hoplab {
+namespace {
+
+TrialCheck CheckTrial(const FitProblem& problem, const TrialProblem& trial,
+                      const Eigen::VectorXd& shared, bool& simulates) {
+  const TrialEvaluator evaluator(problem, trial);
+  TrialEvaluation e;
+  evaluator.Evaluate({shared, trial.start, false}, e);
+  simulates = e.complete;
+  const std::vector<TrialProblem> pieces = CutAtApexes(problem, trial);
+  return {trial.file,
+          trial.role,
+          static_cast<long>(trial.row_times.size()),
+          trial.sample_count,
+          trial.row_times.back(),
+          static_cast<int>(pieces.size()) - 1,
+          e.trajectory.outcome,
+          e.trajectory.hops,
+          e.trajectory.end_time};
+}
+
+bool TouchesGround(const TrialProblem& trial, const Trajectory& trajectory) {
+  return std::any_of(trajectory.events.begin(), trajectory.events.end(),
+                     [](const Event& e) { return e.kind != EventKind::kApex; }) ||
+         trajectory.end_time < trial.row_times.back();
+}
+
+}  // namespace
+
+CheckReport CheckDataset(const Dataset& dataset, const FitProblem& problem, int jobs) {
+  CheckReport report;
+  report.warnings = SuspectThings(dataset);
+  report.notes = problem.notes;
+  const Eigen::VectorXd shared = InitialShared(problem);
+  std::vector<TrialProblem> simulated;
+  std::vector<std::array<double, 4>> starts;
+  bool any_touches = false;
+  for (const TrialProblem& trial : problem.trials) {
+    bool simulates = false;
+    const TrialCheck check = CheckTrial(problem, trial, shared, simulates);
+    if (!simulates) {
+      const std::string place = dataset.name + "/" + trial.file + ": at the nominal values ";
+      report.warnings.push_back(
+          IsComplete(check.outcome)
+              ? place + "the simulation makes other contacts than the trace shows."
+              : place + "the simulation " + std::string(SentenceOf(check.outcome)) + ", at " +
+                    std::to_string(check.end_time_s).substr(0, 5) + " s of " +
+                    std::to_string(check.duration_s).substr(0, 5) + " s.");
+    }
+    if (trial.role == TrialRole::kTrain) {
+      Trajectory trajectory;
+      TrialEvaluator(problem, trial)
+          .Simulate({shared, trial.start, false}, problem.integrator, trajectory);
+      const bool touches = TouchesGround(trial, trajectory);
+      any_touches = any_touches || touches;
+      if (!touches) {
+        report.warnings.push_back(
+            dataset.name + "/" + trial.file +
+            ": the body never touches the ground within the trace, so this trial says nothing "
+            "about the leg. Record longer, or start lower.");
+      }
+      if (simulates) {
+        simulated.push_back(trial);
+        starts.push_back(trial.start);
+      }
+    }
+    report.trials.push_back(check);
+  }
+  if (!simulated.empty()) {
+    report.uncertainty = AssessUncertainty(problem, simulated, shared, starts, {}, jobs);
+    report.certificate = CertifyGradients(problem, simulated, shared, starts, jobs);
+  }
+  return report;
+}
+
+}  // namespace hoplab

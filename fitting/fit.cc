@@ -1,0 +1,266 @@
+#include "fitting/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "fitting/apex_segments.h"
+
+namespace hoplab {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::array<double, 4>> StartsOf(const std::vector<TrialProblem>& trials) {
+  std::vector<std::array<double, 4>> starts;
+  for (const TrialProblem& t : trials) starts.push_back(t.start);
+  return starts;
+}
+
+bool Stopped(const FitOptions& options) { return options.stop && *options.stop; }
+
+SolveRequest RequestFor(const FitProblem& problem, const std::vector<TrialProblem>& trials,
+                        const FitOptions& options, int start_number, std::string_view stage) {
+  SolveRequest request;
+  request.problem = &problem;
+  request.trials = &trials;
+  request.starts = StartsOf(trials);
+  request.loss = options.loss;
+  request.max_iterations = options.max_iterations;
+  request.jobs = options.jobs;
+  request.stop = options.stop;
+  if (options.progress) {
+    request.progress = [&options, start_number, stage](int iteration, double cost) {
+      options.progress(start_number, stage, iteration, cost);
+    };
+  }
+  return request;
+}
+
+// Costs of all trials at given shared values, starts as they are; NaN where a simulation ends
+// before its data.
+std::vector<double> CostsAt(const FitProblem& problem, const std::vector<TrialProblem>& trials,
+                            const Eigen::VectorXd& shared, int jobs) {
+  std::vector<double> costs(trials.size());
+  ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
+    const TrialEvaluator evaluator(problem, trials[i]);
+    TrialEvaluation e;
+    evaluator.Evaluate({shared, trials[i].start, false}, e);
+    costs[i] = e.complete ? 0.5 * e.residuals.squaredNorm() : kNaN;
+  });
+  return costs;
+}
+
+// ---- apex shooting ------------------------------------------------------------------------
+
+// Where to begin on the pieces: the given values, and the first shared value (the stiffness of the
+// leg, by the order of ParametersOf) scaled over a coarse ladder; the rung with the most complete
+// pieces, then the least cost. A hop is one bend of one valley: a rung every 25 % finds it.
+Eigen::VectorXd BestRung(const FitProblem& problem, const std::vector<TrialProblem>& pieces,
+                         const Eigen::VectorXd& shared, int jobs) {
+  constexpr int kRungs = 8;
+  constexpr double kRatio = 1.25;
+  Eigen::VectorXd best = shared;
+  long best_complete = -1;
+  double best_cost = 0.0;
+  for (int i = 0; i <= 2 * kRungs; ++i) {
+    // 0, +1, -1, +2, -2, ...: the given value wins ties.
+    const int rung = i % 2 == 1 ? (i + 1) / 2 : -i / 2;
+    Eigen::VectorXd trial = shared;
+    trial[0] = std::clamp(shared[0] * std::pow(kRatio, rung), problem.shared[0].lower,
+                          problem.shared[0].upper);
+    const std::vector<double> costs = CostsAt(problem, pieces, trial, jobs);
+    long complete = 0;
+    double cost = 0.0;
+    for (double c : costs) {
+      if (std::isnan(c)) continue;
+      ++complete;
+      cost += c;
+    }
+    if (complete > best_complete || (complete == best_complete && cost < best_cost)) {
+      best = trial;
+      best_complete = complete;
+      best_cost = cost;
+    }
+  }
+  return best;
+}
+
+// Shared values from single hops, each started at the apex its data show; `shared` if there are
+// none to be had.
+Eigen::VectorXd ShootApexes(const FitProblem& problem, const std::vector<TrialProblem>& trials,
+                            const Eigen::VectorXd& shared, const FitOptions& options,
+                            int start_number) {
+  std::vector<TrialProblem> pieces;
+  for (const TrialProblem& trial : trials) {
+    for (TrialProblem& piece : CutAtApexes(problem, trial)) pieces.push_back(std::move(piece));
+  }
+  if (pieces.empty()) return shared;
+  Eigen::VectorXd values = BestRung(problem, pieces, shared, options.jobs);
+  // Pieces that fail there tell nothing yet; two rounds let them come back.
+  for (int round = 0; round < 2 && !Stopped(options); ++round) {
+    const std::vector<double> costs = CostsAt(problem, pieces, values, options.jobs);
+    std::vector<TrialProblem> usable;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (!std::isnan(costs[i])) usable.push_back(pieces[i]);
+    }
+    if (usable.empty()) return shared;
+    SolveRequest request = RequestFor(problem, usable, options, start_number, "single hops");
+    request.shared = values;
+    request.hold_starts = true;
+    request.max_iterations = 40;
+    const SolveResult result = Solve(request);
+    if (result.status == SolveStatus::kNoStart || result.status == SolveStatus::kFailed) break;
+    values = result.shared;
+    if (usable.size() == pieces.size()) break;
+  }
+  return values;
+}
+
+// ---- growing horizon ------------------------------------------------------------------------
+
+// Rows of a trial that the simulation from `shared` and the given starts can speak for.
+std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
+                                        const std::vector<TrialProblem>& trials,
+                                        double fraction) {
+  std::vector<TrialProblem> cut;
+  for (const TrialProblem& trial : trials) {
+    const double until = trial.row_times.back() * fraction;
+    int last = 1;
+    while (last < static_cast<int>(trial.row_times.size()) && trial.row_times[last] <= until)
+      ++last;
+    cut.push_back(CutTrial(problem, trial, 0, last));
+  }
+  return cut;
+}
+
+// First rows first, then more and more: each round starts where the last one ended.
+SolveResult GrowHorizon(const FitProblem& problem, const std::vector<TrialProblem>& trials,
+                        const Eigen::VectorXd& shared, const FitOptions& options,
+                        int start_number) {
+  SolveResult result;
+  result.shared = shared;
+  result.starts = StartsOf(trials);
+  for (double fraction : {0.12, 0.2, 0.3, 0.45, 0.65, 0.85, 1.0}) {
+    const std::vector<TrialProblem> cut = CutToFraction(problem, trials, fraction);
+    SolveRequest request = RequestFor(problem, cut, options, start_number, "growing horizon");
+    request.shared = result.shared;
+    request.starts = result.starts;
+    if (fraction < 1.0) request.max_iterations = 30;
+    SolveResult next = Solve(request);
+    if (next.status == SolveStatus::kInterrupted) return next;
+    if (fraction == 1.0) return next;
+    if (next.status == SolveStatus::kConverged || next.status == SolveStatus::kIterationLimit)
+      result = std::move(next);
+  }
+  return result;
+}
+
+Eigen::VectorXd ScatteredStart(const FitProblem& problem, const Eigen::VectorXd& nominal,
+                               std::uint64_t seed, int number) {
+  RandomStream random(seed, static_cast<std::uint64_t>(number));
+  Eigen::VectorXd start = nominal;
+  for (int i = 0; i < problem.shared_count(); ++i) {
+    const SharedParameter& s = problem.shared[i];
+    const double u = random.Uniform(-1.0, 1.0);
+    // Positive sizes by a factor of two either way; what may be zero by its typical size.
+    const double value = s.lower > 0.0 ? nominal[i] * std::pow(2.0, u)
+                                       : nominal[i] + u * s.scale;
+    const double room = std::min(0.05 * s.scale, 0.25 * (s.upper - s.lower));
+    start[i] = std::clamp(value, s.lower + room, s.upper - room);
+  }
+  return start;
+}
+
+}  // namespace
+
+std::string_view NameOf(FitStrategy strategy) {
+  switch (strategy) {
+    case FitStrategy::kRaw: return "raw";
+    case FitStrategy::kGrowingHorizon: return "growing_horizon";
+    case FitStrategy::kApexShooting: return "apex_shooting";
+  }
+  return "";
+}
+
+std::optional<FitStrategy> FindStrategy(std::string_view name) {
+  for (FitStrategy s :
+       {FitStrategy::kRaw, FitStrategy::kGrowingHorizon, FitStrategy::kApexShooting}) {
+    if (NameOf(s) == name) return s;
+  }
+  return std::nullopt;
+}
+
+std::vector<TrialProblem> TrialsOf(const FitProblem& problem, TrialRole role) {
+  std::vector<TrialProblem> trials;
+  for (const TrialProblem& t : problem.trials) {
+    if (t.role == role) trials.push_back(t);
+  }
+  return trials;
+}
+
+StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& trials,
+                    const Eigen::VectorXd& shared, const FitOptions& options, int start_number,
+                    std::vector<std::array<double, 4>>* starts) {
+  StartRecord record;
+  record.from = shared;
+  SolveResult result;
+  if (options.strategy == FitStrategy::kGrowingHorizon) {
+    result = GrowHorizon(problem, trials, shared, options, start_number);
+  } else {
+    SolveRequest request = RequestFor(problem, trials, options, start_number, "all rows");
+    request.shared = options.strategy == FitStrategy::kRaw
+                         ? shared
+                         : ShootApexes(problem, trials, shared, options, start_number);
+    result = Solve(request);
+    // The long run falls where single hops do not: let it grow to its full length.
+    if (options.strategy == FitStrategy::kApexShooting) record.hops = request.shared;
+    if (options.strategy == FitStrategy::kApexShooting && result.status == SolveStatus::kNoStart &&
+        !Stopped(options))
+      result = GrowHorizon(problem, trials, request.shared, options, start_number);
+  }
+  const bool usable = result.status == SolveStatus::kConverged ||
+                      result.status == SolveStatus::kIterationLimit ||
+                      (result.status == SolveStatus::kInterrupted && result.cost > 0.0);
+  record.shared = result.shared;
+  record.cost = usable ? result.cost : kNaN;
+  record.status = result.status;
+  record.message = result.message;
+  record.iterations = result.iterations;
+  record.rejected = result.rejected;
+  if (starts) *starts = result.starts;
+  return record;
+}
+
+FitResult Fit(const FitProblem& problem, const FitOptions& options) {
+  const std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
+  const Eigen::VectorXd nominal = InitialShared(problem);
+  FitResult fit;
+  for (int i = 0; i < std::max(options.starts, 1); ++i) {
+    if (i > 0 && Stopped(options)) break;
+    const Eigen::VectorXd from =
+        i == 0 ? nominal : ScatteredStart(problem, nominal, options.seed, i);
+    std::vector<std::array<double, 4>> starts;
+    StartRecord record = FitFrom(problem, trials, from, options, i, &starts);
+    const bool interrupted = record.status == SolveStatus::kInterrupted;
+    // An unfinished start does not displace a finished one.
+    const bool better = !std::isnan(record.cost) &&
+                        (fit.best_start < 0 || (!interrupted && record.cost < fit.cost));
+    if (better) {
+      fit.best_start = i;
+      fit.cost = record.cost;
+      fit.shared = record.shared;
+      fit.starts = starts;
+    }
+    fit.interrupted = fit.interrupted || interrupted;
+    fit.records.push_back(std::move(record));
+  }
+  fit.interrupted = fit.interrupted || Stopped(options);
+  fit.ok = fit.best_start >= 0;
+  if (!fit.ok) fit.message = fit.records.front().message;
+  return fit;
+}
+
+}  // namespace hoplab

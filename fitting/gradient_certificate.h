@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fitting/fit.h"
+
+namespace hoplab {
+
+/// One column of the sensitivities held against Richardson differences of the simulation.
+struct CertificateColumn {
+  std::string name;       // "E", "train-1.csv.vx0"
+  std::string trial;      // the worst trial for a shared value
+  /// |analytic - differences| / |analytic|; absent where the column is zero in both.
+  std::optional<double> relative_error;
+};
+
+/// What a run came close to, where derivatives end.
+struct CertificateFlag {
+  std::string trial;
+  std::string text;  // grazing, simultaneous events, another event sequence nearby
+};
+
+struct GradientCertificate {
+  double max_relative_error = 0.0;  // NaN if no column could be checked
+  std::string worst_parameter;
+  std::vector<CertificateColumn> columns;
+  std::vector<CertificateFlag> flags;
+};
+
+/// Derivatives of the sampled rows, as a fit would get them: analytic for the certificate, or
+/// another supplier's, which is how the certificate itself is tested.
+/// Returns row-major [datum][shared, start], NaN-free.
+using JacobianSource =
+    std::function<void(const TrialEvaluator&, const EvaluationRequest&, Trajectory&)>;
+
+/// Checks every shared value in every train trial and every start component, at `shared` and
+/// `starts`. Rows within reach of an event that jumps are left out of the comparison (a finite
+/// difference cannot straddle a jump).
+GradientCertificate CertifyGradients(const FitProblem& problem,
+                                     const std::vector<TrialProblem>& trials,
+                                     const Eigen::VectorXd& shared,
+                                     const std::vector<std::array<double, 4>>& starts, int jobs,
+                                     const JacobianSource& source = nullptr);
+
+}  // namespace hoplab

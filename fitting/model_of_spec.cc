@@ -1,0 +1,130 @@
+#include "fitting/model_of_spec.h"
+
+#include "base/input_error.h"
+#include "base/text.h"
+
+namespace hoplab {
+namespace {
+
+std::vector<std::string> LawNames(MechanismKind mechanism) {
+  std::vector<std::string> names;
+  for (Law law : LawsOf(mechanism)) names.emplace_back(NameOf(law));
+  return names;
+}
+
+}  // namespace
+
+Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
+                                    const std::optional<ControllerSpec>& controller,
+                                    double touchdown_angle_rad) {
+  Parameters<double> p;
+  p.m = mechanism.body_mass_kg;
+  p.g = mechanism.gravity_m_per_s2;
+  p.theta_td = touchdown_angle_rad;
+  if (controller) {
+    p.kp = controller->kp_N_s;
+    p.v_des = controller->v_des_m_per_s;
+    if (controller->torque_limit_N_m) p.torque_limit = *controller->torque_limit_N_m;
+  }
+  if (mechanism.fall_height_m) p.fall_height = *mechanism.fall_height_m;
+  switch (mechanism.type) {
+    case MechanismType::kCLeg:
+      p.r = mechanism.c_leg.rest_radius_m;
+      p.E = mechanism.c_leg.E_Pa;
+      p.G = mechanism.c_leg.G_Pa;
+      p.I = mechanism.c_leg.second_moment_m4;
+      p.A = mechanism.c_leg.area_m2;
+      p.kappa = mechanism.c_leg.shear_factor;
+      p.d = mechanism.c_leg.damping_N_s_per_m;
+      break;
+    case MechanismType::kStraightLeg:
+      p.l0 = mechanism.straight_leg.rest_length_m;
+      p.k = mechanism.straight_leg.stiffness_N_per_m;
+      p.d = mechanism.straight_leg.damping_N_s_per_m;
+      break;
+    case MechanismType::kBall:
+      p.radius = mechanism.ball.radius_m;
+      p.restitution = mechanism.ball.restitution;
+      p.tangential_loss = mechanism.ball.tangential_loss;
+      break;
+  }
+  return p;
+}
+
+LiftoffRule LiftoffOfSpec(const MechanismSpec& mechanism) {
+  return mechanism.liftoff == LiftoffSpec::kRestLength ? LiftoffRule::kRestLength
+                                                       : LiftoffRule::kZeroForce;
+}
+
+MechanismKind MechanismOfSpec(const MechanismSpec& mechanism) {
+  switch (mechanism.type) {
+    case MechanismType::kCLeg: return MechanismKind::kCLeg;
+    case MechanismType::kStraightLeg: return MechanismKind::kStraightLeg;
+    case MechanismType::kBall: return MechanismKind::kBall;
+  }
+  return MechanismKind::kCLeg;
+}
+
+std::array<double, 4> StateOfSpec(const StateSpec& s) {
+  return {s.x_m, s.y_m, s.vx_m_per_s, s.vy_m_per_s};
+}
+StateSpec SpecOfState(const std::array<double, 4>& s) { return {s[0], s[1], s[2], s[3]}; }
+
+Channel ChannelOfSpec(ChannelId id) { return *FindChannel(ChannelName(id)); }
+
+Law ResolveLaw(const std::string& name, MechanismKind mechanism, const std::string& place) {
+  if (name.empty()) return LawsOf(mechanism).front();
+  const std::optional<Law> law = FindLaw(name);
+  if (law && MechanismOf(*law) == mechanism) return *law;
+  throw InputError({place, "law = " + Printable(name),
+                    law ? "is not a law of the mechanism " + std::string(NameOf(mechanism))
+                        : "is not a law hoplab knows",
+                    law ? "Choose from " + Join(LawNames(mechanism)) + "."
+                        : DidYouMean(name, LawNames(mechanism))});
+}
+
+const Effect& ResolveEffect(const std::string& name, const std::string& place) {
+  if (const Effect* effect = FindEffect(name)) return *effect;
+  std::vector<std::string> known;
+  for (const Effect* effect : AllEffects()) known.emplace_back(effect->info.name);
+  throw InputError({place, "effect " + Printable(name), "is not in the catalogue",
+                    DidYouMean(name, known) + " `hoplab effects` lists them."});
+}
+
+std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs,
+                                          MechanismKind mechanism) {
+  std::vector<EffectSetting> settings;
+  for (const EffectSpec& spec : specs) {
+    const Effect& effect = ResolveEffect(spec.name, spec.origin.place);
+    const bool applies =
+        mechanism == MechanismKind::kBall ? effect.info.for_ball : effect.info.for_legs;
+    if (!applies) {
+      throw InputError({spec.origin.place, "effect " + spec.name,
+                        "does not apply to the mechanism " + std::string(NameOf(mechanism)),
+                        "`hoplab effects` says which do."});
+    }
+    EffectSetting setting = EffectSetting::Null(effect);
+    for (const NamedNumber& given : spec.parameters) {
+      const std::optional<int> index = effect.FindParameter(given.name);
+      if (!index) {
+        std::vector<std::string> known;
+        for (const EffectParameter& p : effect.info.parameters) known.emplace_back(p.name);
+        throw InputError({given.origin.place, spec.name + "." + Printable(given.name),
+                          "is not a parameter of this effect", DidYouMean(given.name, known)});
+      }
+      const EffectParameter& info = effect.info.parameters[*index];
+      if (!(given.value >= info.lower && given.value <= info.upper)) {
+        throw InputError({given.origin.place,
+                          spec.name + "." + given.name + " = " + FormatDouble(given.value),
+                          "must be in [" + FormatDouble(info.lower) + ", " +
+                              FormatDouble(info.upper) + "] " + std::string(info.unit),
+                          ""});
+      }
+      setting.values[*index] = given.value;
+    }
+    settings.push_back(setting);
+  }
+  return settings;
+}
+
+}  // namespace hoplab

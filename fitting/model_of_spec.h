@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "datasets/dataset.h"
+#include "datasets/scenario.h"
+#include "model/simulate.h"
+
+namespace hoplab {
+
+/// The simulator's parameters of a described mechanism at a touch-down angle.
+Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
+                                    const std::optional<ControllerSpec>& controller,
+                                    double touchdown_angle_rad);
+LiftoffRule LiftoffOfSpec(const MechanismSpec& mechanism);
+MechanismKind MechanismOfSpec(const MechanismSpec& mechanism);
+std::array<double, 4> StateOfSpec(const StateSpec& state);
+StateSpec SpecOfState(const std::array<double, 4>& state);
+Channel ChannelOfSpec(ChannelId id);
+
+/// The law named `name` (empty: the mechanism's default). Throws InputError, place `place`, for a
+/// law that does not exist or belongs to another mechanism.
+Law ResolveLaw(const std::string& name, MechanismKind mechanism, const std::string& place);
+
+/// The effect named `name`; throws InputError with the nearest known name.
+const Effect& ResolveEffect(const std::string& name, const std::string& place);
+
+/// Effects with their values as a scenario gives them; parameters not given stay null. Throws
+/// InputError for unknown names, values out of bounds, an effect that this mechanism cannot have.
+std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs,
+                                          MechanismKind mechanism);
+
+}  // namespace hoplab

@@ -1,0 +1,239 @@
+#include "fitting/solve.h"
+
+#include <ceres/ceres.h>
+
+#include <cmath>
+
+#include "base/check.h"
+#include "base/parallel.h"
+
+namespace hoplab {
+namespace {
+
+std::string Reason(const TrialProblem& trial, const Trajectory& trajectory) {
+  char at[48];
+  std::snprintf(at, sizeof at, " at %.3f s", trajectory.end_time);
+  return trial.file + ": " +
+         (IsComplete(trajectory.outcome)
+              ? std::string("other contacts than the trace shows")
+              : std::string(SentenceOf(trajectory.outcome)) + at);
+}
+
+// Simulates every trial once per point, in parallel, before Ceres asks its residual blocks one by
+// one: so that sums are formed in one order whatever the number of threads.
+class Evaluations : public ceres::EvaluationCallback {
+ public:
+  Evaluations(const SolveRequest& request)
+      : request_(request), problem_(*request.problem), trials_(*request.trials),
+        shared_(problem_.shared_count()), starts_(trials_.size()),
+        evaluations_(trials_.size()) {
+    for (const TrialProblem& trial : trials_) evaluators_.emplace_back(problem_, trial);
+    for (int i = 0; i < problem_.shared_count(); ++i)
+      shared_[i] = request.shared[i] / problem_.shared[i].scale;
+    for (auto& start : starts_) start.fill(0.0);
+  }
+
+  void PrepareForEvaluation(bool jacobians, bool new_point) override {
+    if (!new_point && (have_jacobian_ || !jacobians)) return;
+    Run(jacobians);
+    for (std::size_t i = 0; i < trials_.size(); ++i) {
+      if (!evaluations_[i].complete)
+        ++rejected_[Reason(trials_[i], evaluations_[i].trajectory)];
+    }
+  }
+  void Run(bool jacobians) {
+    have_jacobian_ = jacobians;
+    const Eigen::VectorXd shared = SharedValues();
+    ParallelFor(static_cast<int>(trials_.size()), request_.jobs, [&](int i) {
+      evaluators_[i].Evaluate({shared, StartValues(i), jacobians, request_.loss},
+                              evaluations_[i]);
+    });
+  }
+
+  // Values in their own units.
+  Eigen::VectorXd SharedValues() const {
+    Eigen::VectorXd values(shared_.size());
+    for (int i = 0; i < values.size(); ++i) values[i] = shared_[i] * problem_.shared[i].scale;
+    return values;
+  }
+  std::array<double, 4> StartValues(int trial) const {
+    std::array<double, 4> values = request_.starts[trial];
+    for (int i = 0; i < 4; ++i)
+      values[i] += starts_[trial][i] * trials_[trial].start_scale[i];
+    return values;
+  }
+  double* shared() { return shared_.data(); }
+  double* start(int trial) { return starts_[trial].data(); }
+  const TrialEvaluation& evaluation(int trial) const { return evaluations_[trial]; }
+  int residual_count(int trial) const { return evaluators_[trial].residual_count(); }
+  const std::map<std::string, int>& rejected() const { return rejected_; }
+  void ForgetRejected() { rejected_.clear(); }
+
+ private:
+  const SolveRequest& request_;
+  const FitProblem& problem_;
+  const std::vector<TrialProblem>& trials_;
+  std::vector<TrialEvaluator> evaluators_;
+  Eigen::VectorXd shared_;                     // value/scale
+  std::vector<std::array<double, 4>> starts_;  // (value - first value)/scale
+  std::vector<TrialEvaluation> evaluations_;
+  bool have_jacobian_ = false;
+  std::map<std::string, int> rejected_;
+};
+
+// One trial's residuals as Evaluations holds them. Blocks: shared, start.
+class TrialCost : public ceres::CostFunction {
+ public:
+  TrialCost(const FitProblem& problem, const TrialProblem& trial, const Evaluations& evaluations,
+            int index)
+      : problem_(problem), trial_(trial), evaluations_(evaluations), index_(index) {
+    set_num_residuals(evaluations.residual_count(index));
+    mutable_parameter_block_sizes()->push_back(problem.shared_count());
+    mutable_parameter_block_sizes()->push_back(4);
+  }
+
+  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+    const TrialEvaluation& e = evaluations_.evaluation(index_);
+    if (!e.complete) return false;  // a rejected step; the reason is kept in Evaluations
+    const int rows = num_residuals();
+    std::copy(e.residuals.data(), e.residuals.data() + rows, residuals);
+    if (!jacobians) return true;
+    const int shared = problem_.shared_count();
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    if (jacobians[0]) {
+      Eigen::Map<RowMajor> J(jacobians[0], rows, shared);
+      J = e.jacobian.leftCols(shared);
+      for (int k = 0; k < shared; ++k) J.col(k) *= problem_.shared[k].scale;
+    }
+    if (jacobians[1]) {
+      Eigen::Map<RowMajor> J(jacobians[1], rows, 4);
+      J = e.jacobian.rightCols(4);
+      for (int k = 0; k < 4; ++k) J.col(k) *= trial_.start_scale[k];
+    }
+    return true;
+  }
+
+ private:
+  const FitProblem& problem_;
+  const TrialProblem& trial_;
+  const Evaluations& evaluations_;
+  int index_;
+};
+
+class Watch : public ceres::IterationCallback {
+ public:
+  explicit Watch(const SolveRequest& request) : request_(request) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    if (request_.progress) request_.progress(summary.iteration, summary.cost);
+    return request_.stop && *request_.stop ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const SolveRequest& request_;
+};
+
+void HoldComponents(ceres::Problem& problem, double* block, int size,
+                    const std::vector<int>& held) {
+  if (held.empty()) return;
+  if (static_cast<int>(held.size()) == size) problem.SetParameterBlockConstant(block);
+  else problem.SetManifold(block, new ceres::SubsetManifold(size, held));
+}
+
+SolveStatus StatusOf(const ceres::Solver::Summary& summary) {
+  switch (summary.termination_type) {
+    case ceres::CONVERGENCE: return SolveStatus::kConverged;
+    case ceres::NO_CONVERGENCE: return SolveStatus::kIterationLimit;
+    case ceres::USER_FAILURE:
+    case ceres::USER_SUCCESS: return SolveStatus::kInterrupted;
+    default: return SolveStatus::kFailed;
+  }
+}
+
+}  // namespace
+
+std::string_view NameOf(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kConverged: return "converged";
+    case SolveStatus::kIterationLimit: return "iteration_limit";
+    case SolveStatus::kNoStart: return "no_start";
+    case SolveStatus::kFailed: return "failed";
+    case SolveStatus::kInterrupted: return "interrupted";
+  }
+  return "";
+}
+
+SolveResult Solve(const SolveRequest& request) {
+  const FitProblem& problem = *request.problem;
+  const std::vector<TrialProblem>& trials = *request.trials;
+  HOPLAB_CHECK(request.starts.size() == trials.size());
+  HOPLAB_CHECK(request.shared.size() == problem.shared_count());
+
+  Evaluations evaluations(request);
+  SolveResult result;
+  result.shared = request.shared;
+  result.starts = request.starts;
+
+  evaluations.Run(false);
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const TrialEvaluation& e = evaluations.evaluation(static_cast<int>(i));
+    if (e.complete) continue;
+    result.status = SolveStatus::kNoStart;
+    result.message = Reason(trials[i], e.trajectory);
+    return result;
+  }
+
+  ceres::Problem::Options problem_options;
+  problem_options.evaluation_callback = &evaluations;
+  ceres::Problem ceres_problem(problem_options);
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const int index = static_cast<int>(i);
+    ceres_problem.AddResidualBlock(new TrialCost(problem, trials[i], evaluations, index), nullptr,
+                                   evaluations.shared(), evaluations.start(index));
+    std::vector<int> held;
+    for (int k = 0; k < 4; ++k) {
+      if (request.hold_starts || !trials[i].start_free[k]) held.push_back(k);
+    }
+    HoldComponents(ceres_problem, evaluations.start(index), 4, held);
+  }
+  std::vector<int> held = request.held;
+  if (request.hold_shared) {
+    held.clear();
+    for (int k = 0; k < problem.shared_count(); ++k) held.push_back(k);
+  }
+  HoldComponents(ceres_problem, evaluations.shared(), problem.shared_count(), held);
+  if (!request.hold_shared) {
+    for (int k = 0; k < problem.shared_count(); ++k) {
+      const SharedParameter& s = problem.shared[k];
+      ceres_problem.SetParameterLowerBound(evaluations.shared(), k, s.lower / s.scale);
+      ceres_problem.SetParameterUpperBound(evaluations.shared(), k, s.upper / s.scale);
+    }
+  }
+
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = request.max_iterations;
+  options.function_tolerance = 1e-14;
+  options.parameter_tolerance = 1e-11;
+  options.gradient_tolerance = 1e-12;
+  // Far from the optimum many steps end in a fall before the data do; each only shrinks the region.
+  options.max_num_consecutive_invalid_steps = 60;
+  options.logging_type = ceres::SILENT;
+  Watch watch(request);
+  options.callbacks.push_back(&watch);
+  evaluations.ForgetRejected();
+
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &ceres_problem, &summary);
+
+  result.status = StatusOf(summary);
+  result.shared = evaluations.SharedValues();
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    result.starts[i] = evaluations.StartValues(static_cast<int>(i));
+  result.cost = summary.final_cost + summary.fixed_cost;
+  result.iterations = static_cast<int>(summary.iterations.size());
+  result.rejected = evaluations.rejected();
+  if (result.status == SolveStatus::kFailed) result.message = summary.message;
+  return result;
+}
+
+}  // namespace hoplab

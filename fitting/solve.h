@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <atomic>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fitting/problem.h"
+#include "fitting/trial_evaluator.h"
+
+namespace hoplab {
+
+/// One least-squares problem for Ceres: shared values and each trial's start.
+struct SolveRequest {
+  const FitProblem* problem = nullptr;
+  const std::vector<TrialProblem>* trials = nullptr;  // one residual block each
+  Eigen::VectorXd shared;                             // where to begin, own units
+  std::vector<std::array<double, 4>> starts;          // one a trial
+  bool hold_shared = false;                           // only the starts move
+  bool hold_starts = false;                           // only the shared values move
+  std::vector<int> held;                              // shared values held one by one
+  Loss loss;
+  int max_iterations = 100;
+  int jobs = 1;
+  const std::atomic<bool>* stop = nullptr;                  // set: end as soon as possible
+  std::function<void(int iteration, double cost)> progress = nullptr;
+};
+
+enum class SolveStatus {
+  kConverged,
+  kIterationLimit,  // values are usable but not at an optimum
+  kNoStart,         // the simulation fails where the search begins
+  kFailed,          // the solver gave up
+  kInterrupted      // stopped from outside; values are the best so far
+};
+std::string_view NameOf(SolveStatus status);
+
+struct SolveResult {
+  SolveStatus status = SolveStatus::kFailed;
+  std::string message;  // for kNoStart and kFailed: which trial, what happened, when
+  Eigen::VectorXd shared;
+  std::vector<std::array<double, 4>> starts;
+  double cost = 0.0;  // half the sum of squared residuals
+  int iterations = 0;
+  /// Steps rejected because a simulation ended before its data: reason -> how often.
+  std::map<std::string, int> rejected;
+};
+
+/// Levenberg-Marquardt by Ceres with bounds; simulations run in parallel over trials, and the
+/// result does not depend on `jobs`.
+SolveResult Solve(const SolveRequest& request);
+
+}  // namespace hoplab

@@ -1,0 +1,141 @@
+#include "fitting/trial_errors.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/parallel.h"
+
+namespace hoplab {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::array<double, 4> RefitStart(const FitProblem& problem, const TrialProblem& trial,
+                                 const Eigen::VectorXd& shared, const FitOptions& options) {
+  const std::vector<TrialProblem> one = {trial};
+  SolveRequest request;
+  request.problem = &problem;
+  request.trials = &one;
+  request.shared = shared;
+  request.starts = {trial.start};
+  request.hold_shared = true;
+  request.loss = options.loss;
+  request.stop = options.stop;
+  return Solve(request).starts.front();
+}
+
+// Per-channel root mean square over the rows [first, last).
+std::vector<double> Rmse(const TrialProblem& trial, const Trajectory& trajectory,
+                         std::size_t channels, std::size_t first, std::size_t last) {
+  std::vector<double> sum(channels, 0.0), count(channels, 0.0);
+  for (std::size_t row = first; row < last; ++row) {
+    for (std::size_t c = 0; c < channels; ++c) {
+      const std::size_t cell = row * channels + c;
+      if (std::isnan(trial.data[cell])) continue;
+      sum[c] += std::pow(trajectory.samples[cell] - trial.data[cell], 2);
+      count[c] += 1.0;
+    }
+  }
+  for (std::size_t c = 0; c < channels; ++c) sum[c] = count[c] > 0 ? std::sqrt(sum[c] / count[c]) : kNaN;
+  return sum;
+}
+
+std::vector<HopErrors> PerHop(const TrialProblem& trial, const Trajectory& trajectory,
+                              std::size_t channels) {
+  std::vector<double> cuts = {0.0};
+  bool stance = false;
+  for (const Event& e : trajectory.events) {
+    stance = stance || e.kind != EventKind::kApex;
+    if (e.kind == EventKind::kApex && stance) cuts.push_back(e.time);
+    if (e.kind == EventKind::kApex) stance = false;
+  }
+  cuts.push_back(std::numeric_limits<double>::infinity());
+  std::vector<HopErrors> hops;
+  std::size_t row = 0;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    const std::size_t first = row;
+    while (row < trial.row_times.size() && trial.row_times[row] < cuts[i + 1]) ++row;
+    if (row == first) continue;
+    hops.push_back({cuts[i], std::min(cuts[i + 1], trial.row_times.back()),
+                    Rmse(trial, trajectory, channels, first, row)});
+  }
+  return hops;
+}
+
+}  // namespace
+
+std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult& fit,
+                                      const FitOptions& options) {
+  std::vector<std::array<double, 4>> starts(problem.trials.size());
+  std::size_t train = 0;
+  for (std::size_t i = 0; i < problem.trials.size(); ++i) {
+    if (problem.trials[i].role == TrialRole::kTrain) starts[i] = fit.starts[train++];
+  }
+  std::vector<TrialErrors> errors(problem.trials.size());
+  ParallelFor(static_cast<int>(errors.size()), options.jobs, [&](int i) {
+    const TrialProblem& trial = problem.trials[i];
+    if (trial.role == TrialRole::kTest)
+      starts[i] = RefitStart(problem, trial, fit.shared, options);
+    const TrialEvaluator evaluator(problem, trial);
+    TrialEvaluation e;
+    evaluator.Evaluate({fit.shared, starts[i], false}, e);
+    TrialErrors& out = errors[i];
+    out.file = trial.file;
+    out.role = trial.role;
+    out.outcome = e.trajectory.outcome;
+    out.end_time = e.trajectory.end_time;
+    out.complete = e.complete;
+    out.samples = trial.sample_count;
+    out.start = starts[i];
+    out.max_flexure = e.trajectory.max_flexure;
+    out.nll_per_sample = kNaN;
+    const std::size_t channels = problem.channels.size();
+    out.rmse.assign(channels, kNaN);
+    if (e.complete) {
+      out.rmse = Rmse(trial, e.trajectory, channels, 0, trial.row_times.size());
+      out.hops = PerHop(trial, e.trajectory, channels);
+      out.chi2 = e.residuals.head(e.data_residuals).squaredNorm();
+      double nll = 0.5 * out.chi2;
+      for (std::size_t cell = 0; cell < trial.data.size(); ++cell) {
+        if (std::isnan(trial.data[cell])) continue;
+        nll += std::log(problem.channels[cell % channels].sigma) +
+               0.5 * std::log(2.0 * std::numbers::pi);
+      }
+      for (const auto* sigmas : {&trial.contact.touchdown_sigma_s, &trial.contact.liftoff_sigma_s}) {
+        for (double sigma : *sigmas) nll += std::log(sigma) + 0.5 * std::log(2.0 * std::numbers::pi);
+      }
+      out.nll_per_sample = nll / static_cast<double>(trial.sample_count);
+    }
+    out.trajectory = std::move(e.trajectory);
+  });
+  return errors;
+}
+
+RoleErrors Summarise(const FitProblem& problem, const std::vector<TrialErrors>& trials,
+                     TrialRole role) {
+  const std::size_t channels = problem.channels.size();
+  RoleErrors out{std::vector<double>(channels, 0.0), 0.0, 0, 0, 0};
+  std::vector<double> counts(channels, 0.0);
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (trials[i].role != role) continue;
+    ++out.trials;
+    out.samples += trials[i].samples;
+    if (!trials[i].complete) ++out.incomplete;
+    out.nll_per_sample += trials[i].nll_per_sample * static_cast<double>(trials[i].samples);
+    for (std::size_t c = 0; c < channels; ++c) {
+      double count = 0.0;
+      for (std::size_t cell = c; cell < problem.trials[i].data.size(); cell += channels)
+        count += !std::isnan(problem.trials[i].data[cell]);
+      if (count == 0.0) continue;
+      out.rmse[c] += trials[i].rmse[c] * trials[i].rmse[c] * count;
+      counts[c] += count;
+    }
+  }
+  for (std::size_t c = 0; c < channels; ++c)
+    out.rmse[c] = counts[c] > 0.0 ? std::sqrt(out.rmse[c] / counts[c]) : kNaN;
+  out.nll_per_sample = out.samples > 0 ? out.nll_per_sample / static_cast<double>(out.samples) : kNaN;
+  return out;
+}
+
+}  // namespace hoplab

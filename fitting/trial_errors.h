@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fitting/fit.h"
+
+namespace hoplab {
+
+/// Errors of one hop of one trial: the rows from one apex to the next.
+struct HopErrors {
+  double begin, end;         // s
+  std::vector<double> rmse;  // per channel, its unit; NaN without samples
+};
+
+/// How a trial and its simulation differ at given shared values.
+struct TrialErrors {
+  std::string file;
+  TrialRole role;
+  Outcome outcome;
+  double end_time;                 // s, where the simulation ended
+  bool complete;                   // every datum has its simulated counterpart
+  std::vector<double> rmse;        // per channel; NaN unless complete (never from fewer samples)
+  double nll_per_sample;           // Gaussian, with the channels' sigma; NaN unless complete
+  double chi2 = 0.0;               // of the data's whitened residuals
+  long samples;
+  std::vector<HopErrors> hops;
+  std::array<double, 4> start;     // fitted
+  double max_flexure = 0.0;        // F C/l0; beyond 0.2 `large_deflection` is not to be trusted
+  Trajectory trajectory;           // samples at the rows
+};
+
+/// Means over trials of one role.
+struct RoleErrors {
+  std::vector<double> rmse;  // per channel, over all samples of the role; NaN if any is incomplete
+  double nll_per_sample;
+  long samples;
+  int trials, incomplete;
+};
+
+/// Errors at the fitted values. Train trials keep their fitted starts; a test trial's start is
+/// refitted under its prior with the shared values held (a nominal start may be off by more than
+/// the model is).
+std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult& fit,
+                                      const FitOptions& options);
+RoleErrors Summarise(const FitProblem& problem, const std::vector<TrialErrors>& trials,
+                     TrialRole role);
+
+}  // namespace hoplab

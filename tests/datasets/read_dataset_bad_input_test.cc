@@ -1,0 +1,717 @@
+// Every kind of bad input that the format names: the whole message is compared, place and line, key
+// or column, value, rule, remedy.
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <string>
+
+#include "datasets/read_dataset.h"
+#include "tests/datasets/small_dataset.h"
+#include "tests/support/input_error_of.h"
+#include "tests/support/temp_folder.h"
+
+namespace hoplab {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ErrorWithCsv;
+using testing::ErrorWithYaml;
+using testing::InputErrorOf;
+using testing::kCsv;
+using testing::kYaml;
+using testing::Read;
+using testing::Replace;
+using testing::TempFolder;
+using testing::WriteText;
+
+std::string ErrorOf(const std::string& yaml, const std::string& csv = kCsv) {
+  return InputErrorOf([&] { Read(yaml, csv); });
+}
+
+// ---- keys
+
+TEST(BadDataset, AMisspeltKeyGetsTheNearestKnownOne) {
+  EXPECT_EQ(ErrorWithYaml("thickness_m", "thicknes_m"),
+            "hops/dataset.yaml:12: mechanism.leg.thicknes_m; unknown key. "
+            "Did you mean thickness_m?");
+}
+
+TEST(BadDataset, AKeyLikeNoOtherGetsTheListOfKnownOnes) {
+  EXPECT_EQ(ErrorWithYaml("    role: test\n", "    role: test\n    colour: red\n"),
+            "hops/dataset.yaml:24: trials[1].colour; unknown key. Known: file, role, "
+            "touchdown_angle_deg, initial, initial_sigma, mechanism, controller.");
+}
+
+TEST(BadDataset, AnUnknownTopLevelKeyIsNamedByItself) {
+  EXPECT_EQ(ErrorWithYaml("channels:", "chanels:"),
+            "hops/dataset.yaml:14: chanels; unknown key. Did you mean channels?");
+}
+
+TEST(BadDataset, AMissingKeyIsNamedWithItsRange) {
+  EXPECT_EQ(ErrorWithYaml("    E_Pa: 22e9\n", ""),
+            "hops/dataset.yaml:7: mechanism.leg; must have the key E_Pa. "
+            "Add E_Pa: a number in (0, 1e13] Pa.");
+}
+
+TEST(BadDataset, AMissingTopLevelKeyIsNamed) {
+  EXPECT_EQ(ErrorWithYaml("name: hops\n", ""),
+            "hops/dataset.yaml:1: must have the key name. Add name: a short name.");
+}
+
+TEST(BadDataset, AKeyWithoutAValueIsTakenAsMissing) {
+  EXPECT_EQ(ErrorWithYaml("E_Pa: 22e9", "E_Pa:"),
+            "hops/dataset.yaml:9: mechanism.leg; the key E_Pa has no value. "
+            "Add E_Pa: a number in (0, 1e13] Pa.");
+}
+
+TEST(BadDataset, ADuplicateKeyIsReportedWithBothLines) {
+  EXPECT_EQ(ErrorWithYaml("    G_Pa: 4e9\n", "    G_Pa: 4e9\n    E_Pa: 21e9\n"),
+            "hops/dataset.yaml:11: E_Pa; duplicate key, it stands already at hops/dataset.yaml:9. "
+            "Remove one of the two.");
+}
+
+TEST(BadDataset, AKeyOfAnotherMechanismIsToldWhoseItIs) {
+  EXPECT_EQ(
+      ErrorWithYaml("rest_radius_m: 0.09", "rest_length_m: 0.09"),
+      "hops/dataset.yaml:8: mechanism.leg.rest_length_m; unknown key: it belongs to a "
+      "straight_leg and this mechanism is a c_leg. Known: rest_radius_m, E_Pa, G_Pa, width_m, "
+      "thickness_m, second_moment_m4, area_m2, shear_factor, damping_N_s_per_m.");
+}
+
+TEST(BadDataset, ACLegNeedsATouchdownAngle) {
+  EXPECT_EQ(ErrorWithYaml("    touchdown_angle_deg: 30\n", ""),
+            "hops/dataset.yaml:22: trials[1]; must have the key touchdown_angle_deg. "
+            "Add touchdown_angle_deg: a number in (-90, 180) deg.");
+}
+
+TEST(BadDataset, TheSectionIsNotGivenTwice) {
+  EXPECT_EQ(
+      ErrorWithYaml("    width_m: 0.03\n", "    width_m: 0.03\n    area_m2: 1e-4\n"),
+      "hops/dataset.yaml:7: mechanism.leg; the section is given by width_m and thickness_m or "
+      "by second_moment_m4 and area_m2, not by both. Remove one of the two pairs.");
+}
+
+TEST(BadDataset, AWidthNeedsAThickness) {
+  EXPECT_EQ(ErrorWithYaml("    thickness_m: 0.0038\n", ""),
+            "hops/dataset.yaml:7: mechanism.leg; must have the key thickness_m. "
+            "Add thickness_m: a number in (0, 10] m.");
+}
+
+TEST(BadDataset, APlacementControllerNeedsAToeMass) {
+  EXPECT_EQ(
+      ErrorWithYaml("  leg:\n", "  placement: {kp_N_m_per_rad: 1, kd_N_m_s_per_rad: 1}\n  leg:\n"),
+      "hops/dataset.yaml:7: mechanism.placement; only a leg with a toe mass is placed by a "
+      "torque. Add toe_mass_kg or remove this block.");
+}
+
+// ---- units in names
+
+TEST(BadDataset, AModulusInGigapascalIsToldHowTheKeyIsWritten) {
+  EXPECT_EQ(
+      ErrorWithYaml("E_Pa: 22e9", "E_GPa: 22"),
+      "hops/dataset.yaml:9: mechanism.leg.E_GPa; is written E_Pa: the unit in its name does not "
+      "belong to it. Rename it to E_Pa and give the value in Pa.");
+}
+
+TEST(BadDataset, AMassInGramsIsToldHowTheKeyIsWritten) {
+  EXPECT_EQ(ErrorWithYaml("body_mass_kg: 1.0", "body_mass_g: 1000"),
+            "hops/dataset.yaml:5: mechanism.body_mass_g; is written body_mass_kg: the unit in its "
+            "name does not belong to it. Rename it to body_mass_kg and give the value in kg.");
+}
+
+TEST(BadDataset, AHeightInMillimetresIsToldHowTheKeyIsWritten) {
+  EXPECT_EQ(
+      ErrorWithYaml("y_m: 0.3", "y_mm: 300"),
+      "hops/dataset.yaml:21: trials[0].initial.y_mm; is written y_m: the unit in its name does "
+      "not belong to it. Rename it to y_m and give the value in m.");
+}
+
+TEST(BadDataset, AnAngleInRadiansIsToldHowTheKeyIsWritten) {
+  EXPECT_EQ(
+      ErrorWithYaml("touchdown_angle_deg: 25", "touchdown_angle_rad: 0.44"),
+      "hops/dataset.yaml:20: trials[0].touchdown_angle_rad; is written touchdown_angle_deg: the "
+      "unit in its name does not belong to it. Rename it to touchdown_angle_deg and give the "
+      "value in deg.");
+}
+
+TEST(BadDataset, AKeyWithoutItsUnitIsToldHowItIsWritten) {
+  EXPECT_EQ(
+      ErrorWithYaml("gravity_m_per_s2", "gravity"),
+      "hops/dataset.yaml:6: mechanism.gravity; is written gravity_m_per_s2: its unit stands in "
+      "its name. Rename it to gravity_m_per_s2 and give the value in m/s2.");
+}
+
+TEST(BadDataset, APureNumberGetsNoUnit) {
+  EXPECT_EQ(
+      ErrorWithYaml("    G_Pa: 4e9\n", "    G_Pa: 4e9\n    shear_factor_m: 1.5\n"),
+      "hops/dataset.yaml:11: mechanism.leg.shear_factor_m; is written shear_factor: it has no "
+      "unit. Rename it to shear_factor.");
+}
+
+TEST(BadDataset, AChannelWithAnotherUnitIsToldHowItIsWritten) {
+  EXPECT_EQ(
+      ErrorWithYaml("body_x_m:", "body_x_mm:"),
+      "hops/dataset.yaml:15: channels.body_x_mm; is written body_x_m: the unit in its name does "
+      "not belong to it. Rename it to body_x_m and give the value in m.");
+}
+
+TEST(BadDataset, AColumnWithAnotherUnitIsToldHowItIsWritten) {
+  EXPECT_EQ(
+      ErrorWithCsv("body_y_m", "body_y_mm"),
+      "hops/a.csv:1: column body_y_mm; is written body_y_m: the unit in its name does not belong "
+      "to it. Rename it to body_y_m and give the value in m.");
+}
+
+// ---- values
+
+TEST(BadDataset, ANegativeModulusIsOutOfItsRange) {
+  EXPECT_EQ(
+      ErrorWithYaml("E_Pa: 22e9", "E_Pa: -4"),
+      "hops/dataset.yaml:9: mechanism.leg.E_Pa = -4; must be in (0, 1e13] Pa. Check the sign.");
+}
+
+TEST(BadDataset, AMassOfZeroIsOutOfItsRange) {
+  EXPECT_EQ(ErrorWithYaml("body_mass_kg: 1.0", "body_mass_kg: 0"),
+            "hops/dataset.yaml:5: mechanism.body_mass_kg = 0; must be in (0, 1e6] kg. "
+            "Check the unit: kg is meant.");
+}
+
+TEST(BadDataset, AnAngleBeyondTheHalfTurnIsOutOfItsRange) {
+  EXPECT_EQ(ErrorWithYaml("touchdown_angle_deg: 25", "touchdown_angle_deg: 180"),
+            "hops/dataset.yaml:20: trials[0].touchdown_angle_deg = 180; must be in (-90, 180) deg. "
+            "Check the unit: deg is meant.");
+}
+
+TEST(BadDataset, ASigmaOfZeroIsOutOfItsRange) {
+  EXPECT_EQ(ErrorWithYaml("sigma: 0.001", "sigma: 0"),
+            "hops/dataset.yaml:15: channels.body_x_m.sigma = 0; must be in (0, 1e9] m. "
+            "Check the unit: m is meant.");
+}
+
+TEST(BadDataset, ARestitutionAboveOneIsOutOfItsRange) {
+  const std::string yaml =
+      "format: hoplab-dataset/1\nname: b\n"
+      "mechanism: {type: ball, body_mass_kg: 1, gravity_m_per_s2: 9.81,\n"
+      "  ball: {radius_m: 0.02, restitution: 1.2, tangential_loss: 0}}\n"
+      "channels: {body_y_m: {sigma: 0.001}}\ntrials: [{file: a.csv, role: train}]\n";
+  EXPECT_EQ(ErrorOf(yaml),
+            "hops/dataset.yaml:4: mechanism.ball.restitution = 1.2; must be in [0, 1]. "
+            "Check the value.");
+}
+
+TEST(BadDataset, InfinityIsNoValue) {
+  EXPECT_EQ(ErrorWithYaml("E_Pa: 22e9", "E_Pa: .inf"),
+            "hops/dataset.yaml:9: mechanism.leg.E_Pa = .inf; must be in (0, 1e13] Pa. "
+            "Write a finite number.");
+}
+
+TEST(BadDataset, ANumberTooLargeForADoubleIsNoValue) {
+  EXPECT_EQ(ErrorWithYaml("E_Pa: 22e9", "E_Pa: 1e999"),
+            "hops/dataset.yaml:9: mechanism.leg.E_Pa = 1e999; must be in (0, 1e13] Pa. "
+            "Write a finite number.");
+}
+
+TEST(BadDataset, NanIsNoValueInTheYaml) {
+  EXPECT_EQ(ErrorWithYaml("E_Pa: 22e9", "E_Pa: nan"),
+            "hops/dataset.yaml:9: mechanism.leg.E_Pa = nan; must be in (0, 1e13] Pa. "
+            "Write a finite number.");
+}
+
+TEST(BadDataset, ANumberWithAUnitBehindItIsNoNumber) {
+  EXPECT_EQ(
+      ErrorWithYaml("E_Pa: 22e9", "E_Pa: 22 GPa"),
+      "hops/dataset.yaml:9: mechanism.leg.E_Pa = 22 GPa; is not a number; must be in (0, 1e13] "
+      "Pa. Write a number such as 0.09 or 22e9, without unit.");
+}
+
+TEST(BadDataset, AListWhereANumberIsWantedIsOfTheWrongType) {
+  EXPECT_EQ(ErrorWithYaml("E_Pa: 22e9", "E_Pa: [21e9, 22e9]"),
+            "hops/dataset.yaml:9: mechanism.leg.E_Pa = (a list); must be one number; must be in "
+            "(0, 1e13] Pa. Write a single number here.");
+}
+
+TEST(BadDataset, ANumberWhereABlockIsWantedIsOfTheWrongType) {
+  EXPECT_EQ(ErrorWithYaml("{sigma: 0.001}", "0.001"),
+            "hops/dataset.yaml:15: channels.body_x_m = 0.001; must be a block of keys and values. "
+            "Write `key: value` lines, or {key: value}.");
+}
+
+TEST(BadDataset, ABlockWhereAListIsWantedIsOfTheWrongType) {
+  const std::string yaml(kYaml);
+  EXPECT_EQ(
+      ErrorOf(yaml.substr(0, yaml.find("trials:")) + "trials: {file: a.csv}\n"),
+      "hops/dataset.yaml:17: trials = (a block of keys); must be a list. Write `- ` before each "
+      "item, or [a, b].");
+}
+
+TEST(BadDataset, AListWhereTextIsWantedIsOfTheWrongType) {
+  EXPECT_EQ(
+      ErrorWithYaml("name: hops", "name: [hops]"),
+      "hops/dataset.yaml:2: name = (a list); must be text. Write one text here, in quotes if it "
+      "has a colon or brackets.");
+}
+
+TEST(BadDataset, AnUnknownMechanismTypeGetsTheNearestKnownOne) {
+  EXPECT_EQ(ErrorWithYaml("type: c_leg", "type: cleg"),
+            "hops/dataset.yaml:4: mechanism.type = cleg; must be one of c_leg, straight_leg, ball. "
+            "Did you mean c_leg?");
+}
+
+TEST(BadDataset, AnUnknownRoleIsRefused) {
+  EXPECT_EQ(ErrorWithYaml("role: test", "role: validation"),
+            "hops/dataset.yaml:23: trials[1].role = validation; must be one of train, test. "
+            "Write one of these words.");
+}
+
+TEST(BadDataset, ASigmaMayBeANumberOrEstimateAndNothingElse) {
+  EXPECT_EQ(
+      ErrorWithYaml("sigma: estimate", "sigma: guess"),
+      "hops/dataset.yaml:16: channels.body_y_m.sigma = guess; must be a number in (0, 1e9] m or "
+      "the word estimate. Write 1 standard deviation, or estimate.");
+}
+
+TEST(BadDataset, ATrialMayNotChangeTheTypeOfMechanism) {
+  EXPECT_EQ(ErrorWithYaml(
+                "    role: test\n",
+                "    role: test\n    mechanism: {type: straight_leg, leg: {rest_radius_m: null, "
+                "E_Pa: null, G_Pa: null, width_m: null, thickness_m: null, rest_length_m: 0.1, "
+                "stiffness_N_per_m: 100}}\n"),
+            "hops/dataset.yaml:24: trials[1].mechanism.type = straight_leg; all trials must have "
+            "the same "
+            "type of mechanism. Make a dataset of its own for it.");
+}
+
+TEST(BadDataset, ATrialsOwnMechanismValueIsCheckedAtItsOwnLine) {
+  EXPECT_EQ(
+      ErrorWithYaml("    role: test\n", "    role: test\n    mechanism:\n      leg: {E_Pa: -1}\n"),
+      "hops/dataset.yaml:25: trials[1].mechanism.leg.E_Pa = -1; must be in (0, 1e13] Pa. "
+      "Check the sign.");
+}
+
+TEST(BadDataset, AHostileValueIsShownOnOneShortLine) {
+  EXPECT_EQ(
+      ErrorWithYaml("E_Pa: 22e9", "E_Pa: \"\\e[31m" + std::string(200, 'x') + "\""),
+      "hops/dataset.yaml:9: mechanism.leg.E_Pa = \\x1b[31m" + std::string(55, 'x') +
+          "...; is not a number; must be in (0, 1e13] Pa. Write a number such as 0.09 or 22e9, "
+          "without unit.");
+}
+
+// ---- trials and channels
+
+TEST(BadDataset, AFileThatIsNotThereGetsTheNearestThatIs) {
+  EXPECT_EQ(ErrorWithYaml("file: a.csv", "file: a.csb"),
+            "hops/dataset.yaml:18: trials[0].file = a.csb; there is no such file in the dataset. "
+            "Did you mean a.csv?");
+}
+
+TEST(BadDataset, AnUnknownChannelGetsTheNearestColumn) {
+  EXPECT_EQ(ErrorWithYaml("body_x_m:", "bdy_x_m:"),
+            "hops/dataset.yaml:15: channels.bdy_x_m; is no column of the format. "
+            "Did you mean body_x_m?");
+}
+
+TEST(BadDataset, AChannelThatNoTrialHasIsReported) {
+  EXPECT_EQ(ErrorWithYaml("body_x_m:", "hip_torque_N_m:"),
+            "hops/dataset.yaml:15: channels.hip_torque_N_m; no trial has a sample of this column. "
+            "Remove the channel or add the column to the files.");
+}
+
+TEST(BadDataset, AChannelWithoutASampleInAnyTrialIsReported) {
+  const std::string csv = "time_s,body_x_m,body_y_m\n0,0,\n1,0,nan\n";
+  EXPECT_EQ(InputErrorOf([&] {
+              ReadDatasetText(kYaml, {{"a.csv", csv}, {"b.csv", csv}}, "hops");
+            }),
+            "hops/dataset.yaml:16: channels.body_y_m; no trial has a sample of this column. "
+            "Remove the channel or add the column to the files.");
+}
+
+TEST(BadDataset, AChannelWhoseColumnIsMisspeltGetsTheColumn) {
+  const std::string csv = Replace(kCsv, "body_y_m", "bodyy_m");
+  EXPECT_EQ(InputErrorOf([&] {
+              ReadDatasetText(kYaml, {{"a.csv", csv}, {"b.csv", csv}}, "hops");
+            }),
+            "hops/dataset.yaml:16: channels.body_y_m; no trial has a sample of this column. "
+            "Is the column bodyy_m meant? Rename it in the files.");
+}
+
+TEST(BadDataset, ADatasetWithoutATrainTrialIsReported) {
+  EXPECT_EQ(ErrorWithYaml("role: train", "role: test"),
+            "hops/dataset.yaml:17: trials; at least one trial must have role: train. "
+            "Change the role of the trials to fit.");
+}
+
+TEST(BadDataset, ADatasetWithoutTrialsIsReported) {
+  const std::string yaml(kYaml);
+  EXPECT_EQ(
+      ErrorOf(yaml.substr(0, yaml.find("trials:")) + "trials: []\n"),
+      "hops/dataset.yaml:17: trials = (a list); must have at least 1 item. Add what is missing.");
+}
+
+TEST(BadDataset, ADatasetWithoutChannelsIsReported) {
+  const std::string yaml(kYaml);
+  EXPECT_EQ(ErrorOf(yaml.substr(0, yaml.find("channels:")) + "channels: {}\n" +
+                    yaml.substr(yaml.find("trials:"))),
+            "hops/dataset.yaml:14: channels = (a block of keys); must have at least 1 key. "
+            "Add what is missing.");
+}
+
+TEST(BadDataset, AFileMayNotServeTwoTrials) {
+  EXPECT_EQ(
+      ErrorWithYaml("file: b.csv", "file: ./a.csv"),
+      "hops/dataset.yaml:22: trials[1].file = ./a.csv; is the file of an earlier trial already. "
+      "Remove one of the two trials.");
+}
+
+TEST(BadDataset, AnAbsolutePathLeavesTheFolder) {
+  EXPECT_EQ(
+      ErrorWithYaml("file: a.csv", "file: /etc/passwd"),
+      "hops/dataset.yaml:18: trials[0].file = /etc/passwd; must lie in the dataset's folder, and "
+      "this path is absolute. Move the file there and give its name relative to the folder.");
+}
+
+TEST(BadDataset, APathThroughTheParentLeavesTheFolder) {
+  EXPECT_EQ(
+      ErrorWithYaml("file: a.csv", "file: sub/../../a.csv"),
+      "hops/dataset.yaml:18: trials[0].file = sub/../../a.csv; must lie in the dataset's folder, "
+      "and this path goes up by ... Move the file there and give its name relative to the "
+      "folder.");
+}
+
+TEST(BadDataset, ABackslashIsNoSeparator) {
+  EXPECT_EQ(ErrorWithYaml("file: a.csv", "file: ..\\a.csv"),
+            "hops/dataset.yaml:18: trials[0].file = ..\\a.csv; must be written with /. "
+            "Replace \\ by /.");
+}
+
+TEST(BadDataset, TheDatasetsOwnFileIsNoTrial) {
+  EXPECT_EQ(ErrorWithYaml("file: a.csv", "file: dataset.yaml"),
+            "hops/dataset.yaml:18: trials[0].file = dataset.yaml; must be a trial's CSV file. "
+            "Give the name of the trial's CSV file.");
+}
+
+// ---- traces
+
+TEST(BadDataset, TimeMustIncrease) {
+  EXPECT_EQ(ErrorWithCsv("0.02,", "0.005,"),
+            "hops/a.csv:4: time_s = 0.005; must be greater than the time before, 0.01. "
+            "Sort the rows by time and remove repeated ones.");
+}
+
+TEST(BadDataset, TimeMayNotStandStill) {
+  EXPECT_EQ(ErrorWithCsv("0.02,", "0.01,"),
+            "hops/a.csv:4: time_s = 0.01; must be greater than the time before, 0.01. "
+            "Sort the rows by time and remove repeated ones.");
+}
+
+TEST(BadDataset, EveryRowNeedsATime) {
+  EXPECT_EQ(ErrorWithCsv("0.02,", "nan,"),
+            "hops/a.csv:4: time_s = nan; every row must have a time. Remove the row.");
+}
+
+TEST(BadDataset, ACellThatIsNoNumberIsReportedWithItsColumn) {
+  EXPECT_EQ(
+      ErrorWithCsv("0.298", "high"),
+      "hops/a.csv:4: body_y_m = high; is not a number. Write a number with a decimal point, or "
+      "leave the cell empty if it is missing.");
+}
+
+TEST(BadDataset, LineNumbersCountCommentsAndBlankLines) {
+  EXPECT_EQ(
+      ErrorWithCsv("0.01,0.01,0.2995\n0.02,0.02,0.298", "# a comment\n\n0.02,0.02,high"),
+      "hops/a.csv:5: body_y_m = high; is not a number. Write a number with a decimal point, or "
+      "leave the cell empty if it is missing.");
+}
+
+TEST(BadDataset, ARaggedRowIsReportedWithBothLengths) {
+  EXPECT_EQ(ErrorWithCsv("0.02,0.02,0.298", "0.02,0.298"),
+            "hops/a.csv:4: 2 cells; must have 3, one for each column. "
+            "Look for a missing or a stray comma.");
+}
+
+TEST(BadDataset, AnInfiniteSampleIsReported) {
+  EXPECT_EQ(ErrorWithCsv("0.298", "inf"),
+            "hops/a.csv:4: body_y_m = inf; must be a finite number. "
+            "Leave the cell empty if the sample is missing.");
+}
+
+TEST(BadDataset, ASampleOutOfItsRangeIsReported) {
+  EXPECT_EQ(ErrorWithCsv("0.298", "2.98e9"),
+            "hops/a.csv:4: body_y_m = 2.98e9; must be in [-1e6, 1e6] m. "
+            "Check the unit: m is meant.");
+}
+
+TEST(BadDataset, ContactIsZeroOrOne) {
+  EXPECT_EQ(ErrorOf(kYaml, "time_s,body_x_m,body_y_m,contact\n0,0,0.3,0\n1,0,0.2,0.5\n"),
+            "hops/a.csv:3: contact = 0.5; must be 0 or 1. Write 1 while the leg is on the ground.");
+}
+
+TEST(BadDataset, TheFirstColumnIsTime) {
+  EXPECT_EQ(ErrorWithCsv("time_s", "t"),
+            "hops/a.csv:1: column t; the first column must be time_s. "
+            "The first row names the columns, time in seconds first.");
+}
+
+TEST(BadDataset, TimeInMillisecondsIsToldHowTheColumnIsWritten) {
+  EXPECT_EQ(ErrorWithCsv("time_s", "time_ms"),
+            "hops/a.csv:1: column time_ms; the first column must be time_s. "
+            "Rename it to time_s and give the times in s.");
+}
+
+TEST(BadDataset, SemicolonsDoNotSeparateCells) {
+  EXPECT_EQ(ErrorOf(kYaml, "time_s;body_x_m\n0;0\n"),
+            "hops/a.csv:1: column time_s;body_x_m; the first column must be time_s. "
+            "Separate the cells by commas and write decimals with a point.");
+}
+
+TEST(BadDataset, AColumnMayNotStandTwice) {
+  EXPECT_EQ(ErrorWithCsv("body_x_m", "body_y_m"),
+            "hops/a.csv:1: column body_y_m; stands twice in the first row. "
+            "Remove or rename one of the two.");
+}
+
+TEST(BadDataset, AColumnNeedsAName) {
+  EXPECT_EQ(ErrorWithCsv("body_x_m", ""),
+            "hops/a.csv:1: column 2; has no name. Name or remove the column.");
+}
+
+TEST(BadDataset, AnEmptyTraceIsReported) {
+  EXPECT_EQ(ErrorOf(kYaml, "# nothing\n"),
+            "hops/a.csv: is empty; must have a row of column names and samples. "
+            "Begin with time_s,body_x_m,... and one row for each sample.");
+}
+
+TEST(BadDataset, ATraceWithoutSamplesIsReported) {
+  EXPECT_EQ(ErrorOf(kYaml, "time_s,body_x_m,body_y_m\n"),
+            "hops/a.csv:1: has column names but no samples. Add one row for each sample.");
+}
+
+TEST(BadDataset, TooManyColumnsAreRefused) {
+  std::string header = "time_s";
+  for (int i = 0; i < 64; ++i) header += ",c" + std::to_string(i);
+  EXPECT_EQ(ErrorOf(kYaml, header + "\n"),
+            "hops/a.csv:1: 65 columns; must have at most 64. Remove columns.");
+}
+
+// ---- files that are no text, no YAML, no dataset
+
+TEST(BadDataset, AnEmptyDatasetFileIsReported) {
+  EXPECT_EQ(ErrorOf(""),
+            "hops/dataset.yaml: is empty; must begin with format: hoplab-dataset/1. "
+            "See datasets/README.md for an example.");
+}
+
+TEST(BadDataset, ANulByteIsNoText) {
+  EXPECT_EQ(ErrorOf(Replace(kYaml, "hops", std::string("ho\0ps", 5))),
+            "hops/dataset.yaml:2: is no UTF-8 text (a NUL byte). Save the file as plain text in "
+            "UTF-8.");
+}
+
+TEST(BadDataset, AControlCharacterIsNoText) {
+  EXPECT_EQ(
+      ErrorWithYaml("hops", "ho\x04ps"),
+      "hops/dataset.yaml:2: is no UTF-8 text (a control character). Save the file as plain text "
+      "in UTF-8.");
+}
+
+TEST(BadDataset, InvalidUtf8IsNoText) {
+  EXPECT_EQ(
+      ErrorWithCsv("0.2995", "0.2995\xff"),
+      "hops/a.csv:3: is no UTF-8 text (an invalid byte sequence). Save the file as plain text in "
+      "UTF-8.");
+}
+
+TEST(BadDataset, Utf16IsNoUtf8) {
+  EXPECT_EQ(
+      ErrorOf(std::string("\xff\xfe"
+                          "f\0o\0",
+                          6)),
+      "hops/dataset.yaml:1: is no UTF-8 text (it looks like UTF-16). Save the file as plain text "
+      "in UTF-8.");
+}
+
+TEST(BadDataset, BrokenYamlIsReportedWithItsLine) {
+  EXPECT_EQ(ErrorWithYaml("{sigma: 0.001}", "{sigma: 0.001"),
+            "hops/dataset.yaml:16: is not valid YAML: end of map flow not found. "
+            "Check indentation, brackets, quotes and colons near here.");
+}
+
+TEST(BadDataset, ASecondDocumentIsRefused) {
+  EXPECT_EQ(ErrorOf(std::string(kYaml) + "---\nname: again\n"),
+            "hops/dataset.yaml:25: a second document begins here, the file must hold one. "
+            "Remove the line `---` or split the file.");
+}
+
+TEST(BadDataset, AnAliasBombIsRefusedBeforeItExpands) {
+  std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 15; ++i) {
+    const std::string below = "*a" + std::to_string(i - 1);
+    bomb += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [";
+    for (int j = 0; j < 10; ++j) bomb += (j > 0 ? ", " : "") + below;
+    bomb += "]\n";
+  }
+  EXPECT_EQ(ErrorOf(bomb),
+            "hops/dataset.yaml:5: with its aliases written out the file must have at most 100000 "
+            "values and 4194304 bytes of text. Write the values out instead of nesting aliases.");
+}
+
+TEST(BadDataset, AnAliasBombOfLongTextIsRefused) {
+  std::string bomb = "a: &a " + std::string(100'000, 'x') + "\nb: [*a";
+  for (int i = 0; i < 1000; ++i) bomb += ", *a";
+  EXPECT_EQ(ErrorOf(bomb + "]\n"),
+            "hops/dataset.yaml:2: with its aliases written out the file must have at most 100000 "
+            "values and 4194304 bytes of text. Write the values out instead of nesting aliases.");
+}
+
+TEST(BadDataset, AnAliasInsideWhatItNamesIsRefused) {
+  EXPECT_EQ(
+      ErrorOf("a: &a [*a]\n"),
+      "hops/dataset.yaml:1: an alias may not stand inside what it names. Write the value out.");
+}
+
+TEST(BadDataset, DeepNestingIsRefused) {
+  EXPECT_EQ(ErrorOf("name: " + std::string(100'000, '[') + std::string(100'000, ']')),
+            "hops/dataset.yaml:1: is nested more than 24 deep. Check the brackets and the "
+            "indentation.");
+}
+
+TEST(BadDataset, BracketsThatNobodyClosesAreRefused) {
+  EXPECT_EQ(ErrorOf("name: " + std::string(100'000, '[')),
+            "hops/dataset.yaml:1: a key must be plain text. Check the brackets and the colons.");
+}
+
+TEST(BadDataset, AYamlTagIsRefused) {
+  EXPECT_EQ(ErrorWithYaml("name: hops", "name: !!python/object hops"),
+            "hops/dataset.yaml:2: tag tag:yaml.org,2002:python/object; tags are not part of the "
+            "format. Remove the tag.");
+}
+
+TEST(BadDataset, AKeyThatIsAListIsRefused) {
+  EXPECT_EQ(ErrorWithYaml("name: hops", "name: hops\n? [a, b]\n: c"),
+            "hops/dataset.yaml:3: a key must be plain text. Check the brackets and the colons.");
+}
+
+TEST(BadDataset, AnotherFormatVersionIsRefused) {
+  EXPECT_EQ(ErrorWithYaml("hoplab-dataset/1", "hoplab-dataset/2"),
+            "hops/dataset.yaml:1: format = hoplab-dataset/2; must be hoplab-dataset/1. "
+            "Write format: hoplab-dataset/1.");
+}
+
+TEST(BadDataset, AScenarioIsToldWhatReadsIt) {
+  EXPECT_EQ(ErrorWithYaml("hoplab-dataset/1", "hoplab-scenario/1"),
+            "hops/dataset.yaml:1: format = hoplab-scenario/1; must be hoplab-dataset/1. "
+            "This is a scenario: simulate, generate, gait, optimize and sweep read it.");
+}
+
+TEST(BadDataset, AYamlFileLargerThanTheLimitIsRefused) {
+  EXPECT_EQ(ErrorOf(std::string(kYaml) + std::string(2'000'000, '#')),
+            "hops/dataset.yaml: size = " + std::to_string(std::string(kYaml).size() + 2'000'000) +
+                " bytes; must be at most 1048576 bytes. Samples belong into the CSV files.");
+}
+
+// ---- folders
+
+class BadDatasetFolder : public ::testing::Test {
+ protected:
+  BadDatasetFolder() {
+    WriteText(folder_ / "dataset.yaml", kYaml);
+    WriteText(folder_ / "a.csv", kCsv);
+    WriteText(folder_ / "b.csv", kCsv);
+  }
+  std::string Error() {
+    return InputErrorOf([&] { ReadDataset(folder_); });
+  }
+  TempFolder temp_;
+  fs::path folder_ = temp_.path() / "hops";
+  std::string yaml_ = (folder_ / "dataset.yaml").string();
+};
+
+TEST_F(BadDatasetFolder, IsGoodToBeginWith) { EXPECT_EQ(Error(), "(no error)"); }
+
+TEST_F(BadDatasetFolder, AFolderThatIsNotThereIsReported) {
+  const fs::path absent = temp_.path() / "absent";
+  EXPECT_EQ(InputErrorOf([&] { ReadDataset(absent); }),
+            absent.string() + ": there is no such folder. Check the path.");
+}
+
+TEST_F(BadDatasetFolder, TheYamlItselfIsNoFolder) {
+  EXPECT_EQ(InputErrorOf([&] { ReadDataset(yaml_); }),
+            yaml_ +
+                ": must be a folder with a dataset.yaml, and is a file. "
+                "Give the folder it lies in.");
+}
+
+TEST_F(BadDatasetFolder, AFolderWithoutADatasetIsReported) {
+  EXPECT_EQ(InputErrorOf([&] { ReadDataset(temp_.path()); }),
+            temp_.path().string() +
+                ": is no dataset: it has no dataset.yaml. "
+                "Give the folder that holds dataset.yaml.");
+}
+
+TEST_F(BadDatasetFolder, AMissingFileGetsTheNearestInTheFolder) {
+  fs::rename(folder_ / "a.csv", folder_ / "aa.csv");
+  EXPECT_EQ(Error(), yaml_ +
+                         ":18: trials[0].file = a.csv; there is no such file in the dataset. "
+                         "Did you mean aa.csv?");
+}
+
+TEST_F(BadDatasetFolder, ALinkOutOfTheFolderIsRefused) {
+  WriteText(temp_.path() / "secret.csv", kCsv);
+  fs::remove(folder_ / "a.csv");
+  fs::create_symlink("../secret.csv", folder_ / "a.csv");
+  EXPECT_EQ(Error(), yaml_ +
+                         ":18: trials[0].file = a.csv; must lie in the dataset's folder, and this "
+                         "is a link that leads out of it. Put the file itself there.");
+}
+
+TEST_F(BadDatasetFolder, ALinkedSubfolderOutOfTheFolderIsRefused) {
+  WriteText(temp_.path() / "elsewhere" / "a.csv", kCsv);
+  fs::create_directory_symlink(temp_.path() / "elsewhere", folder_ / "sub");
+  WriteText(yaml_, Replace(kYaml, "a.csv", "sub/a.csv"));
+  EXPECT_EQ(Error(),
+            yaml_ +
+                ":18: trials[0].file = sub/a.csv; must lie in the dataset's folder, and this is a "
+                "link that leads out of it. Put the file itself there.");
+}
+
+TEST_F(BadDatasetFolder, ALinkedDatasetFileOutOfTheFolderIsRefused) {
+  fs::rename(yaml_, temp_.path() / "other.yaml");
+  fs::create_symlink("../other.yaml", yaml_);
+  EXPECT_EQ(Error(), yaml_ +
+                         ": is a link that leads out of the dataset's folder. "
+                         "Put the file itself there.");
+}
+
+TEST_F(BadDatasetFolder, AFolderIsNoTrial) {
+  fs::remove(folder_ / "a.csv");
+  fs::create_directory(folder_ / "a.csv");
+  EXPECT_EQ(Error(), yaml_ +
+                         ":18: trials[0].file = a.csv; must be a file, and is a folder, a device "
+                         "or a link to nothing. Give the name of the trial's CSV file.");
+}
+
+TEST_F(BadDatasetFolder, APipeIsNotWaitedFor) {
+  fs::remove(folder_ / "a.csv");
+  ASSERT_EQ(mkfifo((folder_ / "a.csv").c_str(), 0600), 0);
+  EXPECT_EQ(Error(), yaml_ +
+                         ":18: trials[0].file = a.csv; must be a file, and is a folder, a device "
+                         "or a link to nothing. Give the name of the trial's CSV file.");
+}
+
+TEST_F(BadDatasetFolder, AHugeTraceIsRefusedWithoutReadingIt) {
+  fs::resize_file(folder_ / "a.csv", 100ull << 30);  // sparse
+  EXPECT_EQ(Error(), (folder_ / "a.csv").string() +
+                         ": size = 107374182400 bytes; must be at most 67108864 bytes. "
+                         "Cut the recording or lower its sample rate.");
+}
+
+TEST_F(BadDatasetFolder, AHugeDatasetFileIsRefusedWithoutReadingIt) {
+  fs::resize_file(yaml_, 100ull << 30);
+  EXPECT_EQ(Error(), yaml_ +
+                         ": size = 107374182400 bytes; must be at most 1048576 bytes. "
+                         "Cut the recording or lower its sample rate.");
+}
+
+}  // namespace
+}  // namespace hoplab
