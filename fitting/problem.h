@@ -26,7 +26,7 @@ struct SharedParameter {
 
 /// How a contact channel's switching times are compared with the events of a simulation.
 struct ContactTimes {
-  std::vector<double> touchdown_s, liftoff_s;          // middle between the rows they lie between
+  std::vector<double> touchdown_s, liftoff_s;  // middle between the rows they lie between
   std::vector<double> touchdown_sigma_s, liftoff_sigma_s;  // uniform over that gap: gap/sqrt(12)
 };
 
@@ -60,7 +60,7 @@ struct ChannelProblem {
 struct FitProblem {
   Law law = Law::kLargeDeflection;
   std::vector<SharedParameter> shared;
-  std::vector<EffectSetting> effects;  // with their nominal values
+  std::vector<EffectSetting> effects;    // with their nominal values
   std::vector<ChannelProblem> channels;  // without `contact`
   bool uses_contact = false;
   std::vector<TrialProblem> trials;

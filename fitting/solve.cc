@@ -14,9 +14,8 @@ std::string Reason(const TrialProblem& trial, const Trajectory& trajectory) {
   char at[48];
   std::snprintf(at, sizeof at, " at %.3f s", trajectory.end_time);
   return trial.file + ": " +
-         (IsComplete(trajectory.outcome)
-              ? std::string("other contacts than the trace shows")
-              : std::string(SentenceOf(trajectory.outcome)) + at);
+         (IsComplete(trajectory.outcome) ? std::string("other contacts than the trace shows")
+                                         : std::string(SentenceOf(trajectory.outcome)) + at);
 }
 
 // Simulates every trial once per point, in parallel, before Ceres asks its residual blocks one by
@@ -24,8 +23,11 @@ std::string Reason(const TrialProblem& trial, const Trajectory& trajectory) {
 class Evaluations : public ceres::EvaluationCallback {
  public:
   Evaluations(const SolveRequest& request)
-      : request_(request), problem_(*request.problem), trials_(*request.trials),
-        shared_(problem_.shared_count()), starts_(trials_.size()),
+      : request_(request),
+        problem_(*request.problem),
+        trials_(*request.trials),
+        shared_(problem_.shared_count()),
+        starts_(trials_.size()),
         evaluations_(trials_.size()) {
     for (const TrialProblem& trial : trials_) evaluators_.emplace_back(problem_, trial);
     for (int i = 0; i < problem_.shared_count(); ++i)
@@ -37,16 +39,14 @@ class Evaluations : public ceres::EvaluationCallback {
     if (!new_point && (have_jacobian_ || !jacobians)) return;
     Run(jacobians);
     for (std::size_t i = 0; i < trials_.size(); ++i) {
-      if (!evaluations_[i].complete)
-        ++rejected_[Reason(trials_[i], evaluations_[i].trajectory)];
+      if (!evaluations_[i].complete) ++rejected_[Reason(trials_[i], evaluations_[i].trajectory)];
     }
   }
   void Run(bool jacobians) {
     have_jacobian_ = jacobians;
     const Eigen::VectorXd shared = SharedValues();
     ParallelFor(static_cast<int>(trials_.size()), request_.jobs, [&](int i) {
-      evaluators_[i].Evaluate({shared, StartValues(i), jacobians, request_.loss},
-                              evaluations_[i]);
+      evaluators_[i].Evaluate({shared, StartValues(i), jacobians, request_.loss}, evaluations_[i]);
     });
   }
 
@@ -58,8 +58,7 @@ class Evaluations : public ceres::EvaluationCallback {
   }
   std::array<double, 4> StartValues(int trial) const {
     std::array<double, 4> values = request_.starts[trial];
-    for (int i = 0; i < 4; ++i)
-      values[i] += starts_[trial][i] * trials_[trial].start_scale[i];
+    for (int i = 0; i < 4; ++i) values[i] += starts_[trial][i] * trials_[trial].start_scale[i];
     return values;
   }
   double* shared() { return shared_.data(); }
@@ -135,17 +134,23 @@ class Watch : public ceres::IterationCallback {
 void HoldComponents(ceres::Problem& problem, double* block, int size,
                     const std::vector<int>& held) {
   if (held.empty()) return;
-  if (static_cast<int>(held.size()) == size) problem.SetParameterBlockConstant(block);
-  else problem.SetManifold(block, new ceres::SubsetManifold(size, held));
+  if (static_cast<int>(held.size()) == size)
+    problem.SetParameterBlockConstant(block);
+  else
+    problem.SetManifold(block, new ceres::SubsetManifold(size, held));
 }
 
 SolveStatus StatusOf(const ceres::Solver::Summary& summary) {
   switch (summary.termination_type) {
-    case ceres::CONVERGENCE: return SolveStatus::kConverged;
-    case ceres::NO_CONVERGENCE: return SolveStatus::kIterationLimit;
+    case ceres::CONVERGENCE:
+      return SolveStatus::kConverged;
+    case ceres::NO_CONVERGENCE:
+      return SolveStatus::kIterationLimit;
     case ceres::USER_FAILURE:
-    case ceres::USER_SUCCESS: return SolveStatus::kInterrupted;
-    default: return SolveStatus::kFailed;
+    case ceres::USER_SUCCESS:
+      return SolveStatus::kInterrupted;
+    default:
+      return SolveStatus::kFailed;
   }
 }
 
@@ -153,11 +158,16 @@ SolveStatus StatusOf(const ceres::Solver::Summary& summary) {
 
 std::string_view NameOf(SolveStatus status) {
   switch (status) {
-    case SolveStatus::kConverged: return "converged";
-    case SolveStatus::kIterationLimit: return "iteration_limit";
-    case SolveStatus::kNoStart: return "no_start";
-    case SolveStatus::kFailed: return "failed";
-    case SolveStatus::kInterrupted: return "interrupted";
+    case SolveStatus::kConverged:
+      return "converged";
+    case SolveStatus::kIterationLimit:
+      return "iteration_limit";
+    case SolveStatus::kNoStart:
+      return "no_start";
+    case SolveStatus::kFailed:
+      return "failed";
+    case SolveStatus::kInterrupted:
+      return "interrupted";
   }
   return "";
 }
