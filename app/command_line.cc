@@ -48,9 +48,10 @@ class CommandLine {
       app_.exit(done, console_.out, console_.err);
       return ExitCode::kDone;
     } catch (const CLI::ParseError& error) {
-      return Fail(ExitCode::kWrongUse, error.what() + OptionHint() + " See " + HelpCall() + ".");
+      return Fail(ExitCode::kWrongUse,
+                  Stop(error.what()) + OptionHint() + " See " + HelpCall() + ".");
     } catch (const UsageError& error) {
-      return Fail(ExitCode::kWrongUse, error.what() + std::string(". See ") + HelpCall() + ".");
+      return Fail(ExitCode::kWrongUse, Stop(error.what()) + " See " + HelpCall() + ".");
     } catch (const InputError& error) {
       return Fail(ExitCode::kBadInput, error.what());
     } catch (const std::bad_alloc&) {
@@ -72,8 +73,7 @@ class CommandLine {
     if (std::find(known.begin(), known.end(), first) != known.end()) {
       command_ = first;
     } else if (!first.starts_with("-")) {
-      throw UsageError("there is no command " + Printable(first) + ". " +
-                       WithoutStop(DidYouMean(first, known)));
+      throw UsageError("there is no command " + Printable(first) + ". " + DidYouMean(first, known));
     }
     app_.parse(argc, argv);
     const ExitCode code = invocation_.run(console_);
@@ -88,8 +88,9 @@ class CommandLine {
     return names;
   }
 
-  static std::string WithoutStop(std::string text) {
-    if (text.ends_with('.')) text.pop_back();
+  // With a stop at the end.
+  static std::string Stop(std::string text) {
+    if (!text.ends_with('.') && !text.ends_with('?')) text += '.';
     return text;
   }
 
@@ -104,9 +105,9 @@ class CommandLine {
     for (const std::string& extra : app_.remaining(true)) {
       if (!extra.starts_with("--")) continue;
       if (const auto nearest = NearestWord(extra.substr(0, extra.find('=')), known))
-        return ". Did you mean " + *nearest + "?";
+        return " Did you mean " + *nearest + "?";
     }
-    return ".";
+    return "";
   }
 
   std::string HelpCall() const {

@@ -15,7 +15,8 @@ namespace {
 
 // A loading below this is not worth a reader's time.
 constexpr double kSmallLoading = 0.1;
-constexpr int kLabelWidth = 12;
+constexpr std::size_t kLabelWidth = 13;
+constexpr std::size_t kLineWidth = 98;
 
 struct Interval {
   double low, high;
@@ -66,8 +67,10 @@ std::vector<std::string> ParameterLines(const FitRun& run) {
     const std::optional<Interval> noise = IntervalOf(u.ci95);
     const std::optional<Interval> between =
         misfit ? IntervalOf(u.ci95_between_trials) : std::nullopt;
-    const double width = between ? between->half_width() : noise ? noise->half_width() : 0.0;
-    const int decimals = DecimalsFor(width * unit.factor);
+    // Two digits of the interval that counts, at least one of the other.
+    const int decimals =
+        std::max(noise ? DecimalsFor(noise->half_width() * unit.factor) - (between ? 1 : 0) : 0,
+                 between ? DecimalsFor(between->half_width() * unit.factor) : 0);
     table.AddRow(
         {s.name, noise ? Fixed(value * unit.factor, decimals) : Significant(value * unit.factor, 4),
          noise ? IntervalText(noise, unit.factor, decimals) : "none",
@@ -77,9 +80,27 @@ std::vector<std::string> ParameterLines(const FitRun& run) {
   return table.Lines();
 }
 
+// "  label       text", the text wrapped at kLineWidth and indented.
 std::string Labelled(const std::string& label, const std::string& text, bool colours) {
   const std::string padded = fmt::format("{:<{}}", label, kLabelWidth);
-  return "  " + Styled(padded, Emphasis::kFaint, colours) + text + "\n";
+  std::string out = "  " + Styled(padded, Emphasis::kFaint, colours);
+  const std::size_t indent = 2 + kLabelWidth;
+  std::size_t column = indent;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::size_t length = end - begin;
+    if (column > indent && column + 1 + length > kLineWidth) {
+      out += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (column > indent) {
+      out += ' ';
+      ++column;
+    }
+    out += text.substr(begin, length);
+    column += length;
+    begin = end + 1;
+  }
+  return out + "\n";
 }
 
 std::string ErrorLine(const FitRun& run, const RoleErrors& errors) {
@@ -95,9 +116,9 @@ std::string ErrorLine(const FitRun& run, const RoleErrors& errors) {
 
 std::string MisfitLine(const Uncertainty& u, bool between) {
   return fmt::format(
-      "the model misses more than the noise (chi2 {} per sample, 1 expected), so the noise-only "
-      "interval is too narrow{}",
-      Significant(u.chi2_per_dof, 3), between ? "; go by the one between trials" : "");
+      "the model misses more than the noise (chi2 {} per sample, 1 expected): the interval from "
+      "noise alone is too narrow{}",
+      Significant(u.chi2_per_dof, 3), between ? ", go by the one between trials" : "");
 }
 
 // Trials whose simulation did not reach the end of their data, and legs bent beyond the law.
@@ -198,11 +219,10 @@ std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
     text += Labelled("misfit", MisfitLine(u, between), colours);
   }
   text += Labelled("determined", DeterminedLine(run.problem, u, ""), colours);
-  text += Labelled(
-      "error train",
-      ErrorLine(run, Summarise(run.problem, run.trials, TrialRole::kTrain)) +
-          "; test: " + ErrorLine(run, Summarise(run.problem, run.trials, TrialRole::kTest)),
-      colours);
+  for (const TrialRole role : {TrialRole::kTrain, TrialRole::kTest}) {
+    text += Labelled(role == TrialRole::kTrain ? "train error" : "test error",
+                     ErrorLine(run, Summarise(run.problem, run.trials, role)), colours);
+  }
   text += Labelled("gradients", CertificateLine(run.certificate), colours);
   for (const Profile& p : run.profiles) {
     const SharedParameter& s = run.problem.shared[p.parameter];

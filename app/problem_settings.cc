@@ -10,23 +10,33 @@ namespace hoplab {
 
 void AddIntegratorOptions(CLI::App& sub, std::string& integrator, double& tolerance) {
   sub.add_option("--integrator", integrator, "dop853 (default), erkstep or cvodes")
-      ->check(CLI::IsMember({"dop853", "erkstep", "cvodes"}));
+      ->check(CLI::IsMember({"dop853", "erkstep", "cvodes"}))
+      ->option_text("NAME");
   sub.add_option("--tolerance", tolerance, "Relative tolerance of a step (default 1e-9)")
-      ->check(CLI::Range(1e-14, 1e-3));
+      ->check(CLI::Range(1e-14, 1e-3))
+      ->option_text("NUMBER");
 }
 
 void AddProblemOptions(CLI::App& sub, ProblemSettings& settings) {
   sub.add_option("DATASET", settings.dataset, "Folder with a dataset.yaml")->required();
-  sub.add_option("--law", settings.law, "How the leg carries its load; see hoplab laws");
+  sub.add_option("--law", settings.law, "How the leg carries its load; see hoplab laws")
+      ->option_text("LAW");
   sub.add_option("--free", settings.free, "Parameters to fit, as E,d,air_drag.c_drag")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->option_text("NAME,...")
+      ->allow_extra_args(false);
   sub.add_option("--fix", settings.fix, "name=value in SI units: hold a parameter; repeatable")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->option_text("NAME=VALUE")
+      ->allow_extra_args(false);
   sub.add_option("--with", settings.with, "Effects whose parameters are fitted; see hoplab effects")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->option_text("EFFECT,...")
+      ->allow_extra_args(false);
   AddIntegratorOptions(sub, settings.integrator, settings.tolerance);
   sub.add_option("--jobs", settings.jobs, "Threads (default: all cores); never changes a result")
-      ->check(CLI::Range(1, 1024));
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N");
 }
 
 IntegratorOptions IntegratorOptionsOf(const std::string& integrator, double tolerance) {

@@ -36,11 +36,16 @@ void SetEffect(const std::string& text, ScenarioDocument& document) {
 void AddScenarioOptions(CLI::App& sub, ScenarioSettings& settings) {
   sub.add_option("SCENARIO", settings.scenario, "File of the format hoplab-scenario/1")->required();
   sub.add_option("--set", settings.set,
-                 "key=value over the file, as controller.kp_N_s=4; repeatable");
+                 "key=value over the file, as controller.kp_N_s=4; repeatable")
+      ->option_text("KEY=VALUE")
+      ->allow_extra_args(false);
   sub.add_option("--with", settings.with,
                  "effect:parameter=value, as air_drag:c_drag=0.05; repeatable")
-      ->delimiter(',');
-  sub.add_option("--law", settings.law, "How the leg carries its load; see hoplab laws");
+      ->delimiter(',')
+      ->option_text("EFFECT:PARAMETER=VALUE")
+      ->allow_extra_args(false);
+  sub.add_option("--law", settings.law, "How the leg carries its load; see hoplab laws")
+      ->option_text("LAW");
 }
 
 Scenario ReadScenarioOf(const ScenarioSettings& settings) {

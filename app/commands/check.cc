@@ -173,7 +173,8 @@ void AddCheckCommand(CLI::App& app, Invocation& invocation) {
   CLI::App& sub = *app.add_subcommand(
       "check", "Data quality, identifiability and gradients of a dataset, before any fit");
   AddProblemOptions(sub, settings->problem);
-  sub.add_option("--out", settings->out, "Write a run folder here (default: nothing is written)");
+  sub.add_option("--out", settings->out, "Write a run folder here (default: nothing is written)")
+      ->option_text("DIR");
   sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
   sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
   sub.footer(

@@ -92,7 +92,7 @@ ExitCode RunFitCommand(const FitSettings& settings, Console& console) {
     console.out << TextOf(record);
   } else {
     console.out << FitReport(dataset, run, console.out_colours)
-                << Styled("  run folder  ", Emphasis::kFaint, console.out_colours) << kept << '\n';
+                << Styled("  run folder   ", Emphasis::kFaint, console.out_colours) << kept << '\n';
   }
   if (!run.Failure().empty()) console.err << "hoplab fit: " << run.Failure() << '\n';
   if (run.interrupted) console.err << "kept: " << (keep ? kept : "nothing") << '\n';
@@ -107,19 +107,26 @@ void AddFitCommand(CLI::App& app, Invocation& invocation) {
   AddProblemOptions(sub, settings->problem);
   sub.add_option("--starts", settings->starts,
                  "Searches: one from the nominal values, then scattered")
-      ->check(CLI::Range(1, 1000000));
-  sub.add_option("--seed", settings->seed, "Of the scattered starts (default 1)");
+      ->check(CLI::Range(1, 1000000))
+      ->option_text("N");
+  sub.add_option("--seed", settings->seed, "Of the scattered starts (default 1)")->option_text("N");
   sub.add_option("--strategy", settings->strategy,
                  "apex_shooting (default), growing_horizon or raw")
-      ->check(CLI::IsMember({"raw", "growing_horizon", "apex_shooting"}));
+      ->check(CLI::IsMember({"raw", "growing_horizon", "apex_shooting"}))
+      ->option_text("NAME");
   sub.add_option("--loss", settings->loss, "squared (default) or pseudo_huber")
-      ->check(CLI::IsMember({"squared", "pseudo_huber"}));
+      ->check(CLI::IsMember({"squared", "pseudo_huber"}))
+      ->option_text("NAME");
   sub.add_option("--loss-scale", settings->loss_scale,
                  "Standard deviations from which pseudo_huber is linear (default 2)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->option_text("NUMBER");
   sub.add_option("--profile", settings->profile, "Profile likelihood of these parameters, or all")
-      ->delimiter(',');
-  sub.add_option("--out", settings->out, "Run folder (default runs/<dataset>-fit-NNN)");
+      ->delimiter(',')
+      ->option_text("NAME,...")
+      ->allow_extra_args(false);
+  sub.add_option("--out", settings->out, "Run folder (default runs/<dataset>-fit-NNN)")
+      ->option_text("DIR");
   sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
   sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
   sub.footer(

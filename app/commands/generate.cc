@@ -77,9 +77,12 @@ void AddGenerateCommand(CLI::App& app, Invocation& invocation) {
   AddScenarioOptions(sub, settings->scenario);
   sub.add_option("--noise", settings->noise,
                  "1 standard deviation of every channel, in its unit (default: the scenario's)")
-      ->check(CLI::NonNegativeNumber);
-  sub.add_option("--seed", settings->seed, "Of the noise (default 1)");
-  sub.add_option("--out", settings->out, "Folder of the new dataset")->required();
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("SIGMA");
+  sub.add_option("--seed", settings->seed, "Of the noise (default 1)")->option_text("N");
+  sub.add_option("--out", settings->out, "Folder of the new dataset")
+      ->required()
+      ->option_text("DATASET");
   sub.add_flag("--force", settings->force, "Replace the dataset that stands there");
   sub.footer(
       "Examples:\n"

@@ -149,8 +149,11 @@ void AddSimulateCommand(CLI::App& app, Invocation& invocation) {
   AddIntegratorOptions(sub, settings->integrator, settings->tolerance);
   sub.add_option("--sensitivities", settings->sensitivities,
                  "Derivatives of the end and of event times, as E,d,x0,air_drag.c_drag")
-      ->delimiter(',');
-  sub.add_option("--out", settings->out, "Run folder (default runs/<scenario>-simulate-NNN)");
+      ->delimiter(',')
+      ->option_text("NAME,...")
+      ->allow_extra_args(false);
+  sub.add_option("--out", settings->out, "Run folder (default runs/<scenario>-simulate-NNN)")
+      ->option_text("DIR");
   sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
   sub.footer(
       "Examples:\n"
