@@ -144,12 +144,13 @@ std::vector<std::string> TrialRemarks(const FitRun& run) {
 
 std::string LoadingsText(const FitProblem& problem, const WeakDirection& weak) {
   std::vector<std::string> parts;
+  std::string only;
   for (int i = 0; i < problem.shared_count(); ++i) {
     if (std::abs(weak.loadings[i]) < kSmallLoading) continue;
-    parts.push_back(problem.shared_count() == 1
-                        ? problem.shared[i].name
-                        : fmt::format("{:+.2f} {}", weak.loadings[i], problem.shared[i].name));
+    only = problem.shared[i].name;
+    parts.push_back(fmt::format("{:+.2f} {}", weak.loadings[i], only));
   }
+  if (parts.size() == 1) return only;
   return Join(parts, " ");
 }
 

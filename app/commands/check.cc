@@ -14,6 +14,7 @@
 #include "app/quantity.h"
 #include "app/run_folder.h"
 #include "app/text_table.h"
+#include "app/warnings.h"
 #include "base/text.h"
 #include "datasets/read_dataset.h"
 #include "fitting/noise.h"
@@ -136,7 +137,7 @@ std::string Report(const Dataset& dataset, const FitProblem& problem, const Chec
           "\n  gradients   " + CertificateLine(check.certificate) + "\n";
   for (const std::string& note : check.notes) text += "  note        " + note + "\n";
   if (check.warnings.empty()) text += "  warnings    none\n";
-  for (const std::string& warning : check.warnings) {
+  for (const std::string& warning : CollapseWarnings(check.warnings)) {
     text += "  " + Styled("warning", Emphasis::kWarning, colours) + "     " + warning + "\n";
   }
   return text;

@@ -13,6 +13,7 @@
 #include "app/progress.h"
 #include "app/quantity.h"
 #include "app/run_folder.h"
+#include "app/warnings.h"
 #include "datasets/read_dataset.h"
 
 namespace hoplab {
@@ -70,7 +71,7 @@ ExitCode RunFitCommand(const FitSettings& settings, Console& console) {
   options.stage = [&](std::string_view stage) { progress.Stage(std::string(stage)); };
   options.checked = [&](const CheckReport& check) {
     progress.Clear();
-    for (const std::string& warning : check.warnings) Warn(console, warning);
+    for (const std::string& warning : CollapseWarnings(check.warnings)) Warn(console, warning);
   };
   options.fit.progress = [&](int start, std::string_view stage, int iteration, double cost) {
     progress.Step(StepText(start, settings.starts, stage, iteration, cost));
