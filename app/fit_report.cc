@@ -37,15 +37,14 @@ std::string Plural(long count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-std::string Headline(const Dataset& dataset, const FitRun& run) {
+std::string Headline(const FitRun& run) {
   long train = 0, test = 0, samples = 0;
   for (const TrialProblem& t : run.problem.trials) {
     ++(t.role == TrialRole::kTrain ? train : test);
     if (t.role == TrialRole::kTrain) samples += t.sample_count;
   }
-  return fmt::format("law {}, {} train and {}, {}", NameOf(run.problem.law), train,
-                     Plural(test, "test trial"), Plural(samples, "train sample")) +
-         (dataset.title.empty() ? "" : "; " + Printable(dataset.title, 100));
+  return fmt::format("  law {}, {} train and {}, {}", NameOf(run.problem.law), train,
+                     Plural(test, "test trial"), Plural(samples, "train sample"));
 }
 
 // One line a shared parameter.
@@ -105,6 +104,10 @@ std::string Labelled(const std::string& label, const std::string& text, bool col
 
 std::string ErrorLine(const FitRun& run, const RoleErrors& errors) {
   if (errors.trials == 0) return "no such trials";
+  if (errors.incomplete > 0) {
+    return fmt::format("not computed: {} of {} simulations ended before their data",
+                       errors.incomplete, errors.trials);
+  }
   std::vector<std::string> parts;
   for (std::size_t c = 0; c < run.problem.channels.size(); ++c) {
     const std::string name(NameOf(run.problem.channels[c].channel));
@@ -203,8 +206,9 @@ std::string CertificateLine(const std::optional<GradientCertificate>& certificat
 }
 
 std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
-  std::string text = Styled(Printable(dataset.name, 100), Emphasis::kBold, colours) + "  " +
-                     Headline(dataset, run) + "\n";
+  std::string text = Styled(Printable(dataset.name, 100), Emphasis::kBold, colours);
+  if (!dataset.title.empty()) text += "  " + Printable(dataset.title, 100);
+  text += "\n" + Headline(run) + "\n";
   if (!run.has_result) return text + Labelled("no result", run.Failure(), colours);
   text += "\n";
   const std::vector<std::string> lines = ParameterLines(run);

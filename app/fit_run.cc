@@ -73,9 +73,10 @@ std::string FitRun::Failure() const {
     return "interrupted; the result is the best of " + std::to_string(finished_starts()) +
            " finished start" + (finished_starts() == 1 ? "" : "s");
   }
-  if (!has_result)
-    return fit.message.empty() ? "the search led nowhere"
-                               : "the search led nowhere: " + fit.message;
+  if (!has_result) {
+    return "the search led nowhere" + (fit.message.empty() ? "" : ": " + fit.message) +
+           "; try --starts 8, other nominal values or another law";
+  }
   if (AllUndetermined())
     return "the data determine none of the parameters (" + Join(problem.shared_names()) + ")";
   return "";
