@@ -203,6 +203,7 @@ Json OptionsRecord(const std::string& dataset_argument, const FitProblem& proble
           {"starts", options.fit.starts},
           {"seed", options.fit.seed},
           {"strategy", NameOf(options.fit.strategy)},
+          {"span", NameOf(options.span)},
           {"loss", options.fit.loss.kind == LossKind::kSquared ? "squared" : "pseudo_huber"},
           {"loss_scale", options.fit.loss.scale},
           {"max_iterations", options.fit.max_iterations},
@@ -246,8 +247,10 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
       assessed ? MatrixRecord(run.problem, run.uncertainty->correlation) : Json(nullptr);
   record["profiles"] = ProfilesRecord(run);
   record["channels"] = ChannelsRecord(run.problem);
+  record["fitted"] = run.by_hop ? "single hops" : "whole traces";
   record["warnings"] = run.check.warnings;
   record["notes"] = run.check.notes;
+  if (!run.note.empty()) record["notes"].push_back(run.note);
   record["tools"] = ToolsRecord();
   return record;
 }

@@ -44,7 +44,8 @@ std::string Headline(const FitRun& run) {
     if (t.role == TrialRole::kTrain) samples += t.sample_count;
   }
   return fmt::format("  law {}, {} train and {}, {}", NameOf(run.problem.law), train,
-                     Plural(test, "test trial"), Plural(samples, "train sample"));
+                     Plural(test, run.by_hop ? "test hop" : "test trial"),
+                     Plural(samples, "train sample"));
 }
 
 // One line a shared parameter.
@@ -242,6 +243,7 @@ std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
         fmt::format("{}: {} .. {} {}", s.name, side(p.lower95), side(p.upper95), unit.unit),
         colours);
   }
+  if (!run.note.empty()) text += Labelled("note", run.note, colours);
   for (const std::string& remark : TrialRemarks(run)) text += Labelled("note", remark, colours);
   return text;
 }

@@ -91,7 +91,11 @@ FitRun RunFit(const Dataset& dataset, const FitRunOptions& options) {
   if (options.checked) options.checked(run.check);
 
   Announce(options, "fitting " + Join(run.problem.shared_names()));
-  run.fit = Fit(run.problem, options.fit);
+  DatasetFit fitted = FitDataset(dataset, options.problem, options.fit, options.span);
+  run.problem = std::move(fitted.problem);
+  run.fit = std::move(fitted.result);
+  run.by_hop = fitted.by_hop;
+  run.note = std::move(fitted.note);
   run.interrupted = run.fit.interrupted;
   run.has_result = run.fit.ok && IsFinished(run.fit.records[run.fit.best_start]);
   if (!run.has_result) return run;

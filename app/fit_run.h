@@ -9,6 +9,7 @@
 #include "datasets/dataset.h"
 #include "fitting/check.h"
 #include "fitting/fit.h"
+#include "fitting/fit_dataset.h"
 #include "fitting/gradient_certificate.h"
 #include "fitting/profile.h"
 #include "fitting/trial_errors.h"
@@ -19,6 +20,7 @@ namespace hoplab {
 struct FitRunOptions {
   ProblemOptions problem;
   FitOptions fit;
+  FitSpan span = FitSpan::kWholeElseHops;
   std::vector<std::string> profile;  // shared parameters, or "all"
   /// Called where a stage begins.
   std::function<void(std::string_view stage)> stage = nullptr;
@@ -29,8 +31,10 @@ struct FitRunOptions {
 /// All that `hoplab fit` computes: the search, then what its optimum is worth. What follows the
 /// search is absent if it led nowhere.
 struct FitRun {
-  FitProblem problem;
+  FitProblem problem;  // trials are single hops if `by_hop`
   CheckReport check;
+  bool by_hop = false;
+  std::string note;  // why it was fitted hop by hop, or that hops and whole traces disagree
   FitResult fit;
   /// At least one start ran to its end: there is something to report.
   bool has_result = false;

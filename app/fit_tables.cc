@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTrajectoryRate = 500.0;  // Hz
 
-std::string Residuals(const Dataset& dataset, const FitRun& run) {
+std::string Residuals(const FitRun& run) {
   CsvText csv({"trial", "time_s", "channel", "measured", "simulated", "whitened"});
   const std::size_t width = run.problem.channels.size();
   for (std::size_t i = 0; i < run.trials.size(); ++i) {
@@ -19,7 +19,7 @@ std::string Residuals(const Dataset& dataset, const FitRun& run) {
       const ChannelProblem& channel = run.problem.channels[cell % width];
       const double measured = trial.data[cell], simulated = samples[cell];
       csv.Cell(trial.file)
-          .Cell(dataset.trials[i].trace.time_s[cell / width])
+          .Cell(trial.begin_s + trial.row_times[cell / width])
           .Cell(NameOf(channel.channel))
           .Cell(measured)
           .Cell(simulated)
@@ -30,10 +30,10 @@ std::string Residuals(const Dataset& dataset, const FitRun& run) {
   return csv.text();
 }
 
-std::string Hops(const Dataset& dataset, const FitRun& run) {
+std::string Hops(const FitRun& run) {
   CsvText csv({"trial", "hop", "begin_s", "end_s", "channel", "rmse"});
   for (std::size_t i = 0; i < run.trials.size(); ++i) {
-    const double offset = dataset.trials[i].trace.time_s.front();
+    const double offset = run.problem.trials[i].begin_s;
     const std::vector<HopErrors>& hops = run.trials[i].hops;
     for (std::size_t h = 0; h < hops.size(); ++h) {
       for (std::size_t c = 0; c < run.problem.channels.size(); ++c) {
@@ -50,16 +50,15 @@ std::string Hops(const Dataset& dataset, const FitRun& run) {
   return csv.text();
 }
 
-std::string Events(const Dataset& dataset, const FitRun& run) {
+std::string Events(const FitRun& run) {
   CsvText csv(EventHeader(true));
   for (std::size_t i = 0; i < run.trials.size(); ++i) {
-    AddEventRows(run.trials[i].trajectory, run.trials[i].file,
-                 dataset.trials[i].trace.time_s.front(), csv);
+    AddEventRows(run.trials[i].trajectory, run.trials[i].file, run.problem.trials[i].begin_s, csv);
   }
   return csv.text();
 }
 
-std::string Trajectories(const Dataset& dataset, const FitRun& run) {
+std::string Trajectories(const FitRun& run) {
   CsvText csv(TrajectoryHeader(true));
   for (std::size_t i = 0; i < run.trials.size(); ++i) {
     const TrialProblem& trial = run.problem.trials[i];
@@ -73,8 +72,7 @@ std::string Trajectories(const Dataset& dataset, const FitRun& run) {
     request.initial = run.trials[i].start;
     request.horizon = trial.row_times.back();
     request.integrator = run.problem.integrator;
-    AddTrajectoryRows(request, kTrajectoryRate, trial.file, dataset.trials[i].trace.time_s.front(),
-                      csv);
+    AddTrajectoryRows(request, kTrajectoryRate, trial.file, run.problem.trials[i].begin_s, csv);
   }
   return csv.text();
 }
@@ -92,13 +90,13 @@ std::string Profiles(const FitRun& run) {
 
 }  // namespace
 
-std::map<std::string, std::string> FitTables(const Dataset& dataset, const FitRun& run) {
+std::map<std::string, std::string> FitTables(const FitRun& run) {
   std::map<std::string, std::string> tables;
   if (!run.has_result) return tables;
-  tables["residuals.csv"] = Residuals(dataset, run);
-  tables["hops.csv"] = Hops(dataset, run);
-  tables["events.csv"] = Events(dataset, run);
-  tables["trajectories.csv"] = Trajectories(dataset, run);
+  tables["residuals.csv"] = Residuals(run);
+  tables["hops.csv"] = Hops(run);
+  tables["events.csv"] = Events(run);
+  tables["trajectories.csv"] = Trajectories(run);
   if (!run.profiles.empty()) tables["profile.csv"] = Profiles(run);
   return tables;
 }

@@ -1,7 +1,9 @@
 # Flags every target of the project shares.
 add_library(hoplab_settings INTERFACE)
 target_include_directories(hoplab_settings INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
-target_compile_options(hoplab_settings INTERFACE -Wall -Wextra -Wpedantic -Werror -Wno-psabi)
+target_compile_options(hoplab_settings INTERFACE -Wall -Wextra -Wpedantic -Werror -Wno-psabi
+                       # Settings structs are filled by name; the rest keep their defaults.
+                       -Wno-missing-field-initializers)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports false positives inside Eigen and std::string at -O3.
   target_compile_options(hoplab_settings INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds

@@ -15,7 +15,7 @@ Dataset ReadDataset(const std::filesystem::path& folder);
 
 /// The same from texts in memory: dataset.yaml and the trials' files by name. `place` stands for
 /// the folder in messages.
-Dataset ReadDatasetText(const std::string& yaml, const std::map<std::string, std::string>& files,
+Dataset ReadDatasetText(const std::string& yaml, const std::map<std::string, std::string>& texts,
                         const std::string& place = "");
 
 }  // namespace hoplab

@@ -99,7 +99,7 @@ std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProb
   std::vector<TrialProblem> pieces;
   int first = 0;
   for (std::size_t i = 0; i <= apexes.size(); ++i) {
-    const int last = i < apexes.size() ? apexes[i].row + 1 : rows;
+    const int last = i < apexes.size() ? apexes[i].row : rows;
     if (last - first >= 8) {
       TrialProblem piece = CutTrial(problem, trial, first, last);
       if (i > 0) piece.start = apexes[i - 1].state;
@@ -108,6 +108,23 @@ std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProb
     if (i < apexes.size()) first = apexes[i].row;
   }
   return pieces;
+}
+
+FitProblem SplitIntoHops(const FitProblem& problem) {
+  FitProblem split = problem;
+  split.trials.clear();
+  for (const TrialProblem& trial : problem.trials) {
+    std::vector<TrialProblem> pieces = CutAtApexes(problem, trial);
+    if (pieces.size() < 2) {
+      split.trials.push_back(trial);
+      continue;
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      pieces[i].file = trial.file + " hop " + std::to_string(i + 1);
+      split.trials.push_back(std::move(pieces[i]));
+    }
+  }
+  return split;
 }
 
 }  // namespace hoplab

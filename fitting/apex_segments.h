@@ -10,6 +10,12 @@ namespace hoplab {
 /// a hop, each starting at the state a parabola through its flight shows. In such a piece an error
 /// of stiffness shifts one flight, not ten: multiple shooting, with the nodes read off the data.
 /// Empty if the trace has no `body_y_m` to see apexes in.
+/// The pieces share no row.
 std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProblem& trial);
+
+/// The problem with every trial replaced by its hops, each a trial with a start of its own: what
+/// can be fitted when no parameters let a whole trace be simulated. Trials that show no apexes stay
+/// whole.
+FitProblem SplitIntoHops(const FitProblem& problem);
 
 }  // namespace hoplab

@@ -216,6 +216,7 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
                          : ShootApexes(problem, trials, shared, options, start_number);
     result = Solve(request);
     // The long run falls where single hops do not: let it grow to its full length.
+    if (options.strategy == FitStrategy::kApexShooting) record.hops = request.shared;
     if (options.strategy == FitStrategy::kApexShooting && result.status == SolveStatus::kNoStart &&
         !Stopped(options))
       result = GrowHorizon(problem, trials, request.shared, options, start_number);

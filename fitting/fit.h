@@ -33,6 +33,7 @@ struct FitOptions {
 /// One start of the search and where it led.
 struct StartRecord {
   Eigen::VectorXd from;    // shared values it began with
+  Eigen::VectorXd hops;    // what single hops made of them (kApexShooting); else empty
   Eigen::VectorXd shared;  // where it ended
   double cost = 0.0;       // NaN if it led nowhere
   SolveStatus status = SolveStatus::kFailed;

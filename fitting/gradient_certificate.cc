@@ -19,13 +19,21 @@ IntegratorOptions Tight(const IntegratorOptions& options) {
   return tight;
 }
 
-// Step of the widest difference as a share of the scale: its h^4 remainder after extrapolation and
+// Step of the widest difference as a share of the size of the value: its h^4 remainder after extrapolation and
 // the simulations' 1e-12 over it balance near 1e-3 for hop traces.
 constexpr double kStep = 1e-3;
 // Below this guard rate [1/s] an event is close to grazing: a start half a hop earlier would meet
 // it at more than 1 in every hop trace seen.
 constexpr double kNearGrazing = 1e-2;
 constexpr double kNearMiss = 1e-3;
+
+// A prior may pin a start component to 1e-9: differences need more room than that.
+constexpr double kLeastStartStep = 1e-5;
+
+// A shared value may have moved far below its nominal size (but zero is no size).
+double Size(const SharedParameter& s, double value) {
+  return std::clamp(std::abs(value), 0.01 * s.scale, s.scale);
+}
 
 struct TrialReport {
   std::vector<double> errors;  // per column; NaN: zero column
@@ -59,9 +67,8 @@ TrialReport CheckTrial(const FitProblem& problem, const TrialProblem& trial,
   const std::size_t columns = problem.channels.size();
   for (int k = 0; k < width; ++k) {
     if (k >= n && !trial.start_free[k - n]) continue;
-    const double scale = k < n ? problem.shared[k].scale : trial.start_scale[k - n];
-    // A prior may pin a start component to 1e-9: differences need more room than that.
-    const double h = k < n ? kStep * scale : std::max(kStep * scale, 1e-5);
+    const double h = k < n ? kStep * Size(problem.shared[k], shared[k])
+                           : std::max(kStep * trial.start_scale[k - n], kLeastStartStep);
     const auto simulate = [&](double offset, std::vector<double>& samples) {
       Eigen::VectorXd p = shared;
       std::array<double, 4> z = start;

@@ -23,8 +23,8 @@ constexpr double kNormal975 = 1.959963984540054;
 struct Reduced {
   Eigen::VectorXd r;  // residuals orthogonal to what the start can explain
   Eigen::MatrixXd S;  // shared columns, likewise
-  int samples = 0;
-  double chi2 = 0.0;
+  int samples = 0;    // of data
+  double chi2 = 0.0;  // of data and prior
 };
 
 // Empty if the simulation ends before the data.
@@ -37,7 +37,7 @@ Reduced ReduceTrial(const FitProblem& problem, const TrialProblem& trial,
   Reduced out;
   if (!e.complete) return out;
   out.samples = e.data_residuals;
-  out.chi2 = e.residuals.head(e.data_residuals).squaredNorm();
+  out.chi2 = e.residuals.squaredNorm();
   const int n = problem.shared_count();
   Eigen::MatrixXd S = e.jacobian.leftCols(n);
   for (int k = 0; k < n; ++k) S.col(k) *= problem.shared[k].scale;
@@ -87,7 +87,7 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
 
   Uncertainty out;
   out.parameters.resize(n);
-  long rows = 0, samples = 0, free_starts = 0, used = 0;
+  long rows = 0, samples = 0, free_starts = 0, priors = 0, used = 0;
   double chi2 = 0.0;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     rows += reduced[i].r.size();
@@ -95,8 +95,10 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
     chi2 += reduced[i].chi2;
     if (reduced[i].samples == 0) continue;
     ++used;
-    for (int k = 0; k < 4; ++k)
-      free_starts += trials[i].start_free[k] && !std::isfinite(trials[i].prior_sigma[k]);
+    for (int k = 0; k < 4; ++k) {
+      free_starts += trials[i].start_free[k];
+      priors += std::isfinite(trials[i].prior_sigma[k]);
+    }
   }
 
   // Values on a bound are taken as given; what the rest would do if they moved is a question for
@@ -108,7 +110,7 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
   }
   const int m = static_cast<int>(active.size());
 
-  const double dof = std::max<double>(static_cast<double>(samples - free_starts - m), 1.0);
+  const double dof = std::max<double>(static_cast<double>(samples + priors - free_starts - m), 1.0);
   out.chi2_per_dof = chi2 / dof;
   out.chi2_p_value =
       boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), chi2));

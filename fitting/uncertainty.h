@@ -41,7 +41,7 @@ struct Uncertainty {
   Identifiability identifiability;
   Eigen::MatrixXd covariance;   // of the shared values, own units; NaN rows where undetermined
   Eigen::MatrixXd correlation;  // NaN where undetermined
-  double chi2_per_dof = 0.0;    // whitened residuals of the train trials
+  double chi2_per_dof = 0.0;    // whitened residuals and priors of the trials
   /// p-value of chi2 if the model were right and the noise as stated.
   double chi2_p_value = 1.0;
   /// The model misses more than the noise (p < 0.001): intervals from noise alone are too narrow.

@@ -66,6 +66,12 @@ struct LegCompliance {
     const HalfAngle h(phi);
     return Chord(BendingShape(h), AxialShape(h), ShearShape(h));
   }
+  /// C(phi) [m/N] at an angle that carries directions.
+  T ChordAt(const T& phi) const {
+    const HalfAngle h(Value(phi));
+    const ShapeValue b = BendingShape(h), a = AxialShape(h), s = ShearShape(h);
+    return Chord(b, a, s) + Value(ChordD1(b, a, s)) * (phi - Value(phi));
+  }
   /// C2(phi) [m/N^2], M2b.
   T SecondOrder(double phi) const { return second_order * SecondOrderShape(HalfAngle(phi)).value; }
 };

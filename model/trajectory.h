@@ -30,7 +30,9 @@ struct Segment {
 /// A simulated run: outcome, events, segments, and the samples asked for.
 /// `samples` is row-major [row][channel]; rows past the end of the run are NaN.
 /// `sensitivities` is row-major [row][channel][direction].
-/// `final_state` and `final_sensitivities` ([component][direction]) belong to `end_time`.
+/// `final_state`, its derivatives `final_sensitivities` ([component][direction]) and its rate along
+/// the flow `final_rate` belong to the fixed time `end_time`. Of a run that ends at an event, the
+/// derivative along that event (on a Poincare section) is S + final_rate dt_event/dp.
 struct Trajectory {
   Outcome outcome = Outcome::kCompleted;
   double end_time = 0.0;  // s
@@ -42,6 +44,7 @@ struct Trajectory {
   std::vector<double> sensitivities;
   std::vector<double> final_state;
   std::vector<double> final_sensitivities;
+  std::vector<double> final_rate;
   int hops = 0;                 // apexes after a stance (bounces of a ball)
   long steps = 0;               // integrator steps taken
   /// Smallest |crossing_rate| over the events that reset something.
@@ -69,6 +72,7 @@ struct Trajectory {
     keep(sensitivities, fresh.sensitivities);
     keep(final_state, fresh.final_state);
     keep(final_sensitivities, fresh.final_sensitivities);
+    keep(final_rate, fresh.final_rate);
     *this = std::move(fresh);
   }
 };

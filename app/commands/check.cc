@@ -74,7 +74,7 @@ Json RecordOf(const Dataset& dataset, const CheckSettings& settings, const FitPr
   options.problem = ProblemOptionsOf(settings.problem);
   header.options = OptionsRecord(settings.problem.dataset, problem, options);
   for (const char* of_the_search :
-       {"starts", "seed", "strategy", "loss", "loss_scale", "max_iterations", "profile"})
+       {"starts", "seed", "strategy", "span", "loss", "loss_scale", "max_iterations", "profile"})
     header.options.erase(of_the_search);
   Json record = NewRecord(header);
   record["warnings"] = check.warnings;

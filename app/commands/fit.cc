@@ -24,6 +24,7 @@ struct FitSettings {
   int starts = 1;
   std::uint64_t seed = 1;
   std::string strategy = "apex_shooting";
+  std::string span = "whole_else_hops";
   std::string loss = "squared";
   double loss_scale = Loss().scale;
   std::vector<std::string> profile;
@@ -35,6 +36,7 @@ FitRunOptions OptionsOf(const FitSettings& settings) {
   FitRunOptions options;
   options.problem = ProblemOptionsOf(settings.problem);
   options.fit.strategy = *FindStrategy(settings.strategy);
+  options.span = *FindSpan(settings.span);
   options.fit.starts = settings.starts;
   options.fit.seed = settings.seed;
   options.fit.loss = {settings.loss == "squared" ? LossKind::kSquared : LossKind::kPseudoHuber,
@@ -85,7 +87,7 @@ ExitCode RunFitCommand(const FitSettings& settings, Console& console) {
   const bool keep = run.has_result || !run.interrupted;
   std::string kept = "nothing was written";
   if (keep) {
-    std::map<std::string, std::string> files = FitTables(dataset, run);
+    std::map<std::string, std::string> files = FitTables(run);
     files["run.json"] = TextOf(record);
     kept = folder.Write(files).string();
   }
@@ -114,6 +116,10 @@ void AddFitCommand(CLI::App& app, Invocation& invocation) {
   sub.add_option("--strategy", settings->strategy,
                  "apex_shooting (default), growing_horizon or raw")
       ->check(CLI::IsMember({"raw", "growing_horizon", "apex_shooting"}))
+      ->option_text("NAME");
+  sub.add_option("--span", settings->span,
+                 "whole traces, else single hops where a law falls (default), whole or hops")
+      ->check(CLI::IsMember({"whole_else_hops", "whole", "hops"}))
       ->option_text("NAME");
   sub.add_option("--loss", settings->loss, "squared (default) or pseudo_huber")
       ->check(CLI::IsMember({"squared", "pseudo_huber"}))

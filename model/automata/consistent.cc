@@ -8,12 +8,14 @@ namespace hoplab {
 // unnamed namespaces one symbol.
 template <class T>
 using ConsistentLeg = CLeg<T, ConsistentLaw>;
+template <class T>
+using ConsistentBody = LeggedBody<T, ConsistentLeg>;
 
 void RunConsistent(const SimulationRequest& request, Trajectory& out) {
-  RunAutomaton<ConsistentLeg>(request, out);
+  RunAutomaton<ConsistentBody>(request, out);
 }
 double EnergyConsistent(const SimulationRequest& request, Mode mode, std::span<const double> state) {
-  return EnergyOn<ConsistentLeg>(request, mode, state);
+  return EnergyOn<ConsistentBody>(request, mode, state);
 }
 
 }  // namespace hoplab

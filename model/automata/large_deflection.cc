@@ -8,12 +8,14 @@ namespace hoplab {
 // unnamed namespaces one symbol.
 template <class T>
 using LargeDeflectionLeg = CLeg<T, LargeDeflectionLaw>;
+template <class T>
+using LargeDeflectionBody = LeggedBody<T, LargeDeflectionLeg>;
 
 void RunLargeDeflection(const SimulationRequest& request, Trajectory& out) {
-  RunAutomaton<LargeDeflectionLeg>(request, out);
+  RunAutomaton<LargeDeflectionBody>(request, out);
 }
 double EnergyLargeDeflection(const SimulationRequest& request, Mode mode, std::span<const double> state) {
-  return EnergyOn<LargeDeflectionLeg>(request, mode, state);
+  return EnergyOn<LargeDeflectionBody>(request, mode, state);
 }
 
 }  // namespace hoplab

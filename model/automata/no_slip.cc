@@ -8,12 +8,14 @@ namespace hoplab {
 // unnamed namespaces one symbol.
 template <class T>
 using NoSlipLeg = CLeg<T, NoSlipLaw>;
+template <class T>
+using NoSlipBody = LeggedBody<T, NoSlipLeg>;
 
 void RunNoSlip(const SimulationRequest& request, Trajectory& out) {
-  RunAutomaton<NoSlipLeg>(request, out);
+  RunAutomaton<NoSlipBody>(request, out);
 }
 double EnergyNoSlip(const SimulationRequest& request, Mode mode, std::span<const double> state) {
-  return EnergyOn<NoSlipLeg>(request, mode, state);
+  return EnergyOn<NoSlipBody>(request, mode, state);
 }
 
 }  // namespace hoplab

@@ -3,11 +3,14 @@
 #include "model/mechanisms/straight_leg.h"
 
 namespace hoplab {
+template <class T>
+using StraightBody = LeggedBody<T, StraightSpring>;
+
 void RunStraightLeg(const SimulationRequest& request, Trajectory& out) {
-  RunAutomaton<StraightLeg>(request, out);
+  RunAutomaton<StraightBody>(request, out);
 }
 double EnergyStraightLeg(const SimulationRequest& request, Mode mode, std::span<const double> state) {
-  return EnergyOn<StraightLeg>(request, mode, state);
+  return EnergyOn<StraightBody>(request, mode, state);
 }
 
 }  // namespace hoplab

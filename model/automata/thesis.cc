@@ -8,12 +8,14 @@ namespace hoplab {
 // unnamed namespaces one symbol.
 template <class T>
 using ThesisLeg = CLeg<T, ThesisLaw>;
+template <class T>
+using ThesisBody = LeggedBody<T, ThesisLeg>;
 
 void RunThesis(const SimulationRequest& request, Trajectory& out) {
-  RunAutomaton<ThesisLeg>(request, out);
+  RunAutomaton<ThesisBody>(request, out);
 }
 double EnergyThesis(const SimulationRequest& request, Mode mode, std::span<const double> state) {
-  return EnergyOn<ThesisLeg>(request, mode, state);
+  return EnergyOn<ThesisBody>(request, mode, state);
 }
 
 }  // namespace hoplab

@@ -43,6 +43,19 @@ class ActiveEffects {
     }
     return force;
   }
+  T ChordForce(const ChordMotion<T>& chord) const {
+    T force(0.0);
+    for (const Entry& e : entries_) {
+      if (e.hooks->add_chord_force) e.hooks->add_chord_force(e.values.data(), chord, force);
+    }
+    return force;
+  }
+  void ChangeLandingVelocity(const Landing<T>& landing, Vector2<T>& velocity) const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->change_landing_velocity)
+        e.hooks->change_landing_velocity(e.values.data(), landing, velocity);
+    }
+  }
   T TouchdownAngle(const T& vx, T theta_td) const {
     for (const Entry& e : entries_) {
       if (e.hooks->change_touchdown_angle)
@@ -61,15 +74,23 @@ class ActiveEffects {
       if (e.hooks->change_observation) e.hooks->change_observation(e.values.data(), seen);
     }
   }
-  /// Whether flight is still ballistic.
+  /// Whether flight is not ballistic.
   bool HasBodyForce() const {
+    return Any([](const EffectHooks<T>& hooks) { return hooks.add_body_force != nullptr; });
+  }
+  bool HasChordForce() const {
+    return Any([](const EffectHooks<T>& hooks) { return hooks.add_chord_force != nullptr; });
+  }
+
+ private:
+  template <class Predicate>
+  bool Any(const Predicate& holds) const {
     for (const Entry& e : entries_) {
-      if (e.hooks->add_body_force) return true;
+      if (holds(*e.hooks)) return true;
     }
     return false;
   }
 
- private:
   struct Entry {
     const EffectHooks<T>* hooks;
     std::array<T, kMaxEffectParameters> values;

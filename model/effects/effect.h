@@ -45,6 +45,20 @@ struct BodyMotion {
   T x, y, vx, vy;     // [m], [m/s]
 };
 
+/// A loaded leg at one instant, for forces along its chord.
+template <class T>
+struct ChordMotion {
+  T elastic_force;  // F_el [N]
+  T stiffness;      // k = 1/C at small load (M3) [N/m]
+  T rate;           // what the damper sees [m/s], positive while lengthening
+};
+
+/// A touch-down, for what it does to the body's velocity.
+template <class T>
+struct Landing {
+  Vector2<T> chord;  // e, contact to hip, length 1
+};
+
 inline constexpr int kMaxEffectParameters = 2;
 
 /// The places an effect can plug into; null where it does not. `p` points at its parameters.
@@ -54,6 +68,11 @@ struct EffectHooks {
   void (*change_parameters)(const T* p, Parameters<T>& parameters) = nullptr;
   /// Adds a force on the body [N], in flight and stance.
   void (*add_body_force)(const T* p, const BodyMotion<T>& body, Vector2<T>& force) = nullptr;
+  /// Adds a force along the chord of a loaded leg [N], positive pushes the hip away.
+  void (*add_chord_force)(const T* p, const ChordMotion<T>& chord, T& force) = nullptr;
+  /// Changes the velocity with which stance begins [m/s].
+  void (*change_landing_velocity)(const T* p, const Landing<T>& landing, Vector2<T>& velocity) =
+      nullptr;
   /// Changes the leg angle that touches down (guard and reset) from the speed at that moment.
   void (*change_touchdown_angle)(const T* p, const T& vx, T& theta_td) = nullptr;
   /// Changes the time at which the row stamped `t` was really read.
@@ -104,6 +123,14 @@ constexpr EffectHooks<T> HooksOf() {
                   Physics::AddBodyForce(p, b, f);
                 })
     hooks.add_body_force = &Physics::template AddBodyForce<T>;
+  if constexpr (requires(const T* p, const ChordMotion<T>& c, T& f) {
+                  Physics::AddChordForce(p, c, f);
+                })
+    hooks.add_chord_force = &Physics::template AddChordForce<T>;
+  if constexpr (requires(const T* p, const Landing<T>& l, Vector2<T>& v) {
+                  Physics::ChangeLandingVelocity(p, l, v);
+                })
+    hooks.change_landing_velocity = &Physics::template ChangeLandingVelocity<T>;
   if constexpr (requires(const T* p, const T& v, T& a) { Physics::ChangeTouchdownAngle(p, v, a); })
     hooks.change_touchdown_angle = &Physics::template ChangeTouchdownAngle<T>;
   if constexpr (requires(const T* p, T& t) { Physics::ChangeObservationTime(p, t); })

@@ -53,23 +53,15 @@ inline bool IsComplete(Outcome outcome) {
 struct GuardSpec {
   EventKind event;
   double scale;
-  /// The guard must open (be or become positive) when its mode is entered, else the run ends as
-  /// `no_support`.
-  bool must_open = false;
+  /// How the run ends if the guard is found closed (negative, or at zero and not opening) where its
+  /// mode is entered. A lift-off guard closed by a change of stance fires at once instead.
+  std::optional<Outcome> if_closed = std::nullopt;
 };
 
 /// What a reset did: the next mode, and the outcome if the run ends there.
 struct ResetResult {
   Mode next;
   std::optional<Outcome> end = std::nullopt;
-};
-
-/// Flight under constant acceleration: everything in closed form.
-/// The body meets the ground where its height is `contact_height`.
-template <class T>
-struct BallisticFlight {
-  T ax, ay;           // [m/s^2]
-  T contact_height;   // [m]
 };
 
 inline constexpr int kMaxGuards = 6;

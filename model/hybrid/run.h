@@ -72,6 +72,10 @@ struct Seeds {
       for (int i = 0; i < kMaxEffectParameters; ++i)
         values[e][i] = T(request.effects[e].values[i]);
     }
+    // An effect that any direction asks for acts in every chunk: all chunks run the same simulation.
+    for (const SensitivityDirection& d : request.directions) {
+      if (d.of == SensitivityDirection::Of::kEffect) active[d.index] = true;
+    }
     for (int k = 0; k < count; ++k) {
       const SensitivityDirection& d = request.directions[first + k];
       switch (d.of) {
@@ -86,7 +90,6 @@ struct Seeds {
         case SensitivityDirection::Of::kEffect:
           values[d.index][d.component] =
               Seeded<T>(Value(values[d.index][d.component]), k, 1.0);
-          active[d.index] = true;
           break;
       }
     }

@@ -21,6 +21,8 @@ struct ArcRoot {
 template <class T, bool kSecondOrder>
 class ElasticArc {
  public:
+  static constexpr bool kIsExpansion = kSecondOrder;
+
   explicit ElasticArc(const Parameters<T>& p) : r_(p.r), compliance_(p) {
     const HalfAngle toe(std::numbers::pi);
     const ShapeValue b = BendingShape(toe), a = AxialShape(toe), s = ShearShape(toe);
@@ -114,13 +116,9 @@ class ElasticArc {
   /// Strain energy [J]: F^2 C/2, with 2 F^3 C2/3 more under `large_deflection`.
   T StrainEnergy(const LegLoad<T>& load) const {
     const T& F = load.elastic_force;
-    const HalfAngle a(Value(load.phi));
-    const ShapeValue b = BendingShape(a), n = AxialShape(a), s = ShearShape(a);
-    const T C = compliance_.Chord(b, n, s) +
-                Value(compliance_.ChordD1(b, n, s)) * (load.phi - Value(load.phi));
-    T energy = 0.5 * F * F * C;
+    T energy = 0.5 * F * F * compliance_.ChordAt(load.phi);
     if constexpr (kSecondOrder) {
-      const ShapeValue g = SecondOrderShape(a);
+      const ShapeValue g = SecondOrderShape(HalfAngle(Value(load.phi)));
       const T C2 = compliance_.second_order * Chain(load.phi, g.value, g.d1);
       energy += 2.0 / 3.0 * F * F * F * C2;
     }

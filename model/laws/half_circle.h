@@ -13,6 +13,8 @@ namespace hoplab {
 template <class T, bool kNoSlip>
 class HalfCircle {
  public:
+  static constexpr bool kIsExpansion = false;
+
   explicit HalfCircle(const Parameters<T>& p) : parameters_(p), r_(p.r) {}
 
   void StartRootAt(double) {}  // nothing is solved for
@@ -75,11 +77,7 @@ class HalfCircle {
   }
   // C(phi; r_d), M2.
   T Compliance(const T& phi, const T& radius) const {
-    const LegCompliance<T> c(parameters_, radius);
-    const HalfAngle h(Value(phi));
-    const ShapeValue b = BendingShape(h), a = AxialShape(h), s = ShearShape(h);
-    return c.bending * Chain(phi, b.value, b.d1) + c.axial * Chain(phi, a.value, a.d1) +
-           c.shear * Chain(phi, s.value, s.d1);
+    return LegCompliance<T>(parameters_, radius).ChordAt(phi);
   }
 
   Parameters<T> parameters_;

@@ -5,6 +5,7 @@
 
 #include "model/effects/active_effects.h"
 #include "model/hybrid/automaton.h"
+#include "model/hybrid/ballistic.h"
 #include "model/laws/leg_load.h"
 #include "model/observation.h"
 

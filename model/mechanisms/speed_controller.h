@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "model/effects/active_effects.h"
-#include "model/hybrid/automaton.h"
 #include "model/parameters.h"
 
 namespace hoplab {
@@ -47,8 +45,5 @@ class SpeedController {
   double limit_;
   int saturation_ = 0;
 };
-
-/// Cosine of the chord angle at which a leg counts as fallen (80 deg).
-inline constexpr double kFallCosine = 0.17364817766693041;
 
 }  // namespace hoplab

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fitting/fit_dataset.h"
+#include "fitting/trial_errors.h"
+#include "fitting/uncertainty.h"
+
+namespace hoplab {
+
+/// One way of explaining a dataset: a law, and effects whose parameters are freed.
+struct Variant {
+  std::string law;
+  std::vector<std::string> with_effects;
+};
+
+/// What one variant made of the dataset.
+struct VariantResult {
+  Variant variant;
+  DatasetFit fit;
+  Uncertainty uncertainty;  // meaningful if fit.result.ok
+  RoleErrors train, test;   // likewise
+};
+
+struct LawComparison {
+  std::vector<VariantResult> rows;  // in the order asked for
+};
+
+/// Fits the same dataset with each variant; what is fixed and freed otherwise is the same for all.
+LawComparison CompareLaws(const Dataset& dataset, const std::vector<Variant>& variants,
+                          const ProblemOptions& problem_options, const FitOptions& fit_options,
+                          FitSpan span = FitSpan::kWholeElseHops);
+
+/// Every law of the dataset's mechanism, the default first, without effects.
+std::vector<Variant> AllLaws(const Dataset& dataset);
+
+}  // namespace hoplab

@@ -1,0 +1,32 @@
+#include <array>
+
+#include "model/effects/effect.h"
+
+namespace hoplab {
+namespace {
+
+struct LegMaterialDamping {
+  static constexpr std::array kParameters = {EffectParameter{"tau", "s", 0.0, 0.0, 0.1, 5e-4}};
+  static constexpr EffectInfo kInfo = {
+      .name = "leg_material_damping",
+      .kind = EffectKind::kForce,
+      .equation = "F_chord - tau k w, k the chord stiffness at that arc (M3)",
+      .sentence = "the leg's material itself is viscous (Kelvin-Voigt), so a stiffer, shorter arc "
+                  "damps more",
+      .for_legs = true,
+      .for_ball = false,
+      .dissipative = true,
+      .parameters = kParameters};
+
+  template <class T>
+  static void AddChordForce(const T* p, const ChordMotion<T>& chord, T& force) {
+    force -= p[0] * chord.stiffness * chord.rate;
+  }
+};
+
+}  // namespace
+
+namespace effects {
+extern constexpr Effect leg_material_damping = MakeEffect<LegMaterialDamping>();
+}
+}  // namespace hoplab

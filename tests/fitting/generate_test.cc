@@ -1,0 +1,107 @@
+#include "fitting/generate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fitting/noise.h"
+#include "tests/support/hop_scenarios.h"
+#include "tests/support/input_error_of.h"
+
+namespace hoplab {
+namespace {
+
+using testing::HopScenario;
+
+TEST(Generate, TheSameSeedGivesTheSameDataset) {
+  GenerateOptions options;
+  options.seed = 42;
+  const Scenario s = HopScenario(2);
+  EXPECT_EQ(GenerateDataset(s, options).dataset, GenerateDataset(s, options).dataset);
+  options.seed = 43;
+  EXPECT_NE(GenerateDataset(s, options).dataset.trials[0].trace,
+            GenerateDataset(s, {.seed = 42}).dataset.trials[0].trace);
+}
+
+TEST(Generate, LeavingATrialOutDoesNotChangeTheOthers) {
+  Scenario s = HopScenario(2);
+  const Dataset whole = GenerateDataset(s, {}).dataset;
+  s.dataset->trials.pop_back();
+  const Dataset less = GenerateDataset(s, {}).dataset;
+  for (std::size_t i = 0; i < less.trials.size(); ++i)
+    EXPECT_EQ(less.trials[i].trace, whole.trials[i].trace);
+}
+
+TEST(Generate, NoiseHasTheStatedSize) {
+  const Scenario s = HopScenario(3);
+  const Dataset noisy = GenerateDataset(s, {}).dataset;
+  const Dataset clean = GenerateDataset(s, {.noise = 0.0}).dataset;
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < noisy.trials.size(); ++i) {
+    for (std::size_t c = 0; c < 2; ++c) {
+      const auto& a = noisy.trials[i].trace.columns[c].values;
+      const auto& b = clean.trials[i].trace.columns[c].values;
+      for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+      count += static_cast<double>(a.size());
+    }
+  }
+  EXPECT_NEAR(std::sqrt(sum / count), 0.001, 3 * 0.001 / std::sqrt(2 * count));
+}
+
+TEST(Generate, AnEffectChangesTheTraceButNotTheDescription) {
+  Scenario s = HopScenario(2);
+  const Dataset plain = GenerateDataset(s, {}).dataset;
+  s.effects.push_back({"air_drag", {{"c_drag", 0.05, {}}}, {}});
+  const Dataset dragged = GenerateDataset(s, {}).dataset;
+  EXPECT_NE(plain.trials[0].trace, dragged.trials[0].trace);
+  EXPECT_EQ(plain.source, dragged.source);
+  EXPECT_EQ(plain.mechanism, dragged.mechanism);
+}
+
+TEST(Generate, StatedStartsAreOffByTheirSigma) {
+  const Scenario s = HopScenario(2);
+  double sum = 0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const Dataset d = GenerateDataset(s, {.seed = seed}).dataset;
+    for (std::size_t i = 0; i < d.trials.size(); ++i, ++count) {
+      const double off = d.trials[i].initial->y_m - s.dataset->trials[i].initial->y_m;
+      sum += off * off;
+    }
+  }
+  EXPECT_NEAR(std::sqrt(sum / count), 0.002, 3 * 0.002 / std::sqrt(2.0 * count));
+}
+
+TEST(Generate, ARunThatFallsIsCutAndSaidSo) {
+  Scenario s = HopScenario(2);
+  s.stop.hops = 30;  // a passive leg falls before
+  const GeneratedDataset g = GenerateDataset(s, {});
+  ASSERT_FALSE(g.notes.empty());
+  EXPECT_NE(g.notes[0].find("fell"), std::string::npos) << g.notes[0];
+}
+
+TEST(Generate, UnknownEffectIsRefusedWithItsPlace) {
+  Scenario s = HopScenario(2);
+  s.effects.push_back({"air_darg", {}, {"hop.yaml:12"}});
+  const std::string message = testing::InputErrorOf([&] { GenerateDataset(s, {}); });
+  EXPECT_NE(message.find("hop.yaml:12: effect air_darg"), std::string::npos) << message;
+  EXPECT_NE(message.find("air_drag"), std::string::npos) << message;
+}
+
+TEST(Generate, AnEffectValueOutOfItsBoundsIsRefused) {
+  Scenario s = HopScenario(2);
+  s.effects.push_back({"air_drag", {{"c_drag", -1.0, {"hop.yaml:13"}}}, {}});
+  const std::string message = testing::InputErrorOf([&] { GenerateDataset(s, {}); });
+  EXPECT_NE(message.find("hop.yaml:13: air_drag.c_drag = -1; must be in [0, 10] N s^2/m^2"),
+            std::string::npos)
+      << message;
+}
+
+TEST(EstimateNoise, NeedsEnoughWindows) {
+  const std::vector<double> t = {0, 1, 2, 3}, v = {0, 1, 0, 1};
+  const SampledColumn column{t, v};
+  EXPECT_TRUE(std::isnan(EstimateNoise({&column, 1})));
+}
+
+}  // namespace
+}  // namespace hoplab

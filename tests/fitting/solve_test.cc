@@ -1,0 +1,147 @@
+#include "fitting/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fitting/trial_evaluator.h"
+#include "tests/support/fit_cases.h"
+
+namespace hoplab {
+namespace {
+
+using testing::NominalStarts;
+using testing::SmallDataset;
+
+struct Case {
+  FitProblem problem = MakeProblem(SmallDataset(), {});
+  std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
+  SolveRequest Request() const {
+    SolveRequest r;
+    r.problem = &problem;
+    r.trials = &trials;
+    r.shared = Eigen::Vector2d(21e9, 2.0);
+    r.starts = NominalStarts(trials);
+    return r;
+  }
+};
+
+TEST(Solve, FindsTheTruthWithinItsNoise) {
+  const Case c;
+  const SolveResult r = Solve(c.Request());
+  EXPECT_EQ(r.status, SolveStatus::kConverged);
+  EXPECT_NEAR(r.shared[0] / 22e9, 1.0, 0.01);
+  EXPECT_NEAR(r.shared[1] / 3.0, 1.0, 0.05);
+}
+
+TEST(Solve, DoesNotDependOnTheNumberOfJobs) {
+  const Case c;
+  SolveRequest one = c.Request(), two = c.Request();
+  two.jobs = 2;
+  const SolveResult a = Solve(one), b = Solve(two);
+  EXPECT_EQ(a.cost, b.cost);
+  EXPECT_EQ(a.shared, b.shared);
+  EXPECT_EQ(a.starts, b.starts);
+}
+
+TEST(Solve, AStartThatFallsIsNamedNotFitted) {
+  const Case c;
+  SolveRequest request = c.Request();
+  request.shared[0] = 1e8;  // a leg like rubber
+  const SolveResult r = Solve(request);
+  EXPECT_EQ(r.status, SolveStatus::kNoStart);
+  EXPECT_NE(r.message.find("train-1.csv: fell"), std::string::npos) << r.message;
+  EXPECT_EQ(r.shared, request.shared);
+}
+
+TEST(Solve, AStepThatFallsIsRejectedWithItsReason) {
+  // From a leg that only just carries, the first step overshoots into one that does not; the run
+  // must end at the optimum all the same, never with residuals of zero.
+  const Case c;
+  SolveRequest request = c.Request();
+  request.shared = Eigen::Vector2d(60e9, 0.1);
+  request.hold_starts = true;
+  const SolveResult r = Solve(request);
+  ASSERT_NE(r.status, SolveStatus::kNoStart);
+  int rejected = 0;
+  for (const auto& [reason, count] : r.rejected) {
+    EXPECT_NE(reason.find(".csv: "), std::string::npos);
+    rejected += count;
+  }
+  EXPECT_GT(rejected, 0);
+  EXPECT_GT(r.cost, 0.5 * 0.5 * static_cast<double>(c.trials[0].sample_count));
+}
+
+TEST(Solve, HeldValuesStay) {
+  const Case c;
+  SolveRequest request = c.Request();
+  request.held = {0};
+  const SolveResult r = Solve(request);
+  EXPECT_NEAR(r.shared[0] / 21e9, 1.0, 1e-15);
+  EXPECT_NE(r.shared[1], 2.0);
+}
+
+TEST(Solve, HeldStartsStay) {
+  const Case c;
+  SolveRequest request = c.Request();
+  request.hold_starts = true;
+  EXPECT_EQ(Solve(request).starts, request.starts);
+}
+
+TEST(Solve, StopsWhenAsked) {
+  const Case c;
+  std::atomic<bool> stop{true};
+  SolveRequest request = c.Request();
+  request.stop = &stop;
+  EXPECT_EQ(Solve(request).status, SolveStatus::kInterrupted);
+}
+
+TEST(Solve, ARobustLossShrugsOffAnOutlier) {
+  Case c;
+  const Eigen::VectorXd clean = Solve(c.Request()).shared;
+  for (int row : {20, 45, 70}) c.trials[0].data[2 * row + 1] += 0.05;  // 50 standard deviations
+  SolveRequest squared = c.Request(), robust = c.Request();
+  robust.loss = {LossKind::kPseudoHuber, 2.0};
+  const double pulled = std::abs(Solve(squared).shared[0] - clean[0]);
+  const double held = std::abs(Solve(robust).shared[0] - clean[0]);
+  EXPECT_LT(held, 0.25 * pulled);
+}
+
+TEST(TrialEvaluator, RobustResidualsHaveTheRightSlope) {
+  const Case c;
+  const TrialEvaluator evaluator(c.problem, c.trials[0]);
+  const Loss loss{LossKind::kPseudoHuber, 1.0};
+  Eigen::VectorXd p = Eigen::Vector2d(24e9, 3.0);
+  TrialEvaluation middle, plus, minus;
+  evaluator.Evaluate({p, c.trials[0].start, true, loss}, middle);
+  const double h = 1e5;  // Pa
+  p[0] += h;
+  evaluator.Evaluate({p, c.trials[0].start, false, loss}, plus);
+  p[0] -= 2 * h;
+  evaluator.Evaluate({p, c.trials[0].start, false, loss}, minus);
+  const Eigen::VectorXd difference = (plus.residuals - minus.residuals) / (2 * h);
+  EXPECT_LT((difference - middle.jacobian.col(0)).norm(), 1e-6 * difference.norm());
+}
+
+TEST(TrialEvaluator, ASimulationShorterThanItsDataIsIncomplete) {
+  const Case c;
+  TrialEvaluation e;
+  TrialEvaluator(c.problem, c.trials[0])
+      .Evaluate({Eigen::Vector2d(1e8, 3.0), c.trials[0].start, false}, e);
+  EXPECT_FALSE(e.complete);
+  EXPECT_FALSE(IsComplete(e.trajectory.outcome));
+}
+
+TEST(TrialEvaluator, ThePriorPullsWithItsWidth) {
+  const Case c;
+  std::array<double, 4> start = c.trials[0].start;
+  start[0] += 3 * c.trials[0].prior_sigma[0];
+  TrialEvaluation e;
+  TrialEvaluator(c.problem, c.trials[0]).Evaluate({Eigen::Vector2d(22e9, 3.0), start, true}, e);
+  ASSERT_TRUE(e.complete);
+  EXPECT_NEAR(e.residuals[e.data_residuals], 3.0, 1e-9);
+  EXPECT_NEAR(e.jacobian(e.data_residuals, 2), 1.0 / c.trials[0].prior_sigma[0], 1e-9);
+}
+
+}  // namespace
+}  // namespace hoplab

@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "tests/support/requests.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// Counts every allocation of this program.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace hoplab {
+namespace {
+
+using namespace testing;
+using D = SensitivityDirection;
+
+// Allocations of a run into a trajectory that has held such a run before.
+long AllocationsOf(const SimulationRequest& q) {
+  Trajectory out;
+  Simulate(q, out);
+  const long before = allocations;
+  Simulate(q, out);
+  return allocations - before;
+}
+
+TEST(Allocation, ARunIntoAUsedTrajectoryAllocatesNothing) {
+  for (Law law : kCLegLaws) {
+    SimulationRequest q = ThickLegRequest(law);
+    q.parameters.theta_td = Degrees(24.0);
+    q.max_hops = 3;
+    EXPECT_EQ(AllocationsOf(q), 0) << NameOf(law);
+  }
+}
+
+TEST(Allocation, SensitivitiesCostTheirEventTimesOnlyHoweverManySteps) {
+  const std::array directions = {D::InitialState(0), D::InitialState(1), D::InitialState(2),
+                                 D::InitialState(3)};
+  for (double tolerance : {1e-6, 1e-12}) {
+    SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
+    q.integrator.relative_tolerance = q.integrator.absolute_tolerance = tolerance;
+    q.directions = directions;
+    EXPECT_LE(AllocationsOf(q), 1) << tolerance;
+  }
+}
+
+}  // namespace
+}  // namespace hoplab

@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "tests/support/bouncing_ball.h"
+#include "tests/support/matrix_near.h"
+#include "tests/support/requests.h"
+
+namespace hoplab {
+namespace {
+
+using namespace testing;
+using B = BouncingBall;
+using D = SensitivityDirection;
+
+const std::array<D, B::kCount> kDirections = {
+    D::Parameter(ParameterId::kRestitution), D::Parameter(ParameterId::kTangentialLoss),
+    D::Parameter(ParameterId::kGravity),     D::Parameter(ParameterId::kRadius),
+    D::InitialState(0), D::InitialState(1),  D::InitialState(2), D::InitialState(3)};
+constexpr int kBounces = 10;
+
+BouncingBall ClosedFormOf(const SimulationRequest& q) {
+  const auto& p = q.parameters;
+  return {p.restitution, p.tangential_loss, p.g, p.radius,
+          q.initial[0],  q.initial[1],      q.initial[2], q.initial[3]};
+}
+
+std::vector<Event> BouncesOf(const Trajectory& run) {
+  std::vector<Event> bounces;
+  for (const Event& e : run.events) {
+    if (e.kind == EventKind::kBounce) bounces.push_back(e);
+  }
+  return bounces;
+}
+
+// Ends between bounce 10 and 11 of the closed form.
+SimulationRequest TenBounces() {
+  SimulationRequest q = BallRequest();
+  const auto bounces = ClosedFormOf(q).Bounces(kBounces + 1);
+  q.horizon = static_cast<double>(0.6L * bounces[kBounces - 1].time + 0.4L * bounces[kBounces].time);
+  q.directions = kDirections;
+  return q;
+}
+
+TEST(Ball, BounceTimesAndStatesOverTenBouncesMatchTheClosedForm) {
+  const SimulationRequest q = TenBounces();
+  const Trajectory run = Simulate(q);
+  ASSERT_EQ(run.outcome, Outcome::kCompleted);
+  const auto found = BouncesOf(run);
+  const auto exact = ClosedFormOf(q).Bounces(kBounces);
+  ASSERT_EQ(found.size(), exact.size());
+  for (int n = 0; n < kBounces; ++n) {
+    EXPECT_LT(RelativeError(found[n].time, exact[n].time), kTenBounces) << n;
+    EXPECT_LT(RelativeError(found[n].x, exact[n].position), kTenBounces) << n;
+    EXPECT_LT(RelativeError(-found[n].vy, exact[n].speed), kTenBounces) << n;
+  }
+  const auto last = ClosedFormOf(q).StateAt(q.horizon, kBounces);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_LT(RelativeError(run.final_state[i], last.z[i]), kTenBounces) << i;
+}
+
+TEST(Ball, DerivativesOfBounceTimesMatchTheClosedForm) {
+  const SimulationRequest q = TenBounces();
+  const Trajectory run = Simulate(q);
+  const auto exact = ClosedFormOf(q).Bounces(kBounces);
+  int n = 0;
+  for (std::size_t e = 0; e < run.events.size(); ++e) {
+    if (run.events[e].kind != EventKind::kBounce) continue;
+    std::array<double, B::kCount> expected;
+    std::copy(exact[n].d_time.begin(), exact[n].d_time.end(), expected.begin());
+    EXPECT_TRUE(MatrixNear({&run.event_time_sensitivities[e * B::kCount], B::kCount}, expected,
+                           kTenBounces))
+        << "bounce " << n;
+    ++n;
+  }
+  EXPECT_EQ(n, kBounces);
+}
+
+TEST(Ball, DerivativesOfTheStateAfterTenBouncesMatchTheClosedForm) {
+  const SimulationRequest q = TenBounces();
+  const Trajectory run = Simulate(q);
+  const auto exact = ClosedFormOf(q).StateAt(q.horizon, kBounces);
+  for (int i = 0; i < 4; ++i) {
+    std::array<double, B::kCount> expected;
+    std::copy(exact.d[i].begin(), exact.d[i].end(), expected.begin());
+    EXPECT_TRUE(MatrixNear({&run.final_sensitivities[i * B::kCount], B::kCount}, expected,
+                           kTenBounces))
+        << "component " << i;
+  }
+}
+
+TEST(Ball, SampledRowsBetweenBouncesMatchTheClosedForm) {
+  SimulationRequest q = TenBounces();
+  std::vector<double> times;
+  const auto bounces = ClosedFormOf(q).Bounces(kBounces);
+  for (int n = 0; n + 1 < kBounces; ++n)
+    times.push_back(0.3 * bounces[n].time + 0.7 * bounces[n + 1].time);
+  const std::array channels = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx,
+                               Channel::kBodyVy};
+  q.row_times = times;
+  q.channels = channels;
+  const Trajectory run = Simulate(q);
+  for (std::size_t row = 0; row < times.size(); ++row) {
+    const auto exact = ClosedFormOf(q).StateAt(times[row], static_cast<int>(row) + 1);
+    for (int c = 0; c < 4; ++c) {
+      EXPECT_LT(RelativeError(run.samples[row * 4 + c], exact.z[c]), kTenBounces);
+      std::array<double, B::kCount> expected;
+      std::copy(exact.d[c].begin(), exact.d[c].end(), expected.begin());
+      EXPECT_TRUE(MatrixNear({&run.sensitivities[(row * 4 + c) * B::kCount], B::kCount}, expected,
+                             kTenBounces));
+    }
+  }
+}
+
+TEST(Ball, BouncesThatCrowdTogetherEndAtRest) {
+  SimulationRequest q = BallRequest();
+  q.horizon = 100.0;
+  const Trajectory run = Simulate(q);
+  EXPECT_EQ(run.outcome, Outcome::kCameToRest);
+  const B ball = ClosedFormOf(q);
+  // Sum of the geometric series of intervals.
+  const long double w = ball.Bounces(1)[0].speed;
+  const long double limit =
+      ball.Bounces(1)[0].time + 2.0L * w / ball.g * ball.restitution / (1.0L - ball.restitution);
+  // What is left when an interval is 1e-6 s: that times e/(1-e).
+  EXPECT_LT(run.end_time, limit);
+  EXPECT_NEAR(run.end_time, limit, 1e-5);
+}
+
+}  // namespace
+}  // namespace hoplab

@@ -1,0 +1,186 @@
+#include "model/effects/effect.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tests/support/requests.h"
+
+namespace hoplab {
+namespace {
+
+using namespace testing;
+
+constexpr std::array kAllLaws = {Law::kThesis,          Law::kNoSlip,      Law::kConsistent,
+                                 Law::kLargeDeflection, Law::kStraightLeg, Law::kBall};
+constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx,
+                              Channel::kBodyVy};
+
+SimulationRequest RequestOf(Law law) {
+  SimulationRequest q = law == Law::kBall          ? BallRequest()
+                        : law == Law::kStraightLeg ? SteadyStraightLeg()
+                                                   : ThickLegRequest(law);
+  q.channels = kBody;
+  return q;
+}
+bool AppliesTo(const Effect& effect, Law law) {
+  return law == Law::kBall ? effect.info.for_ball : effect.info.for_legs;
+}
+
+TEST(EffectRegistry, ListsEveryEffectByName) {
+  std::vector<std::string> names;
+  for (const Effect* effect : AllEffects()) names.emplace_back(effect->info.name);
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+  for (const char* name : {"air_drag", "gravity_scale", "sensor_delay", "touchdown_angle_bias"})
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  for (const std::string& name : names) EXPECT_EQ(FindEffect(name)->info.name, name);
+  EXPECT_EQ(FindEffect("warp_drive"), nullptr);
+}
+
+TEST(EffectRegistry, SaysWhereEachEffectActs) {
+  EXPECT_EQ(FindEffect("air_drag")->info.kind, EffectKind::kForce);
+  EXPECT_EQ(FindEffect("gravity_scale")->info.kind, EffectKind::kParameter);
+  EXPECT_EQ(FindEffect("touchdown_angle_bias")->info.kind, EffectKind::kGuard);
+  EXPECT_EQ(FindEffect("sensor_delay")->info.kind, EffectKind::kObservation);
+}
+
+TEST(EffectRegistry, HoldsForEveryParameterANullInsideItsBoundsAndATypicalSize) {
+  for (const Effect* effect : AllEffects()) {
+    ASSERT_FALSE(effect->info.parameters.empty()) << effect->info.name;
+    EXPECT_FALSE(effect->info.sentence.empty());
+    EXPECT_FALSE(effect->info.equation.empty());
+    for (const EffectParameter& p : effect->info.parameters) {
+      EXPECT_LE(p.lower, p.null);
+      EXPECT_LE(p.null, p.upper);
+      EXPECT_LT(p.lower, p.upper);
+      EXPECT_GT(p.typical, 0.0);
+      EXPECT_EQ(effect->FindParameter(p.name), &p - effect->info.parameters.data());
+    }
+    EXPECT_FALSE(effect->FindParameter("warp").has_value());
+    EXPECT_TRUE(EffectSetting::Null(*effect).IsNull());
+  }
+}
+
+TEST(EffectAtNull, ChangesNothingBitForBit) {
+  for (Law law : kAllLaws) {
+    SimulationRequest q = RequestOf(law);
+    const auto times = EvenTimes(0.5, 100);
+    q.row_times = times;
+    const Trajectory without = Simulate(q);
+    for (const Effect* effect : AllEffects()) {
+      if (!AppliesTo(*effect, law)) continue;
+      SCOPED_TRACE(std::string(NameOf(law)) + " " + std::string(effect->info.name));
+      const std::array effects = {EffectSetting::Null(*effect)};
+      q.effects = effects;
+      const Trajectory with = Simulate(q);
+      ASSERT_EQ(with.samples.size(), without.samples.size());
+      for (std::size_t i = 0; i < with.samples.size(); ++i) {
+        if (std::isnan(without.samples[i])) EXPECT_TRUE(std::isnan(with.samples[i]));
+        else EXPECT_EQ(with.samples[i], without.samples[i]);
+      }
+      ASSERT_EQ(with.events.size(), without.events.size());
+      for (std::size_t i = 0; i < with.events.size(); ++i)
+        EXPECT_EQ(with.events[i].time, without.events[i].time);
+      EXPECT_EQ(with.final_state, without.final_state);
+    }
+  }
+}
+
+TEST(EffectOffNull, ChangesTheSamples) {
+  for (Law law : kAllLaws) {
+    SimulationRequest q = RequestOf(law);
+    const std::vector<double> times = {0.05, law == Law::kStraightLeg ? 0.3 : 0.14};  // in stance
+    q.row_times = times;
+    const Trajectory without = Simulate(q);
+    for (const Effect* effect : AllEffects()) {
+      if (!AppliesTo(*effect, law)) continue;
+      std::array effects = {EffectSetting::Null(*effect)};
+      effects[0].values[0] += effect->info.parameters[0].typical;
+      EXPECT_FALSE(effects[0].IsNull());
+      q.effects = effects;
+      EXPECT_NE(Simulate(q).samples, without.samples) << NameOf(law) << ' ' << effect->info.name;
+    }
+  }
+}
+
+TEST(DissipativeEffects, NeverCreateEnergy) {
+  for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kStraightLeg, Law::kBall}) {
+    SimulationRequest q = RequestOf(law);
+    q.parameters.d = 0.0;
+    q.max_hops = 0;
+    for (const Effect* effect : AllEffects()) {
+      if (!effect->info.dissipative || !AppliesTo(*effect, law)) continue;
+      std::array effects = {EffectSetting::Null(*effect)};
+      effects[0].values[0] += effect->info.parameters[0].typical;
+      q.effects = effects;
+      q.horizon = 0.0;
+      double last = Energy(q, Mode::kFlight, q.initial);
+      const double first = last;
+      // Through flight and stance alike, strain energy counted.
+      for (double t = 0.02; t < 0.6; t += 0.02) {
+        q.horizon = t;
+        const Trajectory run = Simulate(q);
+        const double energy = Energy(q, run.final_mode, run.final_state);
+        EXPECT_LE(energy, last + kEnergyDrift * first) << NameOf(law) << " at " << t;
+        last = energy;
+      }
+      EXPECT_LT(last, first) << NameOf(law);
+    }
+  }
+}
+
+TEST(GravityScale, IsAnotherGravity) {
+  SimulationRequest q = RequestOf(Law::kLargeDeflection);
+  std::array effects = {EffectSetting::Null(*FindEffect("gravity_scale"))};
+  effects[0].values[0] = -0.1;
+  q.effects = effects;
+  const Trajectory scaled = Simulate(q);
+  q.effects = {};
+  q.parameters.g *= 0.9;
+  EXPECT_EQ(Simulate(q).final_state, scaled.final_state);
+}
+
+TEST(TouchdownAngleBias, IsAnotherTouchdownAngle) {
+  SimulationRequest q = RequestOf(Law::kLargeDeflection);
+  std::array effects = {EffectSetting::Null(*FindEffect("touchdown_angle_bias"))};
+  effects[0].values[0] = 0.05;
+  q.effects = effects;
+  const Trajectory biased = Simulate(q);
+  q.effects = {};
+  q.parameters.theta_td += 0.05;
+  EXPECT_EQ(Simulate(q).final_state, biased.final_state);
+}
+
+TEST(SensorDelay, ReadsRowsEarlier) {
+  SimulationRequest q = RequestOf(Law::kLargeDeflection);
+  const std::vector<double> times = {0.05, 0.1, 0.15, 0.2};
+  q.row_times = times;
+  std::array effects = {EffectSetting::Null(*FindEffect("sensor_delay"))};
+  effects[0].values[0] = 0.01;
+  q.effects = effects;
+  const Trajectory delayed = Simulate(q);
+  std::vector<double> earlier = times;
+  for (double& t : earlier) t -= 0.01;
+  q.effects = {};
+  q.row_times = earlier;
+  EXPECT_EQ(Simulate(q).samples, delayed.samples);
+}
+
+TEST(AirDrag, OnAFallingBallReachesTheTerminalSpeed) {
+  SimulationRequest q = RequestOf(Law::kBall);
+  q.initial = {0.0, 500.0, 0.0, 0.0};
+  q.horizon = 6.0;
+  std::array effects = {EffectSetting::Null(*FindEffect("air_drag"))};
+  effects[0].values[0] = 0.2;
+  q.effects = effects;
+  q.integrator.relative_tolerance = kOracleRelative;
+  q.integrator.absolute_tolerance = kOracleAbsolute;
+  const Trajectory run = Simulate(q);
+  // v = v_t tanh(g t/v_t), v_t^2 = m g/c.
+  const double terminal = std::sqrt(q.parameters.m * q.parameters.g / 0.2);
+  EXPECT_NEAR(run.final_state[3], -terminal * std::tanh(q.parameters.g * 6.0 / terminal), 1e-10);
+}
+
+}  // namespace
+}  // namespace hoplab

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "fitting/fit.h"
+#include "tests/support/hop_scenarios.h"
+
+namespace hoplab::testing {
+
+/// A dataset of generated hops cut to a few trials and a coarser rate: quick to fit.
+inline Dataset SmallDataset(int train_trials = 2, int test_trials = 1, std::uint64_t seed = 3,
+                            double rate_hz = 100.0) {
+  Scenario s = HopScenario(2);
+  s.dataset->sample_rate_hz = rate_hz;
+  auto& trials = s.dataset->trials;
+  trials.erase(trials.begin() + 6 + test_trials, trials.end());
+  trials.erase(trials.begin() + train_trials, trials.begin() + 6);
+  GenerateOptions options;
+  options.seed = seed;
+  Dataset d = GenerateDataset(s, options).dataset;
+  for (Trial& t : d.trials) {
+    t.mechanism.c_leg.E_Pa = 20e9;  // the nominal value of a fit is not the truth
+    t.mechanism.c_leg.damping_N_s_per_m = 1.0;
+  }
+  d.mechanism.c_leg.E_Pa = 20e9;
+  d.mechanism.c_leg.damping_N_s_per_m = 1.0;
+  return d;
+}
+
+inline std::vector<std::array<double, 4>> NominalStarts(const std::vector<TrialProblem>& trials) {
+  std::vector<std::array<double, 4>> starts;
+  for (const TrialProblem& t : trials) starts.push_back(t.start);
+  return starts;
+}
+
+}  // namespace hoplab::testing
