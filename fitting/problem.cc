@@ -70,6 +70,7 @@ class Builder {
       t.parameters = ParametersOfSpec(trial.mechanism, trial.controller, trial.touchdown_angle_rad);
       t.liftoff = LiftoffOfSpec(trial.mechanism);
       const std::vector<double>& time = trial.trace.time_s;
+      t.begin_s = time.front();
       t.row_times.reserve(time.size());
       for (double s : time) t.row_times.push_back(s - time.front());
       problem_.trials.push_back(std::move(t));

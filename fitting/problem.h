@@ -36,6 +36,7 @@ struct TrialProblem {
   TrialRole role = TrialRole::kTrain;
   Parameters<double> parameters;  // of this trial; shared values are put over them
   LiftoffRule liftoff = LiftoffRule::kZeroForce;
+  double begin_s = 0.0;           // the first row's time in the dataset's own file
   std::vector<double> row_times;  // s since the first row
   std::vector<double> data;       // row-major [row][channel]; NaN = missing
   ContactTimes contact;
