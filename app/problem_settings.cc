@@ -49,23 +49,30 @@ int JobsOf(int jobs) {
   return cores > 0 ? static_cast<int>(cores) : 1;
 }
 
+std::map<std::string, double> ParseAssignments(const std::vector<std::string>& texts,
+                                               const std::string& option) {
+  std::map<std::string, double> values;
+  for (const std::string& text : texts) {
+    const std::size_t at = text.find('=');
+    const std::string name(Trim(text.substr(0, at)));
+    const std::optional<double> value =
+        at == text.npos ? std::nullopt : ParseDouble(Trim(text.substr(at + 1)));
+    if (name.empty() || !value || !std::isfinite(*value))
+      throw UsageError(option + ": " + Printable(text) +
+                       "; must be name=value with a number, as E=22e9");
+    if (!values.emplace(name, *value).second)
+      throw UsageError(option + ": " + Printable(name) + " is given twice");
+  }
+  return values;
+}
+
 ProblemOptions ProblemOptionsOf(const ProblemSettings& settings) {
   ProblemOptions options;
   options.law = settings.law;
   options.free = settings.free;
   options.with_effects = settings.with;
   options.integrator = IntegratorOptionsOf(settings.integrator, settings.tolerance);
-  for (const std::string& text : settings.fix) {
-    const std::size_t at = text.find('=');
-    const std::string name(Trim(text.substr(0, at)));
-    const std::optional<double> value =
-        at == text.npos ? std::nullopt : ParseDouble(Trim(text.substr(at + 1)));
-    if (name.empty() || !value || !std::isfinite(*value))
-      throw UsageError("--fix: " + Printable(text) +
-                       "; must be name=value with a number, as E=22e9");
-    if (!options.fix.emplace(name, *value).second)
-      throw UsageError("--fix: " + Printable(name) + " is given twice");
-  }
+  options.fix = ParseAssignments(settings.fix, "--fix");
   return options;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct ProblemSettings {
 
 void AddProblemOptions(CLI::App& sub, ProblemSettings& settings);
 void AddIntegratorOptions(CLI::App& sub, std::string& integrator, double& tolerance);
+
+/// `name=value` texts of an option; throws UsageError for what is none, or given twice.
+std::map<std::string, double> ParseAssignments(const std::vector<std::string>& texts,
+                                               const std::string& option);
 
 /// Throws UsageError for a `--fix` that is no name=value.
 ProblemOptions ProblemOptionsOf(const ProblemSettings& settings);

@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/check.h"
@@ -154,25 +155,8 @@ SolveStatus StatusOf(const ceres::Solver::Summary& summary) {
   }
 }
 
-}  // namespace
-
-std::string_view NameOf(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::kConverged:
-      return "converged";
-    case SolveStatus::kIterationLimit:
-      return "iteration_limit";
-    case SolveStatus::kNoStart:
-      return "no_start";
-    case SolveStatus::kFailed:
-      return "failed";
-    case SolveStatus::kInterrupted:
-      return "interrupted";
-  }
-  return "";
-}
-
-SolveResult Solve(const SolveRequest& request) {
+// One run of Ceres.
+SolveResult SolveOnce(const SolveRequest& request) {
   const FitProblem& problem = *request.problem;
   const std::vector<TrialProblem>& trials = *request.trials;
   HOPLAB_CHECK(request.starts.size() == trials.size());
@@ -244,6 +228,74 @@ SolveResult Solve(const SolveRequest& request) {
   result.rejected = evaluations.rejected();
   if (result.status == SolveStatus::kFailed) result.message = summary.message;
   return result;
+}
+
+// The shared values a result has on a bound, besides those held already.
+std::vector<int> OnBounds(const SolveRequest& request, const SolveResult& result) {
+  std::vector<int> on;
+  for (int k = 0; k < request.problem->shared_count(); ++k) {
+    const SharedParameter& s = request.problem->shared[k];
+    const double near = 1e-9 * s.scale;
+    const bool bound = result.shared[k] <= s.lower + near || result.shared[k] >= s.upper - near;
+    const bool held = std::find(request.held.begin(), request.held.end(), k) != request.held.end();
+    if (bound && !held) on.push_back(k);
+  }
+  return on;
+}
+
+bool Usable(SolveStatus status) {
+  return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit;
+}
+
+// `again` from where `best` ended; `best` becomes it if its cost is less. Whether it gained.
+bool Improve(const SolveRequest& again, SolveResult& best) {
+  // Below this share of the cost a gain is the solver's own tolerance.
+  constexpr double kGain = 1e-9;
+  SolveRequest request = again;
+  request.shared = best.shared;
+  request.starts = best.starts;
+  SolveResult next = SolveOnce(request);
+  if (!Usable(next.status) || !(next.cost < best.cost * (1.0 - kGain))) return false;
+  next.iterations += best.iterations;
+  for (const auto& [reason, count] : best.rejected) next.rejected[reason] += count;
+  best = std::move(next);
+  return true;
+}
+
+}  // namespace
+
+std::string_view NameOf(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kConverged:
+      return "converged";
+    case SolveStatus::kIterationLimit:
+      return "iteration_limit";
+    case SolveStatus::kNoStart:
+      return "no_start";
+    case SolveStatus::kFailed:
+      return "failed";
+    case SolveStatus::kInterrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+SolveResult Solve(const SolveRequest& request) {
+  SolveResult best = SolveOnce(request);
+  // A trust region cut by a bound lets Ceres stop early: the step it would take is projected, and
+  // what is left of it gains little. So the rest is solved with what lies on a bound held there,
+  // then all of it is let go again, until neither gains.
+  constexpr int kMaxRounds = 5;
+  for (int round = 0; round < kMaxRounds && Usable(best.status); ++round) {
+    if (request.hold_shared) break;
+    const std::vector<int> on = OnBounds(request, best);
+    if (on.empty()) break;
+    SolveRequest held = request;
+    held.held.insert(held.held.end(), on.begin(), on.end());
+    const bool rest_gained = Improve(held, best);
+    if (!Improve(request, best) && !rest_gained) break;
+  }
+  return best;
 }
 
 }  // namespace hoplab
