@@ -126,7 +126,7 @@ std::string MisfitLine(const Uncertainty& u, bool between) {
   return fmt::format(
       "the model misses more than the noise (chi2 {} per sample, 1 expected): the interval from "
       "noise alone is too narrow{}",
-      Significant(u.chi2_per_dof, 3), between ? ", go by the wider one" : "");
+      Significant(u.chi2_per_dof, 3), between ? ", go by the one beside it" : "");
 }
 
 // Trials whose simulation did not reach the end of their data, and legs bent beyond the law.
