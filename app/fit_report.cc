@@ -53,7 +53,11 @@ std::vector<std::string> ParameterLines(const FitRun& run) {
   using enum TextTable::Align;
   TextTable table({kLeft, kRight, kLeft, kLeft, kLeft, kRight, kLeft});
   const bool misfit = run.uncertainty->misfit;
-  table.AddRow({"", "value", "95 % interval", misfit ? "between trials" : "", "unit", "start", ""});
+  table.AddRow({"", "value", "95 % interval",
+                !misfit      ? ""
+                : run.by_hop ? "between hops"
+                             : "between trials",
+                "unit", "start", ""});
   for (int i = 0; i < run.problem.shared_count(); ++i) {
     const SharedParameter& s = run.problem.shared[i];
     const ParameterUncertainty& u = run.uncertainty->parameters[i];
@@ -122,7 +126,7 @@ std::string MisfitLine(const Uncertainty& u, bool between) {
   return fmt::format(
       "the model misses more than the noise (chi2 {} per sample, 1 expected): the interval from "
       "noise alone is too narrow{}",
-      Significant(u.chi2_per_dof, 3), between ? ", go by the one between trials" : "");
+      Significant(u.chi2_per_dof, 3), between ? ", go by the one beside it" : "");
 }
 
 // Trials whose simulation did not reach the end of their data, and legs bent beyond the law.
