@@ -60,6 +60,31 @@ void RefuseToOverwrite(const fs::path& path) {
                     "Choose another name or use --force."});
 }
 
+struct FolderPlace {
+  fs::path folder;  // without a slash at the end
+  bool replace;     // something stands there that may go
+};
+
+// Where a folder is to appear; throws if it may not.
+FolderPlace PlaceOfFolder(const fs::path& folder_or_slash, const OverwriteOptions& options) {
+  const fs::path folder = WithoutTrailingSlash(folder_or_slash);
+  if (folder.empty() || folder == "." || folder == ".." || folder.filename() == "." ||
+      folder.filename() == "..")
+    FailToWrite(folder_or_slash, "a folder is made whole, this one is in use");
+
+  std::error_code error;
+  const bool exists = fs::exists(fs::symlink_status(folder, error));
+  const bool empty_folder = fs::is_directory(folder, error) && fs::is_empty(folder, error);
+  const bool replace = exists && !empty_folder;
+  if (replace && !options.force) RefuseToOverwrite(folder);
+  if (replace && !options.marker.empty() && !fs::exists(folder / options.marker, error))
+    throw InputError({folder.string(), "",
+                      "is not replaced: it holds no " + options.marker +
+                          ", so it was not written by this command",
+                      "Choose another name."});
+  return {folder, replace};
+}
+
 }  // namespace
 
 void WriteFileAtomically(const fs::path& file, std::string_view content,
@@ -79,25 +104,15 @@ void WriteFileAtomically(const fs::path& file, std::string_view content,
   cleanup.Keep();
 }
 
+void CheckFolderIsFree(const fs::path& folder, const OverwriteOptions& options) {
+  PlaceOfFolder(folder, options);
+}
+
 void WriteFolderAtomically(const fs::path& folder_or_slash,
                            const std::function<void(const fs::path&)>& fill,
                            const OverwriteOptions& options) {
-  const fs::path folder = WithoutTrailingSlash(folder_or_slash);
-  if (folder.empty() || folder == "." || folder == ".." || folder.filename() == "." ||
-      folder.filename() == "..")
-    FailToWrite(folder_or_slash, "a folder is made whole, this one is in use");
-
+  const auto [folder, replace] = PlaceOfFolder(folder_or_slash, options);
   std::error_code error;
-  const bool exists = fs::exists(fs::symlink_status(folder, error));
-  const bool empty_folder = fs::is_directory(folder, error) && fs::is_empty(folder, error);
-  const bool replace = exists && !empty_folder;
-  if (replace && !options.force) RefuseToOverwrite(folder);
-  if (replace && !options.marker.empty() && !fs::exists(folder / options.marker, error))
-    throw InputError({folder.string(), "",
-                      "is not replaced: it holds no " + options.marker +
-                          ", so it was not written by this command",
-                      "Choose another name."});
-
   MakeFoldersAbove(folder);
   const fs::path staged = NameBeside(folder, "partial");
   RemoveOnExit cleanup(staged);

@@ -20,6 +20,10 @@ struct OverwriteOptions {
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view content,
                          const OverwriteOptions& options = {});
 
+/// Throws the InputError with which WriteFolderAtomically would refuse `folder`, so that a long job
+/// can find out before it does its work.
+void CheckFolderIsFree(const std::filesystem::path& folder, const OverwriteOptions& options = {});
+
 /// Lets `fill` write into an empty folder beside `folder`, then renames that to `folder`. An
 /// existing empty folder counts as absent. Throws InputError if `folder` exists and `force` is not
 /// set or the marker is missing, or if it cannot be written; whatever `fill` throws goes on to the

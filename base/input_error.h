@@ -16,8 +16,7 @@ class InputError : public std::runtime_error {
     std::string rule;    // "must be in (0, 1e13] Pa"
     std::string remedy;  // "Check the sign."; may be empty
   };
-  explicit InputError(const Parts& parts)
-      : std::runtime_error(Message(parts)), parts_(parts) {}
+  explicit InputError(const Parts& parts) : std::runtime_error(Message(parts)), parts_(parts) {}
   const Parts& parts() const { return parts_; }
 
  private:

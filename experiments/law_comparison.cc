@@ -24,9 +24,9 @@ LawComparison CompareLaws(const Dataset& dataset, const std::vector<Variant>& va
     const FitProblem& problem = row.fit.problem;
     const FitResult& result = row.fit.result;
     if (result.ok) {
-      row.uncertainty = AssessUncertainty(problem, TrialsOf(problem, TrialRole::kTrain),
-                                          result.shared, result.starts, fit_options.loss,
-                                          fit_options.jobs);
+      row.uncertainty =
+          AssessUncertainty(problem, TrialsOf(problem, TrialRole::kTrain), result.shared,
+                            result.starts, fit_options.loss, fit_options.jobs);
       const std::vector<TrialErrors> errors = AssessTrials(problem, result, fit_options);
       row.train = Summarise(problem, errors, TrialRole::kTrain);
       row.test = Summarise(problem, errors, TrialRole::kTest);

@@ -85,9 +85,9 @@ std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProb
     const bool falls_after = b < end || end < rows;  // the trace goes on after the apex
     Apex apex{top, {0.0, 0.0, 0.0, 0.0}};
     const double at = trial.row_times[top];
-    const bool seen = b - a >= 8 && FitLine(trial, y_column, width, a, b, at,
-                                            -0.5 * trial.parameters.g, apex.state[1],
-                                            apex.state[3]);
+    const bool seen =
+        b - a >= 8 && FitLine(trial, y_column, width, a, b, at, -0.5 * trial.parameters.g,
+                              apex.state[1], apex.state[3]);
     if (x_column >= 0 && seen)
       FitLine(trial, x_column, width, a, b, at, 0.0, apex.state[0], apex.state[2]);
     else

@@ -123,8 +123,7 @@ Eigen::VectorXd ShootApexes(const FitProblem& problem, const std::vector<TrialPr
 
 // Rows of a trial that the simulation from `shared` and the given starts can speak for.
 std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
-                                        const std::vector<TrialProblem>& trials,
-                                        double fraction) {
+                                        const std::vector<TrialProblem>& trials, double fraction) {
   std::vector<TrialProblem> cut;
   for (const TrialProblem& trial : trials) {
     const double until = trial.row_times.back() * fraction;
@@ -166,8 +165,7 @@ Eigen::VectorXd ScatteredStart(const FitProblem& problem, const Eigen::VectorXd&
     const SharedParameter& s = problem.shared[i];
     const double u = random.Uniform(-1.0, 1.0);
     // Positive sizes by a factor of two either way; what may be zero by its typical size.
-    const double value = s.lower > 0.0 ? nominal[i] * std::pow(2.0, u)
-                                       : nominal[i] + u * s.scale;
+    const double value = s.lower > 0.0 ? nominal[i] * std::pow(2.0, u) : nominal[i] + u * s.scale;
     const double room = std::min(0.05 * s.scale, 0.25 * (s.upper - s.lower));
     start[i] = std::clamp(value, s.lower + room, s.upper - room);
   }
@@ -178,9 +176,12 @@ Eigen::VectorXd ScatteredStart(const FitProblem& problem, const Eigen::VectorXd&
 
 std::string_view NameOf(FitStrategy strategy) {
   switch (strategy) {
-    case FitStrategy::kRaw: return "raw";
-    case FitStrategy::kGrowingHorizon: return "growing_horizon";
-    case FitStrategy::kApexShooting: return "apex_shooting";
+    case FitStrategy::kRaw:
+      return "raw";
+    case FitStrategy::kGrowingHorizon:
+      return "growing_horizon";
+    case FitStrategy::kApexShooting:
+      return "apex_shooting";
   }
   return "";
 }

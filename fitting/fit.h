@@ -10,9 +10,9 @@ namespace hoplab {
 /// How a fit gets from its nominal start to the basin of the raw-time optimum. Measured in
 /// docs/decisions/0003-convergence.md.
 enum class FitStrategy {
-  kRaw,            // all rows at once, from the nominal values
-  kGrowingHorizon, // the first rows, then more and more of them
-  kApexShooting    // hops one by one from the apexes the data show, then all rows (default)
+  kRaw,             // all rows at once, from the nominal values
+  kGrowingHorizon,  // the first rows, then more and more of them
+  kApexShooting     // hops one by one from the apexes the data show, then all rows (default)
 };
 std::string_view NameOf(FitStrategy strategy);
 std::optional<FitStrategy> FindStrategy(std::string_view name);

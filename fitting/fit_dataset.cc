@@ -9,9 +9,12 @@ namespace hoplab {
 
 std::string_view NameOf(FitSpan span) {
   switch (span) {
-    case FitSpan::kWholeElseHops: return "whole_else_hops";
-    case FitSpan::kWhole: return "whole";
-    case FitSpan::kHops: return "hops";
+    case FitSpan::kWholeElseHops:
+      return "whole_else_hops";
+    case FitSpan::kWhole:
+      return "whole";
+    case FitSpan::kHops:
+      return "hops";
   }
   return "";
 }

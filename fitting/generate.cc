@@ -74,8 +74,8 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
 
   GeneratedDataset out;
   Dataset& dataset = out.dataset;
-  dataset.name = scenario.dataset && scenario.dataset->name ? *scenario.dataset->name
-                                                            : scenario.name;
+  dataset.name =
+      scenario.dataset && scenario.dataset->name ? *scenario.dataset->name : scenario.name;
   dataset.title = scenario.dataset && scenario.dataset->title
                       ? *scenario.dataset->title
                       : "Generated from the scenario " + scenario.name;
@@ -99,8 +99,8 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
     SimulationRequest request;
     request.law = law;
     request.liftoff = LiftoffOfSpec(plan.mechanism);
-    request.parameters = ParametersOfSpec(plan.mechanism, plan.controller,
-                                          plan.touchdown_angle_rad);
+    request.parameters =
+        ParametersOfSpec(plan.mechanism, plan.controller, plan.touchdown_angle_rad);
     request.effects = effects;
     request.initial = StateOfSpec(truth);
     request.horizon = horizon;

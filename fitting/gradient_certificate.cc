@@ -19,8 +19,8 @@ IntegratorOptions Tight(const IntegratorOptions& options) {
   return tight;
 }
 
-// Step of the widest difference as a share of the size of the value: its h^4 remainder after extrapolation and
-// the simulations' 1e-12 over it balance near 1e-3 for hop traces.
+// Step of the widest difference as a share of the size of the value: its h^4 remainder after
+// extrapolation and the simulations' 1e-12 over it balance near 1e-3 for hop traces.
 constexpr double kStep = 1e-3;
 // Below this guard rate [1/s] an event is close to grazing: a start half a hop earlier would meet
 // it at more than 1 in every hop trace seen.
@@ -58,8 +58,10 @@ TrialReport CheckTrial(const FitProblem& problem, const TrialProblem& trial,
   const IntegratorOptions tight = Tight(problem.integrator);
   TrialReport report;
   Trajectory analytic;
-  if (source) source(evaluator, {shared, start, true}, analytic);
-  else evaluator.Simulate({shared, start, true}, problem.integrator, analytic);
+  if (source)
+    source(evaluator, {shared, start, true}, analytic);
+  else
+    evaluator.Simulate({shared, start, true}, problem.integrator, analytic);
   Flag(trial, analytic, report.flags);
   report.errors.assign(width, std::numeric_limits<double>::quiet_NaN());
 
@@ -107,8 +109,10 @@ TrialReport CheckTrial(const FitProblem& problem, const TrialProblem& trial,
         norm += std::pow(value * weight, 2);
       }
     }
-    if (norm > 0.0) report.errors[k] = std::sqrt(difference / norm);
-    else if (difference > 0.0) report.errors[k] = std::numeric_limits<double>::infinity();
+    if (norm > 0.0)
+      report.errors[k] = std::sqrt(difference / norm);
+    else if (difference > 0.0)
+      report.errors[k] = std::numeric_limits<double>::infinity();
   }
   return report;
 }
@@ -148,8 +152,7 @@ GradientCertificate CertifyGradients(const FitProblem& problem,
   for (std::size_t i = 0; i < trials.size(); ++i) {
     for (int k = 0; k < 4; ++k) {
       const double error = reports[i].errors[n + k];
-      if (!std::isnan(error))
-        take({trials[i].file + "." + kStartNames[k], trials[i].file, error});
+      if (!std::isnan(error)) take({trials[i].file + "." + kStartNames[k], trials[i].file, error});
     }
     out.flags.insert(out.flags.end(), reports[i].flags.begin(), reports[i].flags.end());
   }

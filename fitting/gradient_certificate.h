@@ -10,8 +10,8 @@ namespace hoplab {
 
 /// One column of the sensitivities held against Richardson differences of the simulation.
 struct CertificateColumn {
-  std::string name;       // "E", "train-1.csv.vx0"
-  std::string trial;      // the worst trial for a shared value
+  std::string name;   // "E", "train-1.csv.vx0"
+  std::string trial;  // the worst trial for a shared value
   /// |analytic - differences| / |analytic|; absent where the column is zero in both.
   std::optional<double> relative_error;
 };

@@ -58,9 +58,12 @@ LiftoffRule LiftoffOfSpec(const MechanismSpec& mechanism) {
 
 MechanismKind MechanismOfSpec(const MechanismSpec& mechanism) {
   switch (mechanism.type) {
-    case MechanismType::kCLeg: return MechanismKind::kCLeg;
-    case MechanismType::kStraightLeg: return MechanismKind::kStraightLeg;
-    case MechanismType::kBall: return MechanismKind::kBall;
+    case MechanismType::kCLeg:
+      return MechanismKind::kCLeg;
+    case MechanismType::kStraightLeg:
+      return MechanismKind::kStraightLeg;
+    case MechanismType::kBall:
+      return MechanismKind::kBall;
   }
   return MechanismKind::kCLeg;
 }

@@ -31,9 +31,8 @@ std::vector<std::string> KnownParameterNames(MechanismKind mechanism) {
 // Damping at which a leg of this stiffness loses a few percent of its energy: the size of a change
 // of d that matters when its nominal value is zero.
 double TypicalDamping(const Parameters<double>& p, MechanismKind mechanism) {
-  const double stiffness = mechanism == MechanismKind::kStraightLeg
-                               ? p.k
-                               : 1.0 / LegCompliance<double>(p).Chord(2.5);
+  const double stiffness =
+      mechanism == MechanismKind::kStraightLeg ? p.k : 1.0 / LegCompliance<double>(p).Chord(2.5);
   return 0.04 * std::sqrt(stiffness * p.m);
 }
 
@@ -68,10 +67,10 @@ class Builder {
       TrialProblem t;
       t.file = trial.file;
       t.role = trial.role;
-      t.parameters =
-          ParametersOfSpec(trial.mechanism, trial.controller, trial.touchdown_angle_rad);
+      t.parameters = ParametersOfSpec(trial.mechanism, trial.controller, trial.touchdown_angle_rad);
       t.liftoff = LiftoffOfSpec(trial.mechanism);
       const std::vector<double>& time = trial.trace.time_s;
+      t.begin_s = time.front();
       t.row_times.reserve(time.size());
       for (double s : time) t.row_times.push_back(s - time.front());
       problem_.trials.push_back(std::move(t));
@@ -177,8 +176,7 @@ class Builder {
   std::array<double, 4> StartFromTrace(const Trial& trial, const TrialProblem& t) const {
     const double g = t.parameters.g;
     std::array<double, 4> start = {0.0, kNaN, 0.0, 0.0};
-    const double touchdown =
-        TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
+    const double touchdown = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
     const std::vector<double>* y = trial.trace.Find(ChannelId::kBodyY);
     std::size_t rows = t.row_times.size();
     if (y) {
@@ -235,8 +233,7 @@ class Builder {
         for (TrialProblem& t : problem_.trials) Field(t.parameters, id) = value;
       } else {
         const auto [index, component] = EffectParameterOf(split, "--fix");
-        const EffectParameter& info =
-            problem_.effects[index].effect->info.parameters[component];
+        const EffectParameter& info = problem_.effects[index].effect->info.parameters[component];
         CheckRange(name, value, info.lower, info.upper, info.unit, "--fix");
         problem_.effects[index].values[component] = value;
       }
@@ -322,10 +319,9 @@ class Builder {
     if (!split.effect.empty()) {
       const auto [index, component] = EffectParameterOf(split, place);
       const EffectParameter& info = problem_.effects[index].effect->info.parameters[component];
-      problem_.shared.push_back({name, std::string(info.unit),
-                                 SensitivityDirection::EffectParameter(index, component),
-                                 info.lower, info.upper, problem_.effects[index].values[component],
-                                 info.typical});
+      problem_.shared.push_back(
+          {name, std::string(info.unit), SensitivityDirection::EffectParameter(index, component),
+           info.lower, info.upper, problem_.effects[index].values[component], info.typical});
       return;
     }
     const ParameterId id = KnownParameter(name, place);

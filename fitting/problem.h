@@ -26,7 +26,7 @@ struct SharedParameter {
 
 /// How a contact channel's switching times are compared with the events of a simulation.
 struct ContactTimes {
-  std::vector<double> touchdown_s, liftoff_s;          // middle between the rows they lie between
+  std::vector<double> touchdown_s, liftoff_s;  // middle between the rows they lie between
   std::vector<double> touchdown_sigma_s, liftoff_sigma_s;  // uniform over that gap: gap/sqrt(12)
 };
 
@@ -36,6 +36,7 @@ struct TrialProblem {
   TrialRole role = TrialRole::kTrain;
   Parameters<double> parameters;  // of this trial; shared values are put over them
   LiftoffRule liftoff = LiftoffRule::kZeroForce;
+  double begin_s = 0.0;           // the first row's time in the dataset's own file
   std::vector<double> row_times;  // s since the first row
   std::vector<double> data;       // row-major [row][channel]; NaN = missing
   ContactTimes contact;
@@ -60,7 +61,7 @@ struct ChannelProblem {
 struct FitProblem {
   Law law = Law::kLargeDeflection;
   std::vector<SharedParameter> shared;
-  std::vector<EffectSetting> effects;  // with their nominal values
+  std::vector<EffectSetting> effects;    // with their nominal values
   std::vector<ChannelProblem> channels;  // without `contact`
   bool uses_contact = false;
   std::vector<TrialProblem> trials;

@@ -9,8 +9,8 @@ namespace hoplab {
 
 /// One point of a profile: the value held, and what the rest could make of it.
 struct ProfilePoint {
-  double value;         // own unit
-  double delta_chi2;    // 2 (cost - cost of the fit); NaN if the search failed there
+  double value;       // own unit
+  double delta_chi2;  // 2 (cost - cost of the fit); NaN if the search failed there
   Eigen::VectorXd shared;
 };
 

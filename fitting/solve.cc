@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/check.h"
@@ -14,9 +15,8 @@ std::string Reason(const TrialProblem& trial, const Trajectory& trajectory) {
   char at[48];
   std::snprintf(at, sizeof at, " at %.3f s", trajectory.end_time);
   return trial.file + ": " +
-         (IsComplete(trajectory.outcome)
-              ? std::string("other contacts than the trace shows")
-              : std::string(SentenceOf(trajectory.outcome)) + at);
+         (IsComplete(trajectory.outcome) ? std::string("other contacts than the trace shows")
+                                         : std::string(SentenceOf(trajectory.outcome)) + at);
 }
 
 // Simulates every trial once per point, in parallel, before Ceres asks its residual blocks one by
@@ -24,8 +24,11 @@ std::string Reason(const TrialProblem& trial, const Trajectory& trajectory) {
 class Evaluations : public ceres::EvaluationCallback {
  public:
   Evaluations(const SolveRequest& request)
-      : request_(request), problem_(*request.problem), trials_(*request.trials),
-        shared_(problem_.shared_count()), starts_(trials_.size()),
+      : request_(request),
+        problem_(*request.problem),
+        trials_(*request.trials),
+        shared_(problem_.shared_count()),
+        starts_(trials_.size()),
         evaluations_(trials_.size()) {
     for (const TrialProblem& trial : trials_) evaluators_.emplace_back(problem_, trial);
     for (int i = 0; i < problem_.shared_count(); ++i)
@@ -37,16 +40,14 @@ class Evaluations : public ceres::EvaluationCallback {
     if (!new_point && (have_jacobian_ || !jacobians)) return;
     Run(jacobians);
     for (std::size_t i = 0; i < trials_.size(); ++i) {
-      if (!evaluations_[i].complete)
-        ++rejected_[Reason(trials_[i], evaluations_[i].trajectory)];
+      if (!evaluations_[i].complete) ++rejected_[Reason(trials_[i], evaluations_[i].trajectory)];
     }
   }
   void Run(bool jacobians) {
     have_jacobian_ = jacobians;
     const Eigen::VectorXd shared = SharedValues();
     ParallelFor(static_cast<int>(trials_.size()), request_.jobs, [&](int i) {
-      evaluators_[i].Evaluate({shared, StartValues(i), jacobians, request_.loss},
-                              evaluations_[i]);
+      evaluators_[i].Evaluate({shared, StartValues(i), jacobians, request_.loss}, evaluations_[i]);
     });
   }
 
@@ -58,8 +59,7 @@ class Evaluations : public ceres::EvaluationCallback {
   }
   std::array<double, 4> StartValues(int trial) const {
     std::array<double, 4> values = request_.starts[trial];
-    for (int i = 0; i < 4; ++i)
-      values[i] += starts_[trial][i] * trials_[trial].start_scale[i];
+    for (int i = 0; i < 4; ++i) values[i] += starts_[trial][i] * trials_[trial].start_scale[i];
     return values;
   }
   double* shared() { return shared_.data(); }
@@ -135,34 +135,28 @@ class Watch : public ceres::IterationCallback {
 void HoldComponents(ceres::Problem& problem, double* block, int size,
                     const std::vector<int>& held) {
   if (held.empty()) return;
-  if (static_cast<int>(held.size()) == size) problem.SetParameterBlockConstant(block);
-  else problem.SetManifold(block, new ceres::SubsetManifold(size, held));
+  if (static_cast<int>(held.size()) == size)
+    problem.SetParameterBlockConstant(block);
+  else
+    problem.SetManifold(block, new ceres::SubsetManifold(size, held));
 }
 
 SolveStatus StatusOf(const ceres::Solver::Summary& summary) {
   switch (summary.termination_type) {
-    case ceres::CONVERGENCE: return SolveStatus::kConverged;
-    case ceres::NO_CONVERGENCE: return SolveStatus::kIterationLimit;
+    case ceres::CONVERGENCE:
+      return SolveStatus::kConverged;
+    case ceres::NO_CONVERGENCE:
+      return SolveStatus::kIterationLimit;
     case ceres::USER_FAILURE:
-    case ceres::USER_SUCCESS: return SolveStatus::kInterrupted;
-    default: return SolveStatus::kFailed;
+    case ceres::USER_SUCCESS:
+      return SolveStatus::kInterrupted;
+    default:
+      return SolveStatus::kFailed;
   }
 }
 
-}  // namespace
-
-std::string_view NameOf(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::kConverged: return "converged";
-    case SolveStatus::kIterationLimit: return "iteration_limit";
-    case SolveStatus::kNoStart: return "no_start";
-    case SolveStatus::kFailed: return "failed";
-    case SolveStatus::kInterrupted: return "interrupted";
-  }
-  return "";
-}
-
-SolveResult Solve(const SolveRequest& request) {
+// One run of Ceres.
+SolveResult SolveOnce(const SolveRequest& request) {
   const FitProblem& problem = *request.problem;
   const std::vector<TrialProblem>& trials = *request.trials;
   HOPLAB_CHECK(request.starts.size() == trials.size());
@@ -234,6 +228,74 @@ SolveResult Solve(const SolveRequest& request) {
   result.rejected = evaluations.rejected();
   if (result.status == SolveStatus::kFailed) result.message = summary.message;
   return result;
+}
+
+// The shared values a result has on a bound, besides those held already.
+std::vector<int> OnBounds(const SolveRequest& request, const SolveResult& result) {
+  std::vector<int> on;
+  for (int k = 0; k < request.problem->shared_count(); ++k) {
+    const SharedParameter& s = request.problem->shared[k];
+    const double near = 1e-9 * s.scale;
+    const bool bound = result.shared[k] <= s.lower + near || result.shared[k] >= s.upper - near;
+    const bool held = std::find(request.held.begin(), request.held.end(), k) != request.held.end();
+    if (bound && !held) on.push_back(k);
+  }
+  return on;
+}
+
+bool Usable(SolveStatus status) {
+  return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit;
+}
+
+// `again` from where `best` ended; `best` becomes it if its cost is less. Whether it gained.
+bool Improve(const SolveRequest& again, SolveResult& best) {
+  // Below this share of the cost a gain is the solver's own tolerance.
+  constexpr double kGain = 1e-9;
+  SolveRequest request = again;
+  request.shared = best.shared;
+  request.starts = best.starts;
+  SolveResult next = SolveOnce(request);
+  if (!Usable(next.status) || !(next.cost < best.cost * (1.0 - kGain))) return false;
+  next.iterations += best.iterations;
+  for (const auto& [reason, count] : best.rejected) next.rejected[reason] += count;
+  best = std::move(next);
+  return true;
+}
+
+}  // namespace
+
+std::string_view NameOf(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kConverged:
+      return "converged";
+    case SolveStatus::kIterationLimit:
+      return "iteration_limit";
+    case SolveStatus::kNoStart:
+      return "no_start";
+    case SolveStatus::kFailed:
+      return "failed";
+    case SolveStatus::kInterrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+SolveResult Solve(const SolveRequest& request) {
+  SolveResult best = SolveOnce(request);
+  // A trust region cut by a bound lets Ceres stop early: the step it would take is projected, and
+  // what is left of it gains little. So the rest is solved with what lies on a bound held there,
+  // then all of it is let go again, until neither gains.
+  constexpr int kMaxRounds = 5;
+  for (int round = 0; round < kMaxRounds && Usable(best.status); ++round) {
+    if (request.hold_shared) break;
+    const std::vector<int> on = OnBounds(request, best);
+    if (on.empty()) break;
+    SolveRequest held = request;
+    held.held.insert(held.held.end(), on.begin(), on.end());
+    const bool rest_gained = Improve(held, best);
+    if (!Improve(request, best) && !rest_gained) break;
+  }
+  return best;
 }
 
 }  // namespace hoplab

@@ -25,7 +25,7 @@ struct SolveRequest {
   Loss loss;
   int max_iterations = 100;
   int jobs = 1;
-  const std::atomic<bool>* stop = nullptr;                  // set: end as soon as possible
+  const std::atomic<bool>* stop = nullptr;  // set: end as soon as possible
   std::function<void(int iteration, double cost)> progress = nullptr;
 };
 

@@ -37,7 +37,8 @@ std::vector<double> Rmse(const TrialProblem& trial, const Trajectory& trajectory
       count[c] += 1.0;
     }
   }
-  for (std::size_t c = 0; c < channels; ++c) sum[c] = count[c] > 0 ? std::sqrt(sum[c] / count[c]) : kNaN;
+  for (std::size_t c = 0; c < channels; ++c)
+    sum[c] = count[c] > 0 ? std::sqrt(sum[c] / count[c]) : kNaN;
   return sum;
 }
 
@@ -75,8 +76,7 @@ std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult
   std::vector<TrialErrors> errors(problem.trials.size());
   ParallelFor(static_cast<int>(errors.size()), options.jobs, [&](int i) {
     const TrialProblem& trial = problem.trials[i];
-    if (trial.role == TrialRole::kTest)
-      starts[i] = RefitStart(problem, trial, fit.shared, options);
+    if (trial.role == TrialRole::kTest) starts[i] = RefitStart(problem, trial, fit.shared, options);
     const TrialEvaluator evaluator(problem, trial);
     TrialEvaluation e;
     evaluator.Evaluate({fit.shared, starts[i], false}, e);
@@ -102,8 +102,10 @@ std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult
         nll += std::log(problem.channels[cell % channels].sigma) +
                0.5 * std::log(2.0 * std::numbers::pi);
       }
-      for (const auto* sigmas : {&trial.contact.touchdown_sigma_s, &trial.contact.liftoff_sigma_s}) {
-        for (double sigma : *sigmas) nll += std::log(sigma) + 0.5 * std::log(2.0 * std::numbers::pi);
+      for (const auto* sigmas :
+           {&trial.contact.touchdown_sigma_s, &trial.contact.liftoff_sigma_s}) {
+        for (double sigma : *sigmas)
+          nll += std::log(sigma) + 0.5 * std::log(2.0 * std::numbers::pi);
       }
       out.nll_per_sample = nll / static_cast<double>(trial.sample_count);
     }
@@ -134,7 +136,8 @@ RoleErrors Summarise(const FitProblem& problem, const std::vector<TrialErrors>& 
   }
   for (std::size_t c = 0; c < channels; ++c)
     out.rmse[c] = counts[c] > 0.0 ? std::sqrt(out.rmse[c] / counts[c]) : kNaN;
-  out.nll_per_sample = out.samples > 0 ? out.nll_per_sample / static_cast<double>(out.samples) : kNaN;
+  out.nll_per_sample =
+      out.samples > 0 ? out.nll_per_sample / static_cast<double>(out.samples) : kNaN;
   return out;
 }
 

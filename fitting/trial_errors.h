@@ -20,16 +20,16 @@ struct TrialErrors {
   std::string file;
   TrialRole role;
   Outcome outcome;
-  double end_time;                 // s, where the simulation ended
-  bool complete;                   // every datum has its simulated counterpart
-  std::vector<double> rmse;        // per channel; NaN unless complete (never from fewer samples)
-  double nll_per_sample;           // Gaussian, with the channels' sigma; NaN unless complete
-  double chi2 = 0.0;               // of the data's whitened residuals
+  double end_time;           // s, where the simulation ended
+  bool complete;             // every datum has its simulated counterpart
+  std::vector<double> rmse;  // per channel; NaN unless complete (never from fewer samples)
+  double nll_per_sample;     // Gaussian, with the channels' sigma; NaN unless complete
+  double chi2 = 0.0;         // of the data's whitened residuals
   long samples;
   std::vector<HopErrors> hops;
-  std::array<double, 4> start;     // fitted
-  double max_flexure = 0.0;        // F C/l0; beyond 0.2 `large_deflection` is not to be trusted
-  Trajectory trajectory;           // samples at the rows
+  std::array<double, 4> start;  // fitted
+  double max_flexure = 0.0;     // F C/l0; beyond 0.2 `large_deflection` is not to be trusted
+  Trajectory trajectory;        // samples at the rows
 };
 
 /// Means over trials of one role.

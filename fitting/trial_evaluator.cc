@@ -41,8 +41,10 @@ void ApplyShared(const FitProblem& problem, const Eigen::Ref<const Eigen::Vector
   effects = problem.effects;
   for (int i = 0; i < problem.shared_count(); ++i) {
     const SensitivityDirection& d = problem.shared[i].direction;
-    if (d.of == SensitivityDirection::Of::kParameter) Field(parameters, d.parameter) = shared[i];
-    else effects[d.index].values[d.component] = shared[i];
+    if (d.of == SensitivityDirection::Of::kParameter)
+      Field(parameters, d.parameter) = shared[i];
+    else
+      effects[d.index].values[d.component] = shared[i];
   }
 }
 
@@ -55,17 +57,16 @@ TrialEvaluator::TrialEvaluator(const FitProblem& problem, const TrialProblem& tr
   for (const SharedParameter& s : problem.shared) directions_.push_back(s.direction);
   for (int i = 0; i < 4; ++i) directions_.push_back(SensitivityDirection::InitialState(i));
   horizon_ = trial.row_times.back();
-  const bool shifts_time =
-      std::any_of(problem.effects.begin(), problem.effects.end(), [](const EffectSetting& e) {
-        return e.effect->hooks0.change_observation_time != nullptr;
-      });
+  const bool shifts_time = std::any_of(
+      problem.effects.begin(), problem.effects.end(),
+      [](const EffectSetting& e) { return e.effect->hooks0.change_observation_time != nullptr; });
   if (shifts_time || problem.uses_contact) horizon_ += kHorizonMargin;
   residual_count_ = static_cast<int>(trial.sample_count);
   for (double sigma : trial.prior_sigma) residual_count_ += std::isfinite(sigma) ? 1 : 0;
 }
 
-void TrialEvaluator::Simulate(const EvaluationRequest& request,
-                              const IntegratorOptions& integrator, Trajectory& out) const {
+void TrialEvaluator::Simulate(const EvaluationRequest& request, const IntegratorOptions& integrator,
+                              Trajectory& out) const {
   SimulationRequest sim;
   sim.law = problem_->law;
   sim.liftoff = trial_->liftoff;
@@ -116,15 +117,13 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
     if (simulated.size() < measured.size()) return false;
     for (std::size_t i = 0; i < measured.size(); ++i) {
       add((simulated[i].time - measured[i]) / sigma[i],
-          request.want_jacobian
-              ? &trajectory.event_time_sensitivities[simulated[i].index * width]
-              : nullptr,
+          request.want_jacobian ? &trajectory.event_time_sensitivities[simulated[i].index * width]
+                                : nullptr,
           1.0 / sigma[i]);
     }
     return true;
   };
-  const EventKind down =
-      problem_->law == Law::kBall ? EventKind::kBounce : EventKind::kTouchdown;
+  const EventKind down = problem_->law == Law::kBall ? EventKind::kBounce : EventKind::kTouchdown;
   if (!add_times(down, trial_->contact.touchdown_s, trial_->contact.touchdown_sigma_s)) return;
   if (!add_times(EventKind::kLiftoff, trial_->contact.liftoff_s, trial_->contact.liftoff_sigma_s))
     return;
@@ -132,8 +131,7 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
   // The prior is not a measurement with outliers: no loss on it.
   for (int i = 0; i < 4; ++i) {
     if (!std::isfinite(trial_->prior_sigma[i])) continue;
-    out.residuals[next] =
-        (request.start[i] - trial_->prior_mean[i]) / trial_->prior_sigma[i];
+    out.residuals[next] = (request.start[i] - trial_->prior_mean[i]) / trial_->prior_sigma[i];
     if (request.want_jacobian) {
       out.jacobian.row(next).setZero();
       out.jacobian(next, shared + i) = 1.0 / trial_->prior_sigma[i];
@@ -149,10 +147,11 @@ TrialProblem CutTrial(const FitProblem& problem, const TrialProblem& trial, int 
   const double origin = trial.row_times[first], end = trial.row_times[last - 1] - origin;
   cut.row_times.assign(trial.row_times.begin() + first, trial.row_times.begin() + last);
   for (double& t : cut.row_times) t -= origin;
+  cut.begin_s += origin;
   cut.data.assign(trial.data.begin() + static_cast<std::ptrdiff_t>(first * width),
                   trial.data.begin() + static_cast<std::ptrdiff_t>(last * width));
-  cut.sample_count = std::count_if(cut.data.begin(), cut.data.end(),
-                                   [](double v) { return !std::isnan(v); });
+  cut.sample_count =
+      std::count_if(cut.data.begin(), cut.data.end(), [](double v) { return !std::isnan(v); });
   const auto cut_times = [&](const std::vector<double>& times, const std::vector<double>& sigmas,
                              std::vector<double>& out, std::vector<double>& out_sigmas) {
     out.clear();

@@ -112,8 +112,7 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
 
   const double dof = std::max<double>(static_cast<double>(samples + priors - free_starts - m), 1.0);
   out.chi2_per_dof = chi2 / dof;
-  out.chi2_p_value =
-      boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), chi2));
+  out.chi2_p_value = boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), chi2));
   out.misfit = out.chi2_p_value < 1e-3;
 
   Eigen::MatrixXd S(rows, m);
@@ -134,8 +133,7 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
   const Eigen::MatrixXd& V = svd.matrixV();
   Identifiability& id = out.identifiability;
   for (int j = 0; j < m; ++j) id.rank += sv[j] > kRankTolerance * sv[0] && sv[j] > 0.0;
-  id.condition_number =
-      id.rank == m ? sv[0] / sv[m - 1] : std::numeric_limits<double>::infinity();
+  id.condition_number = id.rank == m ? sv[0] / sv[m - 1] : std::numeric_limits<double>::infinity();
   for (int j = m - 1; j >= 0; --j) {
     const bool unseen = j >= id.rank;
     if (!unseen && 1.0 / sv[j] <= kWeakStdError) break;
@@ -179,8 +177,7 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
     }
     for (int b = 0; b < m; ++b) {
       if (unseen_share[b] > 1e-10) continue;
-      out.covariance(active[a], active[b]) =
-          C(a, b) * s.scale * problem.shared[active[b]].scale;
+      out.covariance(active[a], active[b]) = C(a, b) * s.scale * problem.shared[active[b]].scale;
       out.correlation(active[a], active[b]) = C(a, b) / std::sqrt(C(a, a) * C(b, b));
     }
   }

@@ -12,8 +12,8 @@ namespace hoplab {
 
 /// How well one shared value is known. Absent where the data do not determine it.
 struct ParameterUncertainty {
-  std::optional<double> std_error;                  // own unit, from the stated noise
-  std::optional<std::pair<double, double>> ci95;    // value -+ 1.96 std_error, cut at the bounds
+  std::optional<double> std_error;                // own unit, from the stated noise
+  std::optional<std::pair<double, double>> ci95;  // value -+ 1.96 std_error, cut at the bounds
   /// The same from the scatter between trials (sandwich estimate, Student's t): what counts when
   /// the model misses more than noise. Absent with fewer than 3 trials.
   std::optional<double> std_error_between_trials;
@@ -24,8 +24,8 @@ struct ParameterUncertainty {
 /// A combination of shared values the data say little about: moving along it by its loadings
 /// (in units of each value's scale, length 1) changes the fit by `eigenvalue` per square.
 struct WeakDirection {
-  double eigenvalue;            // of the information matrix, starts marginalised; 0: not seen at all
-  std::vector<double> loadings; // one a shared value
+  double eigenvalue;  // of the information matrix, starts marginalised; 0: not seen at all
+  std::vector<double> loadings;  // one a shared value
 };
 
 struct Identifiability {

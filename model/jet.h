@@ -39,7 +39,7 @@ double Slope(const Jet<N>& x, int k) {
 template <class T>
 T Seeded(double value, int k, double slope) {
   T x(value);
-  if constexpr (kJetWidth<T> > 0) x.v[k] = slope;
+  if constexpr (kJetWidth < T >> 0) x.v[k] = slope;
   return x;
 }
 

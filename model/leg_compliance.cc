@@ -11,11 +11,11 @@ constexpr double kBendingSeriesBelow = 1.0;
 constexpr double kSecondOrderSeriesBelow = 1.5;
 
 // f = sum over k >= 2 of (-1)^k (2k - 2)/(2k + 1)! phi^(2k+1).
-constexpr std::array<double, 10> kBendingSeries = {
-    0.016666666666666666,    -0.00079365079365079365, 1.6534391534391536e-05,
-    -2.0041686708353376e-07, 1.6059043836821615e-09,  -9.1765964781837793e-12,
-    3.936040156083729e-14,   -1.3153016394598927e-16, 3.5231293914104271e-19,
-    -7.7363403412613678e-22};
+constexpr std::array<double, 10> kBendingSeries = {0.016666666666666666,   -0.00079365079365079365,
+                                                   1.6534391534391536e-05, -2.0041686708353376e-07,
+                                                   1.6059043836821615e-09, -9.1765964781837793e-12,
+                                                   3.936040156083729e-14,  -1.3153016394598927e-16,
+                                                   3.5231293914104271e-19, -7.7363403412613678e-22};
 
 // g = sum over k >= 3 of c_k phi^(2k+1), c_k rational (first ones 17/13440, -47/322560,
 // 1871/283852800), from the product of the sine and cosine series of phi/2 and 3 phi/2.
@@ -76,8 +76,8 @@ ShapeValue SecondOrderShape(const HalfAngle& a) {
   const double S2 = S * S, K2 = K * K;
   const double g = 3.0 * h * h * S * K2 + 9.0 * h * K2 * K - 1.5 * h * K - 8.5 * S * K2 + S;
   // Derivatives with respect to h, then d/dphi = (1/2) d/dh.
-  const double g1 = h * h * K * (3.0 * K2 - 6.0 * S2) - 21.0 * h * S * K2 + 1.5 * h * S +
-                    16.5 * S2 * K;
+  const double g1 =
+      h * h * K * (3.0 * K2 - 6.0 * S2) - 21.0 * h * S * K2 + 1.5 * h * S + 16.5 * S2 * K;
   const double g2 = h * h * S * (6.0 * S2 - 21.0 * K2) + h * K * (30.0 * S2 - 15.0 * K2 + 1.5) +
                     12.0 * S * K2 + 1.5 * S - 16.5 * S2 * S;
   return {g, 0.5 * g1, 0.25 * g2};

@@ -9,8 +9,16 @@ namespace hoplab {
 
 /// What a trace can measure, in the order of the data format.
 enum class Channel {
-  kBodyX, kBodyY, kBodyVx, kBodyVy, kLegAngle, kLegLength, kGroundForceX, kGroundForceY,
-  kHipTorque, kContact
+  kBodyX,
+  kBodyY,
+  kBodyVx,
+  kBodyVy,
+  kLegAngle,
+  kLegLength,
+  kGroundForceX,
+  kGroundForceY,
+  kHipTorque,
+  kContact
 };
 inline constexpr int kChannelCount = 10;
 

@@ -32,8 +32,8 @@ constexpr std::array<ParameterInfo, 17> kParameters = {{
     {kRadius, "radius", "m", 0.0, 1e2},
 }};
 
-constexpr std::array kCLegParameters = {kE,   kD,       kG,            kM,    kR,          kGravity, kKp,
-                                        kVDes, kThetaTd, kSecondMoment, kArea, kShearFactor};
+constexpr std::array kCLegParameters = {
+    kE, kD, kG, kM, kR, kGravity, kKp, kVDes, kThetaTd, kSecondMoment, kArea, kShearFactor};
 constexpr std::array kStraightLegParameters = {kStiffness, kD,  kRestLength, kM,
                                                kGravity,   kKp, kVDes,       kThetaTd};
 constexpr std::array kBallParameters = {kRestitution, kTangentialLoss, kM, kGravity, kRadius};
@@ -68,9 +68,7 @@ constexpr std::array<LawText, 6> kLaws = {{
 
 std::span<const ParameterInfo> AllParameters() { return kParameters; }
 
-const ParameterInfo& InfoOf(ParameterId id) {
-  return kParameters[static_cast<std::size_t>(id)];
-}
+const ParameterInfo& InfoOf(ParameterId id) { return kParameters[static_cast<std::size_t>(id)]; }
 
 std::optional<ParameterId> FindParameter(std::string_view name) {
   for (const ParameterInfo& info : kParameters) {
@@ -81,9 +79,12 @@ std::optional<ParameterId> FindParameter(std::string_view name) {
 
 std::span<const ParameterId> ParametersOf(MechanismKind mechanism) {
   switch (mechanism) {
-    case MechanismKind::kCLeg: return kCLegParameters;
-    case MechanismKind::kStraightLeg: return kStraightLegParameters;
-    case MechanismKind::kBall: return kBallParameters;
+    case MechanismKind::kCLeg:
+      return kCLegParameters;
+    case MechanismKind::kStraightLeg:
+      return kStraightLegParameters;
+    case MechanismKind::kBall:
+      return kBallParameters;
   }
   return {};
 }
@@ -94,9 +95,12 @@ std::span<const ParameterId> FreeByDefault(MechanismKind mechanism) {
 
 std::span<const Law> LawsOf(MechanismKind mechanism) {
   switch (mechanism) {
-    case MechanismKind::kCLeg: return kCLegLaws;
-    case MechanismKind::kStraightLeg: return kStraightLegLaws;
-    case MechanismKind::kBall: return kBallLaws;
+    case MechanismKind::kCLeg:
+      return kCLegLaws;
+    case MechanismKind::kStraightLeg:
+      return kStraightLegLaws;
+    case MechanismKind::kBall:
+      return kBallLaws;
   }
   return {};
 }
@@ -118,9 +122,12 @@ std::string_view SentenceOf(Law law) {
 
 std::string_view NameOf(MechanismKind mechanism) {
   switch (mechanism) {
-    case MechanismKind::kCLeg: return "c_leg";
-    case MechanismKind::kStraightLeg: return "straight_leg";
-    case MechanismKind::kBall: return "ball";
+    case MechanismKind::kCLeg:
+      return "c_leg";
+    case MechanismKind::kStraightLeg:
+      return "straight_leg";
+    case MechanismKind::kBall:
+      return "ball";
   }
   return "";
 }

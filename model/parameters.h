@@ -21,21 +21,21 @@ enum class LiftoffRule { kZeroForce, kRestLength };
 template <class T>
 struct Parameters {
   // Every mechanism.
-  T m{1.0};     // body mass [kg]
-  T g{9.81};    // gravity [m/s^2]
+  T m{1.0};   // body mass [kg]
+  T g{9.81};  // gravity [m/s^2]
   // Speed controller (M15), legs only.
-  T kp{0.0};     // gain [N s]
-  T v_des{0.0};  // desired speed [m/s]
+  T kp{0.0};        // gain [N s]
+  T v_des{0.0};     // desired speed [m/s]
   T theta_td{0.0};  // commanded touch-down leg angle [rad]
   // Legs.
   T d{0.0};  // leg damping [N s/m]
   // C-leg.
-  T r{0.1};          // rest radius [m]
-  T E{1.0};          // Young's modulus [Pa]
-  T G{1.0};          // shear modulus [Pa]
-  T I{1.0};          // second moment of the section [m^4]
-  T A{1.0};          // section area [m^2]
-  T kappa{1.5};      // shear factor [-]
+  T r{0.1};      // rest radius [m]
+  T E{1.0};      // Young's modulus [Pa]
+  T G{1.0};      // shear modulus [Pa]
+  T I{1.0};      // second moment of the section [m^4]
+  T A{1.0};      // section area [m^2]
+  T kappa{1.5};  // shear factor [-]
   // Straight leg.
   T k{1.0};   // stiffness [N/m]
   T l0{1.0};  // rest length [m]
@@ -50,8 +50,23 @@ struct Parameters {
 
 /// The differentiable fields of `Parameters`, in a fixed order.
 enum class ParameterId {
-  kE, kG, kD, kM, kR, kGravity, kKp, kVDes, kThetaTd, kSecondMoment, kArea, kShearFactor,
-  kStiffness, kRestLength, kRestitution, kTangentialLoss, kRadius
+  kE,
+  kG,
+  kD,
+  kM,
+  kR,
+  kGravity,
+  kKp,
+  kVDes,
+  kThetaTd,
+  kSecondMoment,
+  kArea,
+  kShearFactor,
+  kStiffness,
+  kRestLength,
+  kRestitution,
+  kTangentialLoss,
+  kRadius
 };
 
 /// Name, unit and physical range of a parameter.
@@ -76,23 +91,40 @@ std::span<const ParameterId> FreeByDefault(MechanismKind mechanism);
 template <class T>
 T& Field(Parameters<T>& p, ParameterId id) {
   switch (id) {
-    case ParameterId::kE: return p.E;
-    case ParameterId::kG: return p.G;
-    case ParameterId::kD: return p.d;
-    case ParameterId::kM: return p.m;
-    case ParameterId::kR: return p.r;
-    case ParameterId::kGravity: return p.g;
-    case ParameterId::kKp: return p.kp;
-    case ParameterId::kVDes: return p.v_des;
-    case ParameterId::kThetaTd: return p.theta_td;
-    case ParameterId::kSecondMoment: return p.I;
-    case ParameterId::kArea: return p.A;
-    case ParameterId::kShearFactor: return p.kappa;
-    case ParameterId::kStiffness: return p.k;
-    case ParameterId::kRestLength: return p.l0;
-    case ParameterId::kRestitution: return p.restitution;
-    case ParameterId::kTangentialLoss: return p.tangential_loss;
-    case ParameterId::kRadius: return p.radius;
+    case ParameterId::kE:
+      return p.E;
+    case ParameterId::kG:
+      return p.G;
+    case ParameterId::kD:
+      return p.d;
+    case ParameterId::kM:
+      return p.m;
+    case ParameterId::kR:
+      return p.r;
+    case ParameterId::kGravity:
+      return p.g;
+    case ParameterId::kKp:
+      return p.kp;
+    case ParameterId::kVDes:
+      return p.v_des;
+    case ParameterId::kThetaTd:
+      return p.theta_td;
+    case ParameterId::kSecondMoment:
+      return p.I;
+    case ParameterId::kArea:
+      return p.A;
+    case ParameterId::kShearFactor:
+      return p.kappa;
+    case ParameterId::kStiffness:
+      return p.k;
+    case ParameterId::kRestLength:
+      return p.l0;
+    case ParameterId::kRestitution:
+      return p.restitution;
+    case ParameterId::kTangentialLoss:
+      return p.tangential_loss;
+    case ParameterId::kRadius:
+      return p.radius;
   }
   return p.m;  // unreachable: every enumerator is listed above
 }

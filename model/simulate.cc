@@ -14,12 +14,18 @@ struct Automaton {
 
 Automaton AutomatonOf(Law law) {
   switch (law) {
-    case Law::kThesis: return {RunThesis, EnergyThesis};
-    case Law::kNoSlip: return {RunNoSlip, EnergyNoSlip};
-    case Law::kConsistent: return {RunConsistent, EnergyConsistent};
-    case Law::kLargeDeflection: return {RunLargeDeflection, EnergyLargeDeflection};
-    case Law::kStraightLeg: return {RunStraightLeg, EnergyStraightLeg};
-    case Law::kBall: return {RunBall, EnergyBall};
+    case Law::kThesis:
+      return {RunThesis, EnergyThesis};
+    case Law::kNoSlip:
+      return {RunNoSlip, EnergyNoSlip};
+    case Law::kConsistent:
+      return {RunConsistent, EnergyConsistent};
+    case Law::kLargeDeflection:
+      return {RunLargeDeflection, EnergyLargeDeflection};
+    case Law::kStraightLeg:
+      return {RunStraightLeg, EnergyStraightLeg};
+    case Law::kBall:
+      return {RunBall, EnergyBall};
   }
   return {};
 }

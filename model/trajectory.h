@@ -12,9 +12,9 @@ namespace hoplab {
 struct Event {
   EventKind kind = EventKind::kApex;
   Mode mode_before = Mode::kFlight, mode_after = Mode::kFlight;
-  double time = 0.0;                             // s since the start
-  double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0;   // just before the reset [m], [m/s]
-  double vx_after = 0.0, vy_after = 0.0;         // just after it [m/s]
+  double time = 0.0;                            // s since the start
+  double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0;  // just before the reset [m], [m/s]
+  double vx_after = 0.0, vy_after = 0.0;        // just after it [m/s]
   /// Rate of the guard in units of its scale [1/s]: M16's denominator. Near 0 the event grazes.
   double crossing_rate = 0.0;
   /// Another guard of the mode is at zero at the same instant: derivatives are one-sided.
@@ -45,8 +45,8 @@ struct Trajectory {
   std::vector<double> final_state;
   std::vector<double> final_sensitivities;
   std::vector<double> final_rate;
-  int hops = 0;                 // apexes after a stance (bounces of a ball)
-  long steps = 0;               // integrator steps taken
+  int hops = 0;    // apexes after a stance (bounces of a ball)
+  long steps = 0;  // integrator steps taken
   /// Smallest |crossing_rate| over the events that reset something.
   double least_crossing_rate = std::numeric_limits<double>::infinity();
   /// Smallest value, in units of its scale, of a guard that came down and turned back without

@@ -1,6 +1,7 @@
+#include "model/mechanisms/ball.h"
+
 #include "model/automata.h"
 #include "model/hybrid/run.h"
-#include "model/mechanisms/ball.h"
 
 namespace hoplab {
 void RunBall(const SimulationRequest& request, Trajectory& out) {

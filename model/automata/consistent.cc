@@ -14,7 +14,8 @@ using ConsistentBody = LeggedBody<T, ConsistentLeg>;
 void RunConsistent(const SimulationRequest& request, Trajectory& out) {
   RunAutomaton<ConsistentBody>(request, out);
 }
-double EnergyConsistent(const SimulationRequest& request, Mode mode, std::span<const double> state) {
+double EnergyConsistent(const SimulationRequest& request, Mode mode,
+                        std::span<const double> state) {
   return EnergyOn<ConsistentBody>(request, mode, state);
 }
 

@@ -14,7 +14,8 @@ using LargeDeflectionBody = LeggedBody<T, LargeDeflectionLeg>;
 void RunLargeDeflection(const SimulationRequest& request, Trajectory& out) {
   RunAutomaton<LargeDeflectionBody>(request, out);
 }
-double EnergyLargeDeflection(const SimulationRequest& request, Mode mode, std::span<const double> state) {
+double EnergyLargeDeflection(const SimulationRequest& request, Mode mode,
+                             std::span<const double> state) {
   return EnergyOn<LargeDeflectionBody>(request, mode, state);
 }
 

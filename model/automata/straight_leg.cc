@@ -1,6 +1,7 @@
+#include "model/mechanisms/straight_leg.h"
+
 #include "model/automata.h"
 #include "model/hybrid/run.h"
-#include "model/mechanisms/straight_leg.h"
 
 namespace hoplab {
 template <class T>
@@ -9,7 +10,8 @@ using StraightBody = LeggedBody<T, StraightSpring>;
 void RunStraightLeg(const SimulationRequest& request, Trajectory& out) {
   RunAutomaton<StraightBody>(request, out);
 }
-double EnergyStraightLeg(const SimulationRequest& request, Mode mode, std::span<const double> state) {
+double EnergyStraightLeg(const SimulationRequest& request, Mode mode,
+                         std::span<const double> state) {
   return EnergyOn<StraightBody>(request, mode, state);
 }
 

@@ -4,10 +4,14 @@ namespace hoplab {
 
 std::string_view NameOf(EffectKind kind) {
   switch (kind) {
-    case EffectKind::kForce: return "force";
-    case EffectKind::kParameter: return "parameter";
-    case EffectKind::kGuard: return "guard";
-    case EffectKind::kObservation: return "observation";
+    case EffectKind::kForce:
+      return "force";
+    case EffectKind::kParameter:
+      return "parameter";
+    case EffectKind::kGuard:
+      return "guard";
+    case EffectKind::kObservation:
+      return "observation";
   }
   return "";
 }

@@ -41,8 +41,8 @@ struct EffectInfo {
 /// Motion of the body at one instant, for forces on it. Frame W.
 template <class T>
 struct BodyMotion {
-  T t;                // time since the first row [s]
-  T x, y, vx, vy;     // [m], [m/s]
+  T t;             // time since the first row [s]
+  T x, y, vx, vy;  // [m], [m/s]
 };
 
 /// A loaded leg at one instant, for forces along its chord.
@@ -71,8 +71,8 @@ struct EffectHooks {
   /// Adds a force along the chord of a loaded leg [N], positive pushes the hip away.
   void (*add_chord_force)(const T* p, const ChordMotion<T>& chord, T& force) = nullptr;
   /// Changes the velocity with which stance begins [m/s].
-  void (*change_landing_velocity)(const T* p, const Landing<T>& landing, Vector2<T>& velocity) =
-      nullptr;
+  void (*change_landing_velocity)(const T* p, const Landing<T>& landing,
+                                  Vector2<T>& velocity) = nullptr;
   /// Changes the leg angle that touches down (guard and reset) from the speed at that moment.
   void (*change_touchdown_angle)(const T* p, const T& vx, T& theta_td) = nullptr;
   /// Changes the time at which the row stamped `t` was really read.
@@ -91,10 +91,14 @@ struct Effect {
 
   template <class T>
   const EffectHooks<T>& Hooks() const {
-    if constexpr (kJetWidth<T> == 0) return hooks0;
-    else if constexpr (kJetWidth<T> == 1) return hooks1;
-    else if constexpr (kJetWidth<T> == kNarrowJet) return hooks_narrow;
-    else return hooks_wide;
+    if constexpr (kJetWidth<T> == 0)
+      return hooks0;
+    else if constexpr (kJetWidth<T> == 1)
+      return hooks1;
+    else if constexpr (kJetWidth<T> == kNarrowJet)
+      return hooks_narrow;
+    else
+      return hooks_wide;
   }
   /// Index of a parameter by name.
   std::optional<int> FindParameter(std::string_view name) const;

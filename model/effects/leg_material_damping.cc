@@ -11,8 +11,9 @@ struct LegMaterialDamping {
       .name = "leg_material_damping",
       .kind = EffectKind::kForce,
       .equation = "F_chord - tau k w, k the chord stiffness at that arc (M3)",
-      .sentence = "the leg's material itself is viscous (Kelvin-Voigt), so a stiffer, shorter arc "
-                  "damps more",
+      .sentence =
+          "the leg's material itself is viscous (Kelvin-Voigt), so a stiffer, shorter arc "
+          "damps more",
       .for_legs = true,
       .for_ball = false,
       .dissipative = true,

@@ -6,8 +6,7 @@ namespace hoplab {
 namespace {
 
 struct SensorDelay {
-  static constexpr std::array kParameters = {
-      EffectParameter{"tau", "s", 0.0, -0.1, 0.1, 0.002}};
+  static constexpr std::array kParameters = {EffectParameter{"tau", "s", 0.0, -0.1, 0.1, 0.002}};
   static constexpr EffectInfo kInfo = {
       .name = "sensor_delay",
       .kind = EffectKind::kObservation,

@@ -4,65 +4,104 @@ namespace hoplab {
 
 std::string_view NameOf(Mode mode) {
   switch (mode) {
-    case Mode::kFlight: return "flight";
-    case Mode::kRolling: return "rolling";
-    case Mode::kToe: return "toe";
-    case Mode::kStance: return "stance";
+    case Mode::kFlight:
+      return "flight";
+    case Mode::kRolling:
+      return "rolling";
+    case Mode::kToe:
+      return "toe";
+    case Mode::kStance:
+      return "stance";
   }
   return "";
 }
 
 std::string_view NameOf(EventKind kind) {
   switch (kind) {
-    case EventKind::kTouchdown: return "touchdown";
-    case EventKind::kLiftoff: return "liftoff";
-    case EventKind::kRollingToToe: return "rolling_to_toe";
-    case EventKind::kToeToRolling: return "toe_to_rolling";
-    case EventKind::kApex: return "apex";
-    case EventKind::kBounce: return "bounce";
-    case EventKind::kTorqueLimit: return "torque_limit";
-    case EventKind::kFallHeight: return "fall_height";
-    case EventKind::kFallAngle: return "fall_angle";
-    case EventKind::kFallArc: return "fall_arc";
-    case EventKind::kSwitch: return "switch";
+    case EventKind::kTouchdown:
+      return "touchdown";
+    case EventKind::kLiftoff:
+      return "liftoff";
+    case EventKind::kRollingToToe:
+      return "rolling_to_toe";
+    case EventKind::kToeToRolling:
+      return "toe_to_rolling";
+    case EventKind::kApex:
+      return "apex";
+    case EventKind::kBounce:
+      return "bounce";
+    case EventKind::kTorqueLimit:
+      return "torque_limit";
+    case EventKind::kFallHeight:
+      return "fall_height";
+    case EventKind::kFallAngle:
+      return "fall_angle";
+    case EventKind::kFallArc:
+      return "fall_arc";
+    case EventKind::kSwitch:
+      return "switch";
   }
   return "";
 }
 
 std::string_view NameOf(Outcome outcome) {
   switch (outcome) {
-    case Outcome::kCompleted: return "completed";
-    case Outcome::kHopLimit: return "hop_limit";
-    case Outcome::kFellHeight: return "fell_height";
-    case Outcome::kFellAngle: return "fell_angle";
-    case Outcome::kFellArc: return "fell_arc";
-    case Outcome::kFellNoReturn: return "fell_no_return";
-    case Outcome::kNoSupport: return "no_support";
-    case Outcome::kStartsInGround: return "starts_in_ground";
-    case Outcome::kGrazing: return "grazing";
-    case Outcome::kChattering: return "chattering";
-    case Outcome::kCameToRest: return "came_to_rest";
-    case Outcome::kEventLimit: return "event_limit";
-    case Outcome::kIntegrationFailed: return "integration_failed";
+    case Outcome::kCompleted:
+      return "completed";
+    case Outcome::kHopLimit:
+      return "hop_limit";
+    case Outcome::kFellHeight:
+      return "fell_height";
+    case Outcome::kFellAngle:
+      return "fell_angle";
+    case Outcome::kFellArc:
+      return "fell_arc";
+    case Outcome::kFellNoReturn:
+      return "fell_no_return";
+    case Outcome::kNoSupport:
+      return "no_support";
+    case Outcome::kStartsInGround:
+      return "starts_in_ground";
+    case Outcome::kGrazing:
+      return "grazing";
+    case Outcome::kChattering:
+      return "chattering";
+    case Outcome::kCameToRest:
+      return "came_to_rest";
+    case Outcome::kEventLimit:
+      return "event_limit";
+    case Outcome::kIntegrationFailed:
+      return "integration_failed";
   }
   return "";
 }
 
 std::string_view SentenceOf(Outcome outcome) {
   switch (outcome) {
-    case Outcome::kCompleted: return "ran to the end";
-    case Outcome::kHopLimit: return "made the wanted number of hops";
-    case Outcome::kFellHeight: return "fell: the hip sank below its lowest allowed height";
-    case Outcome::kFellAngle: return "fell: the leg tipped more than 80 deg from the vertical";
-    case Outcome::kFellArc: return "fell: the leg rolled up to the hip";
+    case Outcome::kCompleted:
+      return "ran to the end";
+    case Outcome::kHopLimit:
+      return "made the wanted number of hops";
+    case Outcome::kFellHeight:
+      return "fell: the hip sank below its lowest allowed height";
+    case Outcome::kFellAngle:
+      return "fell: the leg tipped more than 80 deg from the vertical";
+    case Outcome::kFellArc:
+      return "fell: the leg rolled up to the hip";
     case Outcome::kFellNoReturn:
       return "fell: after lift-off it never rose to touch-down height again";
-    case Outcome::kNoSupport: return "touched down without the leg pushing back";
-    case Outcome::kStartsInGround: return "the start lies below touch-down height";
-    case Outcome::kGrazing: return "met an event without crossing it; no derivative exists there";
-    case Outcome::kChattering: return "two events undo each other at one instant";
-    case Outcome::kCameToRest: return "the bounces crowded together: it came to rest";
-    case Outcome::kEventLimit: return "more events than a hop trace has";
+    case Outcome::kNoSupport:
+      return "touched down without the leg pushing back";
+    case Outcome::kStartsInGround:
+      return "the start lies below touch-down height";
+    case Outcome::kGrazing:
+      return "met an event without crossing it; no derivative exists there";
+    case Outcome::kChattering:
+      return "two events undo each other at one instant";
+    case Outcome::kCameToRest:
+      return "the bounces crowded together: it came to rest";
+    case Outcome::kEventLimit:
+      return "more events than a hop trace has";
     case Outcome::kIntegrationFailed:
       return "the solver could not go on: the state left the domain of the leg law";
   }

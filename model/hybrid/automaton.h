@@ -11,35 +11,35 @@ std::string_view NameOf(Mode mode);
 
 /// What happened when a guard crossed zero.
 enum class EventKind {
-  kTouchdown,      // flight -> rolling, toe or stance
-  kLiftoff,        // stance -> flight
-  kRollingToToe,   // the contact has run to the toe
-  kToeToRolling,   // the toe's arc lies down again
-  kApex,           // vy = 0 on the way down, in flight
-  kBounce,         // a ball meets the ground
-  kTorqueLimit,    // the hip torque meets or leaves its limit
-  kFallHeight,     // hip below y_min
-  kFallAngle,      // chord more than 80 deg from the vertical
-  kFallArc,        // contact arc below 0.2 rad: the hip rolls onto the ground
-  kSwitch          // mode change of a piecewise-smooth system without a leg
+  kTouchdown,     // flight -> rolling, toe or stance
+  kLiftoff,       // stance -> flight
+  kRollingToToe,  // the contact has run to the toe
+  kToeToRolling,  // the toe's arc lies down again
+  kApex,          // vy = 0 on the way down, in flight
+  kBounce,        // a ball meets the ground
+  kTorqueLimit,   // the hip torque meets or leaves its limit
+  kFallHeight,    // hip below y_min
+  kFallAngle,     // chord more than 80 deg from the vertical
+  kFallArc,       // contact arc below 0.2 rad: the hip rolls onto the ground
+  kSwitch         // mode change of a piecewise-smooth system without a leg
 };
 std::string_view NameOf(EventKind kind);
 
 /// How a simulation ended. Only the first two let it speak for the whole horizon.
 enum class Outcome {
-  kCompleted,        // reached the horizon
-  kHopLimit,         // reached the wanted number of hops
-  kFellHeight,       // hip below y_min; later samples are missing, here and below
-  kFellAngle,        // chord more than 80 deg from the vertical
-  kFellArc,          // contact arc below 0.2 rad
-  kFellNoReturn,     // lifted off, but never again as high as touch-down needs
-  kNoSupport,        // touched down without pushing (chord not shortening)
-  kStartsInGround,   // the start lies below touch-down height
-  kGrazing,          // an event is met without crossing it: no derivative exists there
-  kChattering,       // two events undo each other at one instant
-  kCameToRest,       // bounces crowd together
-  kEventLimit,       // more events than any hop trace has
-  kIntegrationFailed // the solver cannot go on: state or law left their domain
+  kCompleted,         // reached the horizon
+  kHopLimit,          // reached the wanted number of hops
+  kFellHeight,        // hip below y_min; later samples are missing, here and below
+  kFellAngle,         // chord more than 80 deg from the vertical
+  kFellArc,           // contact arc below 0.2 rad
+  kFellNoReturn,      // lifted off, but never again as high as touch-down needs
+  kNoSupport,         // touched down without pushing (chord not shortening)
+  kStartsInGround,    // the start lies below touch-down height
+  kGrazing,           // an event is met without crossing it: no derivative exists there
+  kChattering,        // two events undo each other at one instant
+  kCameToRest,        // bounces crowd together
+  kEventLimit,        // more events than any hop trace has
+  kIntegrationFailed  // the solver cannot go on: state or law left their domain
 };
 std::string_view NameOf(Outcome outcome);
 /// One sentence for a message: what happened and what it means.

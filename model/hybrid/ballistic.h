@@ -13,8 +13,8 @@ namespace hoplab {
 /// the ground where its height is `contact_height`: guard 0; its apex is guard 1.
 template <class T>
 struct BallisticFlight {
-  T ax, ay;           // [m/s^2]
-  T contact_height;   // [m]
+  T ax, ay;          // [m/s^2]
+  T contact_height;  // [m]
 
   /// Changes the state `z` into the one `dt` later (earlier, if negative).
   template <std::size_t kDim>

@@ -31,8 +31,8 @@ struct RunSettings {
 /// `System<T>` is the automaton in scalar type T: flow and resets. The same automaton in double and
 /// in Jet<1> watches the guards.
 /// `Sink` receives the rows: sink(row, mode, t, z, system) with z in T.
-template <template <class> class System, class T,
-          template <int, int, class> class Stepper, class Sink>
+template <template <class> class System, class T, template <int, int, class> class Stepper,
+          class Sink>
 class Engine {
  public:
   using SystemT = System<T>;
@@ -44,7 +44,11 @@ class Engine {
   Engine(const SystemT& system, const System<double>& value_system,
          const System<Jet<1>>& rate_system, const IntegratorOptions& options,
          const RunSettings& settings, Sink& sink, Trajectory& out)
-      : system_(system), watch_(value_system, rate_system), settings_(settings), sink_(sink), out_(out),
+      : system_(system),
+        watch_(value_system, rate_system),
+        settings_(settings),
+        sink_(sink),
+        out_(out),
         stepper_(options, Rhs(&system_, &mode_)) {}
 
   /// Runs from `z0` in `mode` at time 0. `row_time(i)` is the time row i was really read at, as T:
@@ -97,8 +101,7 @@ class Engine {
       for (int i = 0; i < guards && immediate < 0; ++i) {
         const GuardSpec spec = system_.Guard(mode_, i);
         const bool at_zero = std::abs(at_start.value[i]) <= kAtZero;
-        const bool closed =
-            at_start.value[i] < -kAtZero || (at_zero && at_start.rate[i] <= 0.0);
+        const bool closed = at_start.value[i] < -kAtZero || (at_zero && at_start.rate[i] <= 0.0);
         if (spec.if_closed && closed && entered_) {
           if (spec.event != EventKind::kLiftoff || last_event_ == EventKind::kTouchdown)
             return *spec.if_closed;
@@ -218,9 +221,7 @@ class Engine {
   // ---- flight in closed form -------------------------------------------------------------
 
   template <class RowTime>
-  Crossing FlyBallistic(const RowTime& row_time)
-    requires(kDim >= 4)
-  {
+  Crossing FlyBallistic(const RowTime& row_time) requires(kDim >= 4) {
     const BallisticFlight<T> flight = system_.Ballistic(z_.data());
     const Crossing crossing = flight.Next(t_, settings_.horizon, z_.data());
     for (; next_row_ < rows(); ++next_row_) {
@@ -288,8 +289,7 @@ class Engine {
     t_ = stepper_.t1();
   }
   void NoteFlexure() {
-    out_.max_flexure =
-        std::max(out_.max_flexure, watch_.Flexure(mode_, stepper_.y1()));
+    out_.max_flexure = std::max(out_.max_flexure, watch_.Flexure(mode_, stepper_.y1()));
   }
 
   template <class RowTime>
@@ -309,8 +309,10 @@ class Engine {
       const T time = row_time(next_row_);
       const double t = Value(time);
       if (t > until) break;
-      if (t == stepper_.t1()) std::copy(stepper_.y1(), stepper_.y1() + kSize, y.begin());
-      else stepper_.At(t, y.data());
+      if (t == stepper_.t1())
+        std::copy(stepper_.y1(), stepper_.y1() + kSize, y.begin());
+      else
+        stepper_.At(t, y.data());
       Rhs::Unpack(y.data(), z.data());
       Emit(time, z);
     }

@@ -78,8 +78,7 @@ class GuardWatch {
     ArmedGuards armed{};
     const int count = value_system_.GuardCount(mode);
     for (int i = 0; i < count; ++i)
-      armed[i] =
-          at.value[i] > kAtZero || (std::abs(at.value[i]) <= kAtZero && at.rate[i] > 0.0);
+      armed[i] = at.value[i] > kAtZero || (std::abs(at.value[i]) <= kAtZero && at.rate[i] > 0.0);
     return armed;
   }
 

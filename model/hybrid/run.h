@@ -18,7 +18,10 @@ class RowSink {
  public:
   RowSink(const SimulationRequest& request, const ActiveEffects<T>& effects, int first_direction,
           int directions, Trajectory& out)
-      : request_(request), effects_(effects), first_(first_direction), count_(directions),
+      : request_(request),
+        effects_(effects),
+        first_(first_direction),
+        count_(directions),
         out_(out) {
     body_only_ = std::all_of(request.channels.begin(), request.channels.end(),
                              [](Channel c) { return c <= Channel::kBodyVy; });
@@ -69,10 +72,10 @@ struct Seeds {
     HOPLAB_CHECK(request.effects.size() <= active.size());
     for (std::size_t e = 0; e < request.effects.size(); ++e) {
       active[e] = !request.effects[e].IsNull();
-      for (int i = 0; i < kMaxEffectParameters; ++i)
-        values[e][i] = T(request.effects[e].values[i]);
+      for (int i = 0; i < kMaxEffectParameters; ++i) values[e][i] = T(request.effects[e].values[i]);
     }
-    // An effect that any direction asks for acts in every chunk: all chunks run the same simulation.
+    // An effect that any direction asks for acts in every chunk: all chunks run the same
+    // simulation.
     for (const SensitivityDirection& d : request.directions) {
       if (d.of == SensitivityDirection::Of::kEffect) active[d.index] = true;
     }
@@ -88,8 +91,7 @@ struct Seeds {
           initial[d.index] = Seeded<T>(Value(initial[d.index]), k, 1.0);
           break;
         case SensitivityDirection::Of::kEffect:
-          values[d.index][d.component] =
-              Seeded<T>(Value(values[d.index][d.component]), k, 1.0);
+          values[d.index][d.component] = Seeded<T>(Value(values[d.index][d.component]), k, 1.0);
           break;
       }
     }
@@ -121,16 +123,15 @@ void RunChunk(const SimulationRequest& request, int first, int count, Trajectory
   std::array<T, System<T>::kDim> z;
   std::fill(z.begin(), z.end(), T(0.0));
   std::copy(seeds.initial.begin(), seeds.initial.end(), z.begin());
-  engine.Run(Mode::kFlight, z.data(), [&](int row) {
-    return seeds.effects.ObservationTime(T(request.row_times[row]));
-  });
+  engine.Run(Mode::kFlight, z.data(),
+             [&](int row) { return seeds.effects.ObservationTime(T(request.row_times[row])); });
 
   const std::size_t width = request.directions.size();
   if (first == 0) {
     out.event_time_sensitivities.resize(out.events.size() * width);
     out.final_sensitivities.resize(out.final_state.size() * width);
   }
-  if constexpr (kJetWidth<T> > 0) {
+  if constexpr (kJetWidth < T >> 0) {
     const std::size_t events = std::min(out.events.size(), record.events.size());
     for (std::size_t e = 0; e < events; ++e) {
       for (int k = 0; k < count; ++k)
@@ -167,9 +168,12 @@ void RunWith(const SimulationRequest& request, Trajectory& out) {
 template <template <class> class System>
 void RunAutomaton(const SimulationRequest& request, Trajectory& out) {
   switch (request.integrator.kind) {
-    case IntegratorKind::kDop853: return run_detail::RunWith<System, Dop853>(request, out);
-    case IntegratorKind::kErkStep: return run_detail::RunWith<System, ErkStepper>(request, out);
-    case IntegratorKind::kCvodes: return run_detail::RunWith<System, CvodesStepper>(request, out);
+    case IntegratorKind::kDop853:
+      return run_detail::RunWith<System, Dop853>(request, out);
+    case IntegratorKind::kErkStep:
+      return run_detail::RunWith<System, ErkStepper>(request, out);
+    case IntegratorKind::kCvodes:
+      return run_detail::RunWith<System, CvodesStepper>(request, out);
   }
 }
 

@@ -26,7 +26,10 @@ struct CvodesSolver::Memory {
   mutable std::vector<double> flat, flat_rate;
 
   Memory(const IntegratorOptions& o, const FlatSystem& f)
-      : system(f), options(o), sensitivities(f.size / f.controlled - 1), flat(f.size),
+      : system(f),
+        options(o),
+        sensitivities(f.size / f.controlled - 1),
+        flat(f.size),
         flat_rate(f.size) {}
   ~Memory() {
     if (solver) CVodeFree(&solver);
@@ -58,8 +61,7 @@ struct CvodesSolver::Memory {
     std::fill(self->flat.begin(), self->flat.end(), 0.0);
     std::copy(N_VGetArrayPointer(y), N_VGetArrayPointer(y) + self->n(), self->flat.begin());
     self->system.derivative(self->system.context, t, self->flat.data(), self->flat_rate.data());
-    std::copy(self->flat_rate.begin(), self->flat_rate.begin() + self->n(),
-              N_VGetArrayPointer(dy));
+    std::copy(self->flat_rate.begin(), self->flat_rate.begin() + self->n(), N_VGetArrayPointer(dy));
     for (int i = 0; i < self->n(); ++i) {
       if (!std::isfinite(self->flat_rate[i])) return 1;
     }
@@ -71,8 +73,7 @@ struct CvodesSolver::Memory {
     const int n = self->n();
     std::copy(N_VGetArrayPointer(y), N_VGetArrayPointer(y) + n, self->flat.begin());
     for (int i = 0; i < n; ++i) {
-      for (int k = 0; k < count; ++k)
-        self->flat[n + i * count + k] = N_VGetArrayPointer(s[k])[i];
+      for (int k = 0; k < count; ++k) self->flat[n + i * count + k] = N_VGetArrayPointer(s[k])[i];
     }
     self->system.derivative(self->system.context, t, self->flat.data(), self->flat_rate.data());
     for (int i = 0; i < n; ++i) {
@@ -114,8 +115,8 @@ void CvodesSolver::Start(double t, const double* y, double first_step) {
       HOPLAB_CHECK(CVodeSensInit(m.solver, m.sensitivities, CV_SIMULTANEOUS,
                                  &Memory::SensitivityDerivative, m.s) == CV_SUCCESS);
       std::vector<double> absolute(m.sensitivities, m.options.absolute_tolerance);
-      HOPLAB_CHECK(CVodeSensSStolerances(m.solver, m.options.relative_tolerance,
-                                         absolute.data()) == CV_SUCCESS);
+      HOPLAB_CHECK(CVodeSensSStolerances(m.solver, m.options.relative_tolerance, absolute.data()) ==
+                   CV_SUCCESS);
       HOPLAB_CHECK(CVodeSetSensErrCon(m.solver, SUNFALSE) == CV_SUCCESS);
     }
   } else {

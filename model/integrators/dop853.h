@@ -71,8 +71,8 @@ class Dop853 {
       rejected_ = false;
       // A step cut short by the limit says little about the step to take next.
       const double proposal = h * grow;
-      next_step_ = last ? std::copysign(std::max(std::abs(proposal), std::abs(next_step_)), h)
-                        : proposal;
+      next_step_ =
+          last ? std::copysign(std::max(std::abs(proposal), std::abs(next_step_)), h) : proposal;
       return StepStatus::kOk;
     }
     return StepStatus::kFailed;
@@ -107,8 +107,7 @@ class Dop853 {
   void Combine(double h, double* y, std::index_sequence<kJ...>) const {
     for (int i = 0; i < kSize; ++i) {
       double sum = 0.0;
-      ((dop853::kA[kRow][kJ] != 0.0 ? void(sum += dop853::kA[kRow][kJ] * k_[kJ][i]) : void()),
-       ...);
+      ((dop853::kA[kRow][kJ] != 0.0 ? void(sum += dop853::kA[kRow][kJ] * k_[kJ][i]) : void()), ...);
       y[i] = y0_[i] + h * sum;
     }
   }
@@ -136,9 +135,9 @@ class Dop853 {
         e5 += dop853::kE5[s] * k_[s][i];
         e3 += dop853::kE3[s] * k_[s][i];
       }
-      const double scale = options_.absolute_tolerance +
-                           options_.relative_tolerance *
-                               std::max(std::abs(y0_[i]), std::abs(y1_[i]));
+      const double scale =
+          options_.absolute_tolerance +
+          options_.relative_tolerance * std::max(std::abs(y0_[i]), std::abs(y1_[i]));
       error5 += e5 / scale * (e5 / scale);
       error3 += e3 / scale * (e3 / scale);
     }

@@ -4,9 +4,12 @@ namespace hoplab {
 
 std::string_view NameOf(IntegratorKind kind) {
   switch (kind) {
-    case IntegratorKind::kDop853: return "dop853";
-    case IntegratorKind::kErkStep: return "erkstep";
-    case IntegratorKind::kCvodes: return "cvodes";
+    case IntegratorKind::kDop853:
+      return "dop853";
+    case IntegratorKind::kErkStep:
+      return "erkstep";
+    case IntegratorKind::kCvodes:
+      return "cvodes";
   }
   return "";
 }

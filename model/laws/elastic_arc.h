@@ -137,10 +137,10 @@ class ElasticArc {
 
  private:
   struct Equilibrium {
-    double phi, sin, cos;    // the arc; sine and cosine of its half
-    ShapeValue b, a, s, g;   // shape functions there
-    double F, F_phi;         // elastic force and its slope at fixed (u0, y)
-    double R, R_phi;         // residual of M10 and its slope
+    double phi, sin, cos;   // the arc; sine and cosine of its half
+    ShapeValue b, a, s, g;  // shape functions there
+    double F, F_phi;        // elastic force and its slope at fixed (u0, y)
+    double R, R_phi;        // residual of M10 and its slope
   };
 
   // Newton on M10 for phi, F eliminated by M9. R is close to linear in phi with slope about

@@ -38,11 +38,14 @@ class LeggedBody {
   using Scalar = T;
   static constexpr int kDim = kLegStateSize;
 
-  LeggedBody(const Parameters<T>& parameters, const ActiveEffects<T>& effects,
-             LiftoffRule liftoff)
-      : p_(parameters), effects_(effects), liftoff_(liftoff),
-        has_body_force_(effects.HasBodyForce()), has_chord_force_(effects.HasChordForce()),
-        leg_(p_), controller_(p_),
+  LeggedBody(const Parameters<T>& parameters, const ActiveEffects<T>& effects, LiftoffRule liftoff)
+      : p_(parameters),
+        effects_(effects),
+        liftoff_(liftoff),
+        has_body_force_(effects.HasBodyForce()),
+        has_chord_force_(effects.HasChordForce()),
+        leg_(p_),
+        controller_(p_),
         y_min_(std::isnan(p_.fall_height) ? leg_.LowestHip() : T(p_.fall_height)) {}
 
   /// The discrete state that guards and rates depend on but derivatives do not.
@@ -92,9 +95,12 @@ class LeggedBody {
     const int own = leg_.OwnGuardCount(mode);
     if (i <= own) return leg_.OwnGuard(mode, i - 1);
     switch (i - own) {
-      case 1: return {EventKind::kFallHeight, length, Outcome::kFellHeight};
-      case 2: return {EventKind::kFallAngle, 1.0, Outcome::kFellAngle};
-      default: return {EventKind::kTorqueLimit, controller_.limit()};
+      case 1:
+        return {EventKind::kFallHeight, length, Outcome::kFellHeight};
+      case 2:
+        return {EventKind::kFallAngle, 1.0, Outcome::kFellAngle};
+      default:
+        return {EventKind::kTorqueLimit, controller_.limit()};
     }
   }
   /// Guard functions, all crossing zero downward; the table of section 4.
@@ -105,8 +111,8 @@ class LeggedBody {
       return;
     }
     const LegLoad<T> load = leg_.Load(mode, z);
-    g[0] = liftoff_ == LiftoffRule::kZeroForce ? ChordForce(load)
-                                               : T(leg_.RestChord(load) - load.l);
+    g[0] =
+        liftoff_ == LiftoffRule::kZeroForce ? ChordForce(load) : T(leg_.RestChord(load) - load.l);
     leg_.OwnGuards(mode, load, g + 1);
     g += 1 + leg_.OwnGuardCount(mode);
     g[0] = z[kY] - y_min_;
@@ -136,18 +142,20 @@ class LeggedBody {
       case EventKind::kTorqueLimit:
         controller_.Cross(Value(z[kVx]));
         return {mode};
-      case EventKind::kFallHeight: return {mode, Outcome::kFellHeight};
-      case EventKind::kFallAngle: return {mode, Outcome::kFellAngle};
-      case EventKind::kFallArc: return {mode, Outcome::kFellArc};
-      default: return {leg_.Pass(event, z)};
+      case EventKind::kFallHeight:
+        return {mode, Outcome::kFellHeight};
+      case EventKind::kFallAngle:
+        return {mode, Outcome::kFellAngle};
+      case EventKind::kFallArc:
+        return {mode, Outcome::kFellArc};
+      default:
+        return {leg_.Pass(event, z)};
     }
   }
 
   /// Flight in closed form, where nothing pushes the body but gravity.
   bool IsBallistic(Mode mode) const { return mode == Mode::kFlight && !has_body_force_; }
-  BallisticFlight<T> Ballistic(const T* z) const {
-    return {T(0.0), T(-p_.g), TouchdownHeight(z)};
-  }
+  BallisticFlight<T> Ballistic(const T* z) const { return {T(0.0), T(-p_.g), TouchdownHeight(z)}; }
 
   /// First step of a mode [s]: in stance a tenth of a radian of the undamped oscillation.
   double FirstStep(Mode mode, const T* z) const {
@@ -165,8 +173,8 @@ class LeggedBody {
       const T theta = TouchdownAngle(z);
       seen[Channel::kLegAngle] = theta;
       seen[Channel::kLegLength] = leg_.ShownLength(theta);
-      for (Channel c : {Channel::kGroundForceX, Channel::kGroundForceY, Channel::kHipTorque,
-                        Channel::kContact})
+      for (Channel c :
+           {Channel::kGroundForceX, Channel::kGroundForceY, Channel::kHipTorque, Channel::kContact})
         seen[c] = T(0.0);
       return seen;
     }

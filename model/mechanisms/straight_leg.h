@@ -55,9 +55,7 @@ class StraightSpring {
   }
   T ShownLength(const T&) const { return l0_; }
 
-  T StrainEnergy(const LegLoad<T>& load) const {
-    return 0.5 * load.elastic_force * (l0_ - load.l);
-  }
+  T StrainEnergy(const LegLoad<T>& load) const { return 0.5 * load.elastic_force * (l0_ - load.l); }
   double Flexure(const LegLoad<T>&) const { return 0.0; }
   double Size() const { return Value(l0_); }
   T LowestHip() const { return 0.25 * l0_; }

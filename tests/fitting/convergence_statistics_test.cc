@@ -23,8 +23,8 @@ using testing::HopDataset;
 constexpr int kStarts = 40;
 
 struct Convergence {
-  double share;      // of the starts that end at the optimum
-  double seconds;    // mean per start
+  double share;    // of the starts that end at the optimum
+  double seconds;  // mean per start
 };
 
 // An end counts as the optimum if its cost is within a tenth of a standard error of the best.
@@ -59,8 +59,8 @@ TEST_P(ConvergenceStatistics, DefaultOptionsReachTheSameOptimumFromFarOff) {
   const Convergence growing = ShareAtOptimum(hops, FitStrategy::kGrowingHorizon);
   const Convergence apex = ShareAtOptimum(hops, FitStrategy::kApexShooting);
   std::printf("%2d hops, %d starts, share at the optimum (mean time per start):\n", hops, kStarts);
-  for (const auto& [name, result] : {std::pair{"raw", raw}, {"growing_horizon", growing},
-                                     {"apex_shooting", apex}})
+  for (const auto& [name, result] :
+       {std::pair{"raw", raw}, {"growing_horizon", growing}, {"apex_shooting", apex}})
     std::printf("  %-16s %5.1f %%  (%.2f s)\n", name, 100 * result.share, result.seconds);
   ASSERT_EQ(FitOptions{}.strategy, FitStrategy::kApexShooting);
   EXPECT_GE(apex.share, 0.95);

@@ -41,8 +41,8 @@ TEST(Fit, FromFarOffReachesTheOptimum) {
   const FitProblem p = MakeProblem(SmallDataset(), {});
   const FitResult near = Fit(p, {});
   ASSERT_TRUE(near.ok);
-  const StartRecord far = FitFrom(p, TrialsOf(p, TrialRole::kTrain),
-                                  Eigen::Vector2d(44e9, 0.1), {}, 0, nullptr);
+  const StartRecord far =
+      FitFrom(p, TrialsOf(p, TrialRole::kTrain), Eigen::Vector2d(44e9, 0.1), {}, 0, nullptr);
   EXPECT_NEAR(far.cost, near.cost, 1e-6 * near.cost);
 }
 
@@ -166,8 +166,8 @@ TEST(Uncertainty, ACombinationTheDataCannotSeeHasNoInterval) {
   // Without torque, mass, modulus (both) and damping only occur as ratios.
   const FitProblem p = MakeProblem(SmallDataset(), {.free = {"E", "G", "d", "m"}});
   const std::vector<TrialProblem> trials = TrialsOf(p, TrialRole::kTrain);
-  const Uncertainty u = AssessUncertainty(p, trials, InitialShared(p),
-                                          testing::NominalStarts(trials), {}, 1);
+  const Uncertainty u =
+      AssessUncertainty(p, trials, InitialShared(p), testing::NominalStarts(trials), {}, 1);
   EXPECT_EQ(u.identifiability.rank, 3);
   EXPECT_TRUE(std::isinf(u.identifiability.condition_number));
   ASSERT_FALSE(u.identifiability.weak_directions.empty());

@@ -35,8 +35,8 @@ Recovered Recover(std::uint64_t seed, const HopTruth& truth) {
     return MakeProblem(dataset, {});
   }();
   const FitResult fit = Fit(problem, {});
-  const Uncertainty u = AssessUncertainty(problem, TrialsOf(problem, TrialRole::kTrain),
-                                          fit.shared, fit.starts, {}, 1);
+  const Uncertainty u = AssessUncertainty(problem, TrialsOf(problem, TrialRole::kTrain), fit.shared,
+                                          fit.starts, {}, 1);
   const auto covers = [&](int k, double value) {
     return u.parameters[k].ci95->first <= value && value <= u.parameters[k].ci95->second;
   };
@@ -70,8 +70,8 @@ TEST(RecoveryStatistics, ValuesAreUnbiasedAndIntervalsCoverTheTruth) {
     d_variance += (r.d - d) * (r.d - d) / (kSeeds - 1);
   }
   std::printf("recovery, %d seeds, 3 hops, 6 trials, 1 mm noise\n", kSeeds);
-  std::printf("  E: bias %+.4f %%, scatter %.4f %%, covered %d %%\n",
-              100 * (E / truth.E_Pa - 1), 100 * std::sqrt(E_variance) / truth.E_Pa, E_covered);
+  std::printf("  E: bias %+.4f %%, scatter %.4f %%, covered %d %%\n", 100 * (E / truth.E_Pa - 1),
+              100 * std::sqrt(E_variance) / truth.E_Pa, E_covered);
   std::printf("  d: bias %+.4f %%, scatter %.4f %%, covered %d %%\n",
               100 * (d / truth.damping_N_s_per_m - 1),
               100 * std::sqrt(d_variance) / truth.damping_N_s_per_m, d_covered);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "datasets/read_dataset.h"
 #include "fitting/trial_evaluator.h"
 #include "tests/support/fit_cases.h"
 
@@ -86,6 +87,27 @@ TEST(Solve, HeldStartsStay) {
   SolveRequest request = c.Request();
   request.hold_starts = true;
   EXPECT_EQ(Solve(request).starts, request.starts);
+}
+
+TEST(Solve, AValueOnItsBoundDoesNotKeepTheRestFromTheirOptimum) {
+  // The rig's joints are viscous: with damping of the material free, the damper d ends on zero.
+  const Dataset rig = ReadDataset(std::filesystem::path(HOPLAB_SOURCE_DIR) / "datasets/rig-drops");
+  const FitProblem problem =
+      MakeProblem(rig, {.with_effects = {"leg_material_damping", "touchdown_loss"}});
+  const std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
+  SolveRequest request;
+  request.problem = &problem;
+  request.trials = &trials;
+  request.starts = NominalStarts(trials);
+  request.shared = InitialShared(problem);
+  request.shared[0] = 22.5e9;
+  const SolveResult free = Solve(request);
+  ASSERT_EQ(free.status, SolveStatus::kConverged);
+  ASSERT_EQ(problem.shared[1].name, "d");
+  ASSERT_LT(free.shared[1], 1e-9);
+  request.held = {1};
+  request.shared[1] = 0.0;
+  EXPECT_NEAR(free.cost, Solve(request).cost, 1e-6 * free.cost);
 }
 
 TEST(Solve, StopsWhenAsked) {

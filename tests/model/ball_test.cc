@@ -13,15 +13,19 @@ using namespace testing;
 using B = BouncingBall;
 using D = SensitivityDirection;
 
-const std::array<D, B::kCount> kDirections = {
-    D::Parameter(ParameterId::kRestitution), D::Parameter(ParameterId::kTangentialLoss),
-    D::Parameter(ParameterId::kGravity),     D::Parameter(ParameterId::kRadius),
-    D::InitialState(0), D::InitialState(1),  D::InitialState(2), D::InitialState(3)};
+const std::array<D, B::kCount> kDirections = {D::Parameter(ParameterId::kRestitution),
+                                              D::Parameter(ParameterId::kTangentialLoss),
+                                              D::Parameter(ParameterId::kGravity),
+                                              D::Parameter(ParameterId::kRadius),
+                                              D::InitialState(0),
+                                              D::InitialState(1),
+                                              D::InitialState(2),
+                                              D::InitialState(3)};
 constexpr int kBounces = 10;
 
 BouncingBall ClosedFormOf(const SimulationRequest& q) {
   const auto& p = q.parameters;
-  return {p.restitution, p.tangential_loss, p.g, p.radius,
+  return {p.restitution, p.tangential_loss, p.g,          p.radius,
           q.initial[0],  q.initial[1],      q.initial[2], q.initial[3]};
 }
 
@@ -37,7 +41,8 @@ std::vector<Event> BouncesOf(const Trajectory& run) {
 SimulationRequest TenBounces() {
   SimulationRequest q = BallRequest();
   const auto bounces = ClosedFormOf(q).Bounces(kBounces + 1);
-  q.horizon = static_cast<double>(0.6L * bounces[kBounces - 1].time + 0.4L * bounces[kBounces].time);
+  q.horizon =
+      static_cast<double>(0.6L * bounces[kBounces - 1].time + 0.4L * bounces[kBounces].time);
   q.directions = kDirections;
   return q;
 }
@@ -83,8 +88,8 @@ TEST(Ball, DerivativesOfTheStateAfterTenBouncesMatchTheClosedForm) {
   for (int i = 0; i < 4; ++i) {
     std::array<double, B::kCount> expected;
     std::copy(exact.d[i].begin(), exact.d[i].end(), expected.begin());
-    EXPECT_TRUE(MatrixNear({&run.final_sensitivities[i * B::kCount], B::kCount}, expected,
-                           kTenBounces))
+    EXPECT_TRUE(
+        MatrixNear({&run.final_sensitivities[i * B::kCount], B::kCount}, expected, kTenBounces))
         << "component " << i;
   }
 }

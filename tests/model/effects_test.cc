@@ -1,10 +1,9 @@
-#include "model/effects/effect.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
+#include "model/effects/effect.h"
 #include "tests/support/requests.h"
 
 namespace hoplab {
@@ -14,8 +13,7 @@ using namespace testing;
 
 constexpr std::array kAllLaws = {Law::kThesis,          Law::kNoSlip,      Law::kConsistent,
                                  Law::kLargeDeflection, Law::kStraightLeg, Law::kBall};
-constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx,
-                              Channel::kBodyVy};
+constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx, Channel::kBodyVy};
 
 SimulationRequest RequestOf(Law law) {
   SimulationRequest q = law == Law::kBall          ? BallRequest()
@@ -76,8 +74,10 @@ TEST(EffectAtNull, ChangesNothingBitForBit) {
       const Trajectory with = Simulate(q);
       ASSERT_EQ(with.samples.size(), without.samples.size());
       for (std::size_t i = 0; i < with.samples.size(); ++i) {
-        if (std::isnan(without.samples[i])) EXPECT_TRUE(std::isnan(with.samples[i]));
-        else EXPECT_EQ(with.samples[i], without.samples[i]);
+        if (std::isnan(without.samples[i]))
+          EXPECT_TRUE(std::isnan(with.samples[i]));
+        else
+          EXPECT_EQ(with.samples[i], without.samples[i]);
       }
       ASSERT_EQ(with.events.size(), without.events.size());
       for (std::size_t i = 0; i < with.events.size(); ++i)

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <boost/math/quadrature/gauss.hpp>
 #include <array>
+#include <boost/math/quadrature/gauss.hpp>
 #include <fstream>
 #include <map>
 
@@ -170,9 +170,8 @@ double PercentAfterAHop(Law law, double deg, double d) {
   SimulationRequest q = Tight(StripLegRequest(law, Degrees(deg)));
   q.parameters.d = d;
   const Trajectory run = Simulate(q);
-  return run.outcome == Outcome::kHopLimit
-             ? 100.0 * (1.0 + Drift(q, run))
-             : std::numeric_limits<double>::quiet_NaN();
+  return run.outcome == Outcome::kHopLimit ? 100.0 * (1.0 + Drift(q, run))
+                                           : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::map<std::pair<int, int>, double> PublishedTable() {

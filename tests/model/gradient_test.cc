@@ -12,11 +12,10 @@ namespace {
 using namespace testing;
 using D = SensitivityDirection;
 
-constexpr std::array kChannels = {Channel::kBodyX,       Channel::kBodyY,
-                                  Channel::kBodyVx,      Channel::kBodyVy,
-                                  Channel::kLegAngle,    Channel::kLegLength,
-                                  Channel::kGroundForceX, Channel::kGroundForceY,
-                                  Channel::kHipTorque};
+constexpr std::array kChannels = {
+    Channel::kBodyX,        Channel::kBodyY,        Channel::kBodyVx,
+    Channel::kBodyVy,       Channel::kLegAngle,     Channel::kLegLength,
+    Channel::kGroundForceX, Channel::kGroundForceY, Channel::kHipTorque};
 
 // A law driven through a sequence of events.
 struct Case {
@@ -54,8 +53,7 @@ std::vector<Case> Cases() {
     q.parameters.theta_td = Degrees(24.0);
     q.initial = {0.0, 0.25, 0.8, 0.1};
     q.max_hops = 3;
-    cases.push_back({name + "_three_hops", q,
-                     "apex " + rolling + " " + rolling + " " + rolling});
+    cases.push_back({name + "_three_hops", q, "apex " + rolling + " " + rolling + " " + rolling});
 
     q = ThickLegRequest(law);
     q.parameters.kp = 0.6;
@@ -140,9 +138,8 @@ class Gradient : public ::testing::TestWithParam<Case> {
       ASSERT_EQ(EventNames(run), GetParam().events);
     }
     for (double t : EvenTimes(run.end_time, 60)) {
-      const bool clear = std::none_of(run.events.begin(), run.events.end(), [&](const Event& e) {
-        return std::abs(e.time - t) < 0.008;
-      });
+      const bool clear = std::none_of(run.events.begin(), run.events.end(),
+                                      [&](const Event& e) { return std::abs(e.time - t) < 0.008; });
       if (clear && t < run.end_time - 0.01) times_.push_back(t);
     }
     channels_ = ChannelsOf(request_.law);
@@ -226,17 +223,18 @@ TEST(GradientCheck, ReportsADerivativeThatIsWrong) {
   // dy/dE at the end off by a ten thousandth.
   wrong.final_sensitivities[1 * width + 0] *= 1.0 + 1e-4;
   // The derivative of the touch-down time by theta_td: M16 forgotten.
-  const std::size_t theta = std::find_if(directions.begin(), directions.end(), [](const D& d) {
-                              return d.of == D::Of::kParameter &&
-                                     d.parameter == ParameterId::kThetaTd;
-                            }) - directions.begin();
+  const std::size_t theta =
+      std::find_if(directions.begin(), directions.end(),
+                   [](const D& d) {
+                     return d.of == D::Of::kParameter && d.parameter == ParameterId::kThetaTd;
+                   }) -
+      directions.begin();
   wrong.event_time_sensitivities[0 * width + theta] = 0.0;
   std::vector<std::string> complaints;
   for (const ColumnCheck& check : CheckGradient(q, wrong)) {
     if (!Complaint(check).empty()) complaints.push_back(check.what);
   }
-  EXPECT_EQ(complaints, (std::vector<std::string>{"final state d/dE",
-                                                  "event times d/dtheta_td"}));
+  EXPECT_EQ(complaints, (std::vector<std::string>{"final state d/dE", "event times d/dtheta_td"}));
 }
 
 }  // namespace

@@ -60,8 +60,8 @@ TEST_P(Solvers, AgreeOnStateEventsAndSensitivities) {
 TEST_P(Solvers, AgreeOnRowsInsideAStance) {
   SimulationRequest q = ThickLegRequest(GetParam());
   const std::vector<double> times = EvenTimes(Simulate(q).end_time, 50);
-  const std::array channels = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx,
-                               Channel::kBodyVy, Channel::kLegAngle};
+  const std::array channels = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx, Channel::kBodyVy,
+                               Channel::kLegAngle};
   q.row_times = times;
   q.channels = channels;
   const Trajectory reference = RunWithSolver(q, IntegratorKind::kDop853, kOracleRelative);
@@ -80,8 +80,7 @@ TEST_P(Solvers, ErrorFallsWithTheTolerance) {
        {IntegratorKind::kDop853, IntegratorKind::kErkStep, IntegratorKind::kCvodes}) {
     for (double tolerance : {1e-5, 1e-7, 1e-9, 1e-11}) {
       const Trajectory run = RunWithSolver(q, kind, tolerance);
-      EXPECT_TRUE(MatrixNear(run.final_state, reference.final_state,
-                             kOneStepAgreement * tolerance))
+      EXPECT_TRUE(MatrixNear(run.final_state, reference.final_state, kOneStepAgreement * tolerance))
           << NameOf(kind) << ' ' << tolerance;
     }
   }

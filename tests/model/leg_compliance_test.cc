@@ -138,9 +138,9 @@ TEST(LegCompliance, SecondOrderComplianceIsPositiveUpToAHalfCircle) {
 // How far the expansion M9b, M10b is from the exact elastica at a load. `euler` is the load over
 // that at which a straight rod of the same length buckles: what governs the error of every arc.
 struct ExpansionError {
-  double chord;       // over F C
-  double tip;         // of u/l
-  double flexure;     // F C/l0
+  double chord;    // over F C
+  double tip;      // of u/l
+  double flexure;  // F C/l0
 };
 ExpansionError ErrorAt(double phi, double euler, bool second_order) {
   Parameters<double> p;
@@ -190,8 +190,9 @@ TEST(LegCompliance, ExpansionWithoutM2bMissesTheElasticaBySecondOrderInTheLoad) 
 }
 
 TEST(LegCompliance, M2bHalvesTheErrorUpToAFifthOfTheEulerLoad) {
-  std::printf(" phi  F/F_euler  F C/l0 | chord error/(F C): with M2b, without | error of u/l: with,"
-              " without\n");
+  std::printf(
+      " phi  F/F_euler  F C/l0 | chord error/(F C): with M2b, without | error of u/l: with,"
+      " without\n");
   for (double phi : {1.5, 2.0, 2.5, 3.0, std::numbers::pi}) {
     for (double euler : {0.05, 0.1, 0.2, 0.3, 0.5}) {
       const ExpansionError two = ErrorAt(phi, euler, true), one = ErrorAt(phi, euler, false);

@@ -35,9 +35,9 @@ std::array<double, 5> AtTouchdown(const Parameters<double>& p) {
 
 template <class LegT>
 struct CLegWithLaw : ::testing::Test {};
-using Legs = ::testing::Types<
-    LeggedBody<double, TestThesisLeg>, LeggedBody<double, TestNoSlipLeg>,
-    LeggedBody<double, TestConsistentLeg>, LeggedBody<double, TestLargeDeflectionLeg>>;
+using Legs = ::testing::Types<LeggedBody<double, TestThesisLeg>, LeggedBody<double, TestNoSlipLeg>,
+                              LeggedBody<double, TestConsistentLeg>,
+                              LeggedBody<double, TestLargeDeflectionLeg>>;
 TYPED_TEST_SUITE(CLegWithLaw, Legs);
 
 TYPED_TEST(CLegWithLaw, TouchesDownWithoutAForce) {
@@ -129,7 +129,7 @@ TEST_P(RollingToToe, IsContinuousInForceAndVelocity) {
   ASSERT_EQ(hop.events[1].kind, EventKind::kRollingToToe);
   constexpr double kAside = 1e-7;
   const std::array times = {hop.events[1].time - kAside, hop.events[1].time + kAside};
-  const std::array channels = {Channel::kBodyVx,        Channel::kBodyVy, Channel::kLegLength,
+  const std::array channels = {Channel::kBodyVx, Channel::kBodyVy, Channel::kLegLength,
                                Channel::kGroundForceX, Channel::kGroundForceY};
   q.row_times = times;
   q.channels = channels;
@@ -148,8 +148,8 @@ double ThetaRate(const LegT& leg, const std::array<double, 5>& z) {
   double dz[5];
   leg.Derivative(Mode::kRolling, 0.0, z.data(), dz);
   const auto theta = [&](double t) {
-    return 2.0 * std::atan2(z[kContact] + t * dz[kContact] - z[kX] - t * dz[kX],
-                            z[kY] + t * dz[kY]);
+    return 2.0 *
+           std::atan2(z[kContact] + t * dz[kContact] - z[kX] - t * dz[kX], z[kY] + t * dz[kY]);
   };
   constexpr double kStep = 1e-5;
   return (8.0 * (theta(kStep) - theta(-kStep)) - (theta(2 * kStep) - theta(-2 * kStep))) /
@@ -201,10 +201,10 @@ TEST(ThesisLaw, ChordForceIsComplianceAtTheDeformedRadiusM6) {
     const long double l = std::hypot(static_cast<long double>(z[kContact] - z[kX]), z[kY]);
     const long double r_d = l / (2.0L * std::cos(alpha));
     const long double C =
-        0.5L * (r_d * r_d * r_d *
-                    (2.0L * phi - 3.0L * std::sin(phi) + phi * std::cos(phi)) / (p.E * p.I) +
-                r_d * (3.0L * std::sin(phi) - phi) / (p.E * p.A) +
-                p.kappa * r_d * (phi - std::sin(phi)) / (p.G * p.A));
+        0.5L *
+        (r_d * r_d * r_d * (2.0L * phi - 3.0L * std::sin(phi) + phi * std::cos(phi)) / (p.E * p.I) +
+         r_d * (3.0L * std::sin(phi) - phi) / (p.E * p.A) +
+         p.kappa * r_d * (phi - std::sin(phi)) / (p.G * p.A));
     const long double F = (2.0L * p.r * std::cos(alpha) - l) / C;
     EXPECT_NEAR(load.elastic_force / F, 1.0L, 1e-11);  // l0 - l loses up to 3 digits
   }
@@ -245,7 +245,8 @@ std::vector<LoadedArc> LoadedArcs(const Parameters<double>& p, bool second_order
     const long double lead = cos(phi / 2) - F * d(C, phi) / r / 2 - F * F * d(C2, phi) / r / 3;
     const long double u = l * lead, x = random.Uniform(-1.0, 1.0);
     const long double y = std::sqrt(l * l - u * u);
-    arcs.push_back({static_cast<double>(phi), static_cast<double>(F),
+    arcs.push_back({static_cast<double>(phi),
+                    static_cast<double>(F),
                     {static_cast<double>(x), static_cast<double>(y), random.Uniform(-2.0, 2.0),
                      random.Uniform(-2.0, 2.0), static_cast<double>(x + u - r * phi)}});
   }
@@ -262,7 +263,8 @@ void ExpectRecovers(bool second_order) {
     // Slopes of the forward oracle are good to 1e-13; phi and F follow from x, y to 1e-12 times
     // the stiffness of the arc (r k/F up to 100).
     EXPECT_NEAR(load.phi, arc.phi, kLawResidual);
-    EXPECT_NEAR(load.elastic_force, arc.F, kLawResidual * p.r / LegCompliance<double>(p).Chord(arc.phi));
+    EXPECT_NEAR(load.elastic_force, arc.F,
+                kLawResidual * p.r / LegCompliance<double>(p).Chord(arc.phi));
     const double w = (arc.z[kY] * arc.z[kVy] - load.u * arc.z[kVx]) / load.l;
     EXPECT_NEAR(load.damping_rate, w, kClosedForm);
     EXPECT_NEAR(load.l, std::hypot(load.u, arc.z[kY]), kClosedForm);

@@ -14,8 +14,7 @@ namespace {
 using namespace testing;
 using D = SensitivityDirection;
 
-constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx,
-                              Channel::kBodyVy};
+constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx, Channel::kBodyVy};
 
 // ---- systems made for the purpose --------------------------------------------------------
 
@@ -112,7 +111,7 @@ TEST(GuardDip, ThatStaysAboveZeroIsReportedAsANearMiss) {
 
 TEST(Start, BelowTouchdownHeightIsRefused) {
   for (Law law : {Law::kThesis, Law::kLargeDeflection, Law::kStraightLeg, Law::kBall}) {
-    SimulationRequest q = law == Law::kBall ? BallRequest()
+    SimulationRequest q = law == Law::kBall          ? BallRequest()
                           : law == Law::kStraightLeg ? SteadyStraightLeg()
                                                      : ThickLegRequest(law);
     q.initial[1] = 0.01;
@@ -162,11 +161,10 @@ TEST(Start, AnApexDoesNotCountAsAHop) {
 
 TEST(Grazing, TouchdownWithoutSpeedEndsTheRun) {
   for (Law law : {Law::kLargeDeflection, Law::kStraightLeg}) {
-    SimulationRequest q =
-        law == Law::kStraightLeg ? SteadyStraightLeg() : ThickLegRequest(law);
+    SimulationRequest q = law == Law::kStraightLeg ? SteadyStraightLeg() : ThickLegRequest(law);
     const auto& p = q.parameters;
-    q.initial[1] = law == Law::kStraightLeg ? p.l0 * std::cos(p.theta_td)
-                                            : p.r * (1.0 + std::cos(p.theta_td));
+    q.initial[1] =
+        law == Law::kStraightLeg ? p.l0 * std::cos(p.theta_td) : p.r * (1.0 + std::cos(p.theta_td));
     q.initial[3] = 0.0;
     EXPECT_EQ(Simulate(q).outcome, Outcome::kGrazing) << NameOf(law);
   }
@@ -187,7 +185,7 @@ TEST(Grazing, TouchdownAtLowSpeedIsReportedByItsCrossingRate) {
 
 TEST(Gravity, OfZeroLeavesTheBodyFlying) {
   for (Law law : {Law::kLargeDeflection, Law::kStraightLeg, Law::kBall}) {
-    SimulationRequest q = law == Law::kBall ? BallRequest()
+    SimulationRequest q = law == Law::kBall          ? BallRequest()
                           : law == Law::kStraightLeg ? SteadyStraightLeg()
                                                      : ThickLegRequest(law);
     q.parameters.g = 0.0;
@@ -240,8 +238,7 @@ TEST(Horizon, MayPassWhileTheLegNeverLeavesTheGround) {
 TEST(NoSupport, ATouchdownThatLengthensTheChordEndsTheRun) {
   // (Not under `no_slip`: its contact runs away from the hip faster than the chord lengthens.)
   for (Law law : {Law::kThesis, Law::kConsistent, Law::kLargeDeflection, Law::kStraightLeg}) {
-    SimulationRequest q =
-        law == Law::kStraightLeg ? SteadyStraightLeg() : ThickLegRequest(law);
+    SimulationRequest q = law == Law::kStraightLeg ? SteadyStraightLeg() : ThickLegRequest(law);
     q.parameters.theta_td = Degrees(45.0);
     q.initial[1] *= 1.2;
     q.initial[2] = -8.0;  // backward faster than it falls
@@ -512,8 +509,10 @@ TEST(NumericFlight, LiftingOffBelowTouchdownHeightGoesOnAsTheClosedFormDoes) {
 TEST(Flexure, IsReportedByTheExpansionAlone) {
   for (Law law : kCLegLaws) {
     const double flexure = Simulate(ThickLegRequest(law)).max_flexure;
-    if (law == Law::kLargeDeflection) EXPECT_GT(flexure, 0.02);
-    else EXPECT_EQ(flexure, 0.0);
+    if (law == Law::kLargeDeflection)
+      EXPECT_GT(flexure, 0.02);
+    else
+      EXPECT_EQ(flexure, 0.0);
   }
 }
 

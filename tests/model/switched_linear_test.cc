@@ -42,8 +42,8 @@ Result SwitchedRun(const IntegratorOptions& options) {
 }
 
 TEST(SwitchedLinearSystem, StateMatchesThePublishedDigits) {
-  const Result r = SwitchedRun<Dop853>({.relative_tolerance = kOracleRelative,
-                                .absolute_tolerance = kOracleAbsolute});
+  const Result r = SwitchedRun<Dop853>(
+      {.relative_tolerance = kOracleRelative, .absolute_tolerance = kOracleAbsolute});
   EXPECT_NEAR(r.x[0], -0.3161266570, kPrinted);
   EXPECT_NEAR(r.x[1], -0.2381449819, kPrinted);
   ASSERT_FALSE(r.events.empty());
@@ -51,15 +51,15 @@ TEST(SwitchedLinearSystem, StateMatchesThePublishedDigits) {
 }
 
 TEST(SwitchedLinearSystem, DerivativeByTheSwitchingSlopeMatchesThePublishedDigits) {
-  const Result r = SwitchedRun<Dop853>({.relative_tolerance = kOracleRelative,
-                                .absolute_tolerance = kOracleAbsolute});
+  const Result r = SwitchedRun<Dop853>(
+      {.relative_tolerance = kOracleRelative, .absolute_tolerance = kOracleAbsolute});
   EXPECT_NEAR(r.d[0], -0.1027231879, kPrinted);
   EXPECT_NEAR(r.d[1], 0.0703041416, kPrinted);
 }
 
 TEST(SwitchedLinearSystem, SwitchesLieOnTheirLines) {
-  const Result r = SwitchedRun<Dop853>({.relative_tolerance = kOracleRelative,
-                                .absolute_tolerance = kOracleAbsolute});
+  const Result r = SwitchedRun<Dop853>(
+      {.relative_tolerance = kOracleRelative, .absolute_tolerance = kOracleAbsolute});
   for (const Event& e : r.events) {
     const double slope = e.mode_before == Mode::kRolling ? 2.75 : 0.36;
     EXPECT_NEAR(e.y - slope * e.x, 0.0, kEventResidual);
@@ -67,18 +67,16 @@ TEST(SwitchedLinearSystem, SwitchesLieOnTheirLines) {
 }
 
 TEST(SwitchedLinearSystem, ErkStepGivesTheSameDerivative) {
-  const Result r = SwitchedRun<ErkStepper>({.kind = IntegratorKind::kErkStep,
-                                    .relative_tolerance = 1e-12,
-                                    .absolute_tolerance = 1e-13});
+  const Result r = SwitchedRun<ErkStepper>(
+      {.kind = IntegratorKind::kErkStep, .relative_tolerance = 1e-12, .absolute_tolerance = 1e-13});
   EXPECT_NEAR(r.d[0], -0.1027231879, 1e-9);
   EXPECT_NEAR(r.d[1], 0.0703041416, 1e-9);
 }
 
 TEST(SwitchedLinearSystem, CvodesGivesTheSameDerivative) {
   // Backward differentiation errs by about the tolerance per step, over some 1000 steps here.
-  const Result r = SwitchedRun<CvodesStepper>({.kind = IntegratorKind::kCvodes,
-                                       .relative_tolerance = 1e-11,
-                                       .absolute_tolerance = 1e-12});
+  const Result r = SwitchedRun<CvodesStepper>(
+      {.kind = IntegratorKind::kCvodes, .relative_tolerance = 1e-11, .absolute_tolerance = 1e-12});
   EXPECT_NEAR(r.d[0], -0.1027231879, 1e-7);
   EXPECT_NEAR(r.d[1], 0.0703041416, 1e-7);
 }

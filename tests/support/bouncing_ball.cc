@@ -64,8 +64,7 @@ BouncingBall::State BouncingBall::StateAt(long double time, int count) const {
   const long double up = restitution * last.speed;  // just after the bounce
   const long double speed_x = vx * c_n;
   State s{};
-  s.z = {last.position + speed_x * dt, radius + up * dt - 0.5L * g * dt * dt, speed_x,
-         up - g * dt};
+  s.z = {last.position + speed_x * dt, radius + up * dt - 0.5L * g * dt * dt, speed_x, up - g * dt};
   for (int p = 0; p < kCount; ++p) {
     long double d_up = restitution * last.d_speed[p];
     if (p == kRestitution) d_up += last.speed;

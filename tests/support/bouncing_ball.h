@@ -22,8 +22,8 @@ struct BouncingBall {
   std::vector<Bounce> Bounces(int count) const;
 
   struct State {
-    std::array<long double, 4> z;     // x, y, vx, vy
-    std::array<Column, 4> d;          // by direction, at fixed time
+    std::array<long double, 4> z;  // x, y, vx, vy
+    std::array<Column, 4> d;       // by direction, at fixed time
   };
   /// State at `time`, after exactly `bounces` bounces.
   State StateAt(long double time, int bounces) const;

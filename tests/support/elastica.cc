@@ -32,9 +32,9 @@ PressedArc SolvePressedArc(double arc, double radius, double EI, double F) {
   // By symmetry the tangent is along the chord in the middle.
   const auto miss = [&](double end_angle) { return Middle(arc, load, end_angle)[2]; };
   std::uintmax_t rounds = 200;
-  const auto bracket = boost::math::tools::toms748_solve(
-      miss, 0.5 * arc - 0.3, 0.5 * arc + 2.0, boost::math::tools::eps_tolerance<double>(52),
-      rounds);
+  const auto bracket =
+      boost::math::tools::toms748_solve(miss, 0.5 * arc - 0.3, 0.5 * arc + 2.0,
+                                        boost::math::tools::eps_tolerance<double>(52), rounds);
   const double end_angle = 0.5 * (bracket.first + bracket.second);
   return {2.0 * radius * Middle(arc, load, end_angle)[0], end_angle};
 }

@@ -14,9 +14,12 @@ using Of = SensitivityDirection::Of;
 
 double ValueOf(const SimulationRequest& q, const SensitivityDirection& d) {
   switch (d.of) {
-    case Of::kParameter: return Field(q.parameters, d.parameter);
-    case Of::kInitialState: return q.initial[d.index];
-    case Of::kEffect: return q.effects[d.index].values[d.component];
+    case Of::kParameter:
+      return Field(q.parameters, d.parameter);
+    case Of::kInitialState:
+      return q.initial[d.index];
+    case Of::kEffect:
+      return q.effects[d.index].values[d.component];
   }
   return 0.0;
 }
@@ -36,9 +39,15 @@ struct Run {
 Run RunAt(SimulationRequest q, const SensitivityDirection& d, double value) {
   std::vector<EffectSetting> effects(q.effects.begin(), q.effects.end());
   switch (d.of) {
-    case Of::kParameter: Field(q.parameters, d.parameter) = value; break;
-    case Of::kInitialState: q.initial[d.index] = value; break;
-    case Of::kEffect: effects[d.index].values[d.component] = value; break;
+    case Of::kParameter:
+      Field(q.parameters, d.parameter) = value;
+      break;
+    case Of::kInitialState:
+      q.initial[d.index] = value;
+      break;
+    case Of::kEffect:
+      effects[d.index].values[d.component] = value;
+      break;
   }
   q.effects = effects;
   q.directions = {};
@@ -65,9 +74,12 @@ double Norm(const std::vector<double>& v, std::size_t begin, std::size_t end) {
 std::string NameOf(const SimulationRequest& q, const SensitivityDirection& d) {
   static constexpr const char* kStates[] = {"x", "y", "vx", "vy"};
   switch (d.of) {
-    case Of::kParameter: return std::string(InfoOf(d.parameter).name);
-    case Of::kInitialState: return std::string(kStates[d.index]) + "(0)";
-    case Of::kEffect: return std::string(q.effects[d.index].effect->info.name);
+    case Of::kParameter:
+      return std::string(InfoOf(d.parameter).name);
+    case Of::kInitialState:
+      return std::string(kStates[d.index]) + "(0)";
+    case Of::kEffect:
+      return std::string(q.effects[d.index].effect->info.name);
   }
   return "";
 }
@@ -130,8 +142,7 @@ std::vector<ColumnCheck> CheckGradient(const SimulationRequest& request,
       check.sequence_changed = !same_sequence || oracle.value.size() != column.size();
       if (!check.sequence_changed) {
         std::vector<double> difference(column.size());
-        for (std::size_t i = 0; i < column.size(); ++i)
-          difference[i] = column[i] - oracle.value[i];
+        for (std::size_t i = 0; i < column.size(); ++i) difference[i] = column[i] - oracle.value[i];
         const double norm = Norm(oracle.value, begin, end);
         const double zero = 1e-9 * Norm(base.all, begin, end) / size;
         check.nothing_to_see = norm < zero && Norm(column, begin, end) < zero;

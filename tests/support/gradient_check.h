@@ -9,10 +9,10 @@ namespace hoplab::testing {
 
 /// One derivative column held against Richardson differences of whole runs.
 struct ColumnCheck {
-  std::string what;  // "samples d/dE"
-  double error = 0.0;         // |analytic - differences| over the column's norm
-  double oracle_error = 0.0;  // what the differences themselves may be off by, over the same
-  bool nothing_to_see = false;  // both sides are zero against the size of the values
+  std::string what;               // "samples d/dE"
+  double error = 0.0;             // |analytic - differences| over the column's norm
+  double oracle_error = 0.0;      // what the differences themselves may be off by, over the same
+  bool nothing_to_see = false;    // both sides are zero against the size of the values
   bool sequence_changed = false;  // the differences straddle another event sequence
 };
 

@@ -37,8 +37,8 @@ DifferenceColumn RichardsonDerivative(const Function& f, double x, double h) {
       power *= 4.0;
       table[i][j].resize(up.size());
       for (std::size_t c = 0; c < up.size(); ++c) {
-        table[i][j][c] = table[i][j - 1][c] +
-                         (table[i][j - 1][c] - table[i - 1][j - 1][c]) / (power - 1.0);
+        table[i][j][c] =
+            table[i][j - 1][c] + (table[i][j - 1][c] - table[i - 1][j - 1][c]) / (power - 1.0);
       }
       const double error = std::max(norm_of_change(table[i][j], table[i][j - 1]),
                                     norm_of_change(table[i][j], table[i - 1][j - 1]));

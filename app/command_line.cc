@@ -1,0 +1,140 @@
+#include "app/command_line.h"
+
+#include <algorithm>
+#include <ostream>
+
+#include "app/command.h"
+#include "app/commands/check.h"
+#include "app/commands/compare.h"
+#include "app/commands/effects.h"
+#include "app/commands/fit.h"
+#include "app/commands/generate.h"
+#include "app/commands/laws.h"
+#include "app/commands/simulate.h"
+#include "app/commands/version.h"
+#include "app/run_record.h"
+#include "app/usage_error.h"
+#include "app/version.h"
+#include "base/input_error.h"
+#include "base/text.h"
+
+namespace hoplab {
+namespace {
+
+constexpr std::size_t kNameColumn = 30;
+
+class CommandLine {
+ public:
+  explicit CommandLine(Console& console) : console_(console) {
+    app_.name("hoplab");
+    app_.get_formatter()->column_width(kNameColumn);
+    app_.set_version_flag("--version", "hoplab " + ProjectVersion());
+    app_.require_subcommand(1);
+    app_.footer("hoplab COMMAND --help says more. Begin with: hoplab fit datasets/rig-drops");
+    AddCheckCommand(app_, invocation_);
+    AddFitCommand(app_, invocation_);
+    AddCompareCommand(app_, invocation_);
+    AddSimulateCommand(app_, invocation_);
+    AddGenerateCommand(app_, invocation_);
+    AddLawsCommand(app_, invocation_);
+    AddEffectsCommand(app_, invocation_);
+    AddVersionCommand(app_, invocation_);
+  }
+
+  ExitCode Run(int argc, const char* const* argv) {
+    json_ =
+        std::any_of(argv, argv + argc, [](const char* a) { return std::string(a) == "--json"; });
+    try {
+      return ParseAndRun(argc, argv);
+    } catch (const CLI::Success& done) {  // --help, --version
+      app_.exit(done, console_.out, console_.err);
+      return ExitCode::kDone;
+    } catch (const CLI::ParseError& error) {
+      return Fail(ExitCode::kWrongUse,
+                  Stop(error.what()) + OptionHint() + " See " + HelpCall() + ".");
+    } catch (const UsageError& error) {
+      return Fail(ExitCode::kWrongUse, Stop(error.what()) + " See " + HelpCall() + ".");
+    } catch (const InputError& error) {
+      return Fail(ExitCode::kBadInput, error.what());
+    } catch (const std::bad_alloc&) {
+      return Fail(ExitCode::kNoResult, "not enough memory");
+    } catch (const std::exception& error) {
+      return Fail(ExitCode::kBug,
+                  std::string("this is a bug in hoplab, not in your input: ") + error.what());
+    }
+  }
+
+ private:
+  ExitCode ParseAndRun(int argc, const char* const* argv) {
+    if (argc < 2) {
+      console_.err << app_.help();
+      return ExitCode::kWrongUse;
+    }
+    const std::string first = argv[1];
+    const std::vector<std::string> known = CommandNames();
+    if (std::find(known.begin(), known.end(), first) != known.end()) {
+      command_ = first;
+    } else if (!first.starts_with("-")) {
+      throw UsageError("there is no command " + Printable(first) + ". " + DidYouMean(first, known));
+    }
+    app_.parse(argc, argv);
+    const ExitCode code = invocation_.run(console_);
+    console_.out.flush();
+    if (!console_.out) throw InputError({"standard output", "", "cannot be written", ""});
+    return code;
+  }
+
+  std::vector<std::string> CommandNames() {
+    std::vector<std::string> names;
+    for (const CLI::App* sub : app_.get_subcommands({})) names.push_back(sub->get_name());
+    return names;
+  }
+
+  // With a stop at the end.
+  static std::string Stop(std::string text) {
+    if (!text.ends_with('.') && !text.ends_with('?')) text += '.';
+    return text;
+  }
+
+  // The long option an unknown one was probably meant to be.
+  std::string OptionHint() {
+    if (command_.empty()) return "";
+    const CLI::App* sub = app_.get_subcommand(command_);
+    std::vector<std::string> known;
+    for (const CLI::Option* option : sub->get_options()) {
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    }
+    for (const std::string& extra : app_.remaining(true)) {
+      if (!extra.starts_with("--")) continue;
+      if (const auto nearest = NearestWord(extra.substr(0, extra.find('=')), known))
+        return " Did you mean " + *nearest + "?";
+    }
+    return "";
+  }
+
+  std::string HelpCall() const {
+    return command_.empty() ? "hoplab --help" : "hoplab " + command_ + " --help";
+  }
+
+  ExitCode Fail(ExitCode code, const std::string& message) {
+    if (json_) console_.out << TextOf(FailureRecord(command_, message)) << std::flush;
+    console_.err << Styled("hoplab" + (command_.empty() ? "" : " " + command_) + ":",
+                           Emphasis::kError, console_.err_colours)
+                 << ' ' << message << std::endl;
+    return code;
+  }
+
+  Console& console_;
+  CLI::App app_{"Fits compliant-leg hopping models to recorded traces"};
+  Invocation invocation_;
+  std::string command_;  // empty: none was recognised
+  bool json_ = false;
+};
+
+}  // namespace
+
+ExitCode RunCommandLine(int argc, const char* const* argv, Console& console) {
+  return CommandLine(console).Run(argc, argv);
+}
+
+}  // namespace hoplab

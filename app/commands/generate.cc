@@ -1,0 +1,95 @@
+#include "app/commands/generate.h"
+
+#include <chrono>
+#include <ostream>
+
+#include "app/run_record.h"
+#include "app/scenario_settings.h"
+#include "base/atomic_file.h"
+#include "datasets/write_dataset.h"
+#include "fitting/generate.h"
+
+namespace hoplab {
+namespace {
+
+struct GenerateSettings {
+  ScenarioSettings scenario;
+  std::optional<double> noise;
+  std::uint64_t seed = 1;
+  std::string out;
+  bool force = false, json = false;
+};
+
+Json RecordOf(const GenerateSettings& settings, const Scenario& scenario,
+              const GeneratedDataset& made) {
+  RecordHeader header;
+  header.command = "generate";
+  header.dataset = made.dataset.name;
+  if (scenario.law) header.law = *scenario.law;
+  header.seed = settings.seed;
+  header.options = {{"scenario", settings.scenario.scenario},
+                    {"set", settings.scenario.set},
+                    {"with", settings.scenario.with},
+                    {"noise", NumberOrNull(settings.noise)},
+                    {"seed", settings.seed}};
+  Json record = NewRecord(header);
+  record["notes"] = made.notes;
+  record["trials"] = Json::array();
+  for (const Trial& trial : made.dataset.trials) {
+    record["trials"].push_back({{"file", trial.file},
+                                {"role", RoleName(trial.role)},
+                                {"rows", trial.trace.time_s.size()}});
+  }
+  return record;
+}
+
+ExitCode RunGenerate(const GenerateSettings& settings, Console& console) {
+  const auto begin = std::chrono::steady_clock::now();
+  CheckFolderIsFree(settings.out, {settings.force, "dataset.yaml"});
+  const Scenario scenario = ReadScenarioOf(settings.scenario);
+  GenerateOptions options;
+  options.noise = settings.noise;
+  options.seed = settings.seed;
+  const GeneratedDataset made = GenerateDataset(scenario, options);
+  WriteDataset(made.dataset, settings.out, {settings.force});
+  for (const std::string& note : made.notes) console.err << "note: " << note << '\n';
+  if (settings.json) {
+    Json record = RecordOf(settings, scenario, made);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    record["seconds"] = took.count();
+    console.out << TextOf(record);
+    return ExitCode::kDone;
+  }
+  std::size_t rows = 0;
+  for (const Trial& trial : made.dataset.trials) rows += trial.trace.time_s.size();
+  console.out << Styled(made.dataset.name, Emphasis::kBold, console.out_colours) << "  "
+              << made.dataset.trials.size()
+              << (made.dataset.trials.size() == 1 ? " trial, " : " trials, ") << rows
+              << " rows, seed " << settings.seed << "\n  dataset     " << settings.out << '\n';
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void AddGenerateCommand(CLI::App& app, Invocation& invocation) {
+  auto settings = std::make_shared<GenerateSettings>();
+  CLI::App& sub = *app.add_subcommand("generate", "Make a dataset from a scenario, with noise");
+  AddScenarioOptions(sub, settings->scenario);
+  sub.add_option("--noise", settings->noise,
+                 "1 standard deviation of every channel, in its unit (default: the scenario's)")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("SIGMA");
+  sub.add_option("--seed", settings->seed, "Of the noise (default 1)")->option_text("N");
+  sub.add_option("--out", settings->out, "Folder of the new dataset")
+      ->required()
+      ->option_text("DATASET");
+  sub.add_flag("--force", settings->force, "Replace the dataset that stands there");
+  sub.footer(
+      "Examples:\n"
+      "  hoplab generate hopping.yaml --out my-hops\n"
+      "  hoplab generate hopping.yaml --with air_drag:c_drag=0.05 --noise 0.001 --seed 7 --out "
+      "windy");
+  OnParsed(sub, invocation, settings, RunGenerate);
+}
+
+}  // namespace hoplab

@@ -1,0 +1,77 @@
+#include "app/commands/laws.h"
+
+#include <ostream>
+
+#include "app/run_record.h"
+#include "model/parameters.h"
+
+namespace hoplab {
+namespace {
+
+struct LawsSettings {
+  bool json = false;
+};
+
+constexpr std::array kMechanisms = {MechanismKind::kCLeg, MechanismKind::kStraightLeg,
+                                    MechanismKind::kBall};
+
+Json ParameterRecords(MechanismKind mechanism) {
+  Json out = Json::array();
+  const auto free = FreeByDefault(mechanism);
+  for (const ParameterId id : ParametersOf(mechanism)) {
+    const ParameterInfo& info = InfoOf(id);
+    out.push_back({{"name", info.name},
+                   {"unit", info.unit},
+                   {"bounds", Json::array({info.lower, info.upper})},
+                   {"free_by_default", std::find(free.begin(), free.end(), id) != free.end()}});
+  }
+  return out;
+}
+
+ExitCode RunLaws(const LawsSettings& settings, Console& console) {
+  if (settings.json) {
+    RecordHeader header;
+    header.command = "laws";
+    Json record = NewRecord(header);
+    record["laws"] = Json::array();
+    for (const MechanismKind mechanism : kMechanisms) {
+      for (const Law law : LawsOf(mechanism)) {
+        record["laws"].push_back({{"name", NameOf(law)},
+                                  {"mechanism", NameOf(mechanism)},
+                                  {"default", law == LawsOf(mechanism).front()},
+                                  {"sentence", SentenceOf(law)},
+                                  {"parameters", ParameterRecords(mechanism)}});
+      }
+    }
+    console.out << TextOf(record);
+    return ExitCode::kDone;
+  }
+  for (const MechanismKind mechanism : kMechanisms) {
+    console.out << Styled(NameOf(mechanism), Emphasis::kBold, console.out_colours) << '\n';
+    for (const Law law : LawsOf(mechanism)) {
+      std::string name(NameOf(law));
+      name.resize(18, ' ');
+      console.out << "  " << name << SentenceOf(law) << '\n';
+    }
+    console.out << "  parameters:       ";
+    const char* separator = "";
+    for (const ParameterId id : ParametersOf(mechanism)) {
+      const ParameterInfo& info = InfoOf(id);
+      console.out << separator << info.name;
+      if (info.unit != "-") console.out << " [" << info.unit << ']';
+      separator = ", ";
+    }
+    console.out << "; the first two are fitted by default\n";
+  }
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void AddLawsCommand(CLI::App& app, Invocation& invocation) {
+  CLI::App& sub = *app.add_subcommand("laws", "Leg laws and parameters of each mechanism");
+  sub.footer("Example:\n  hoplab laws");
+  OnParsed(sub, invocation, std::make_shared<LawsSettings>(), RunLaws);
+}
+
+}  // namespace hoplab

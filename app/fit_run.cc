@@ -1,0 +1,118 @@
+#include "app/fit_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/input_error.h"
+#include "base/text.h"
+
+namespace hoplab {
+namespace {
+
+bool IsFinished(const StartRecord& record) {
+  return record.status == SolveStatus::kConverged || record.status == SolveStatus::kIterationLimit;
+}
+
+// Places of the shared values to profile.
+std::vector<int> ProfileTargets(const FitProblem& problem, const std::vector<std::string>& wanted) {
+  std::vector<int> targets;
+  const std::vector<std::string> names = problem.shared_names();
+  for (const std::string& name : wanted) {
+    if (name == "all") {
+      targets.clear();
+      for (int i = 0; i < problem.shared_count(); ++i) targets.push_back(i);
+      return targets;
+    }
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end())
+      throw InputError({"--profile", Printable(name), "is not a parameter of this fit",
+                        DidYouMean(name, names)});
+    targets.push_back(static_cast<int>(at - names.begin()));
+  }
+  return targets;
+}
+
+void Announce(const FitRunOptions& options, std::string_view stage) {
+  if (options.stage) options.stage(stage);
+}
+
+void AddProfiles(const FitRunOptions& options, const std::vector<int>& targets, FitRun& run) {
+  for (const int target : targets) {
+    // Where the data say nothing, or the optimum sits on a bound, there is no width to step by.
+    const SharedParameter& s = run.problem.shared[target];
+    const double step = run.uncertainty->parameters[target].std_error.value_or(0.1 * s.scale);
+    Announce(options, "profile of " + s.name);
+    Profile profile = ComputeProfile(run.problem, run.fit, options.fit, target, step);
+    if (options.fit.stop && *options.fit.stop) return;  // this one is cut short
+    run.profiles.push_back(std::move(profile));
+  }
+}
+
+}  // namespace
+
+int FitRun::finished_starts() const {
+  return static_cast<int>(std::count_if(fit.records.begin(), fit.records.end(), IsFinished));
+}
+
+bool FitRun::Undetermined(int parameter) const {
+  if (!uncertainty) return true;
+  const ParameterUncertainty& p = uncertainty->parameters[parameter];
+  return !p.std_error && !p.at_bound;
+}
+
+bool FitRun::AllUndetermined() const {
+  for (int i = 0; i < problem.shared_count(); ++i) {
+    if (!Undetermined(i)) return false;
+  }
+  return true;
+}
+
+std::string FitRun::Failure() const {
+  if (interrupted && !has_result) return "interrupted; no start had been finished";
+  if (interrupted) {
+    return "interrupted; the result is the best of " + std::to_string(finished_starts()) +
+           " finished start" + (finished_starts() == 1 ? "" : "s");
+  }
+  if (!has_result) {
+    return "the search led nowhere" + (fit.message.empty() ? "" : ": " + fit.message) +
+           "; try --starts 8, other nominal values or another law";
+  }
+  if (AllUndetermined())
+    return "the data determine none of the parameters (" + Join(problem.shared_names()) + ")";
+  return "";
+}
+
+FitRun RunFit(const Dataset& dataset, const FitRunOptions& options) {
+  FitRun run;
+  run.problem = MakeProblem(dataset, options.problem);
+  const std::vector<int> targets = ProfileTargets(run.problem, options.profile);
+  Announce(options, "checking the dataset");
+  run.check = CheckDataset(dataset, run.problem, options.fit.jobs);
+  if (options.checked) options.checked(run.check);
+
+  Announce(options, "fitting " + Join(run.problem.shared_names()));
+  DatasetFit fitted = FitDataset(dataset, options.problem, options.fit, options.span);
+  run.problem = std::move(fitted.problem);
+  run.fit = std::move(fitted.result);
+  run.by_hop = fitted.by_hop;
+  run.note = std::move(fitted.note);
+  run.interrupted = run.fit.interrupted;
+  run.has_result = run.fit.ok && IsFinished(run.fit.records[run.fit.best_start]);
+  if (!run.has_result) return run;
+
+  // The assessment is short and runs to its end: a start refitted halfway would be a wrong error.
+  Announce(options, "assessing the fit");
+  FitOptions to_the_end = options.fit;
+  to_the_end.stop = nullptr;
+  const std::vector<TrialProblem> train = TrialsOf(run.problem, TrialRole::kTrain);
+  run.uncertainty = AssessUncertainty(run.problem, train, run.fit.shared, run.fit.starts,
+                                      options.fit.loss, options.fit.jobs);
+  run.certificate =
+      CertifyGradients(run.problem, train, run.fit.shared, run.fit.starts, options.fit.jobs);
+  run.trials = AssessTrials(run.problem, run.fit, to_the_end);
+  if (!run.interrupted) AddProfiles(options, targets, run);
+  run.interrupted = run.interrupted || (options.fit.stop && *options.fit.stop);
+  return run;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "datasets/dataset.h"
+#include "fitting/check.h"
+#include "fitting/fit.h"
+#include "fitting/fit_dataset.h"
+#include "fitting/gradient_certificate.h"
+#include "fitting/profile.h"
+#include "fitting/trial_errors.h"
+#include "fitting/uncertainty.h"
+
+namespace hoplab {
+
+struct FitRunOptions {
+  ProblemOptions problem;
+  FitOptions fit;
+  FitSpan span = FitSpan::kWholeElseHops;
+  std::vector<std::string> profile;  // shared parameters, or "all"
+  /// Called where a stage begins.
+  std::function<void(std::string_view stage)> stage = nullptr;
+  /// Called with what the check found, before the search.
+  std::function<void(const CheckReport&)> checked = nullptr;
+};
+
+/// All that `hoplab fit` computes: the search, then what its optimum is worth. What follows the
+/// search is absent if it led nowhere.
+struct FitRun {
+  FitProblem problem;  // trials are single hops if `by_hop`
+  CheckReport check;
+  bool by_hop = false;
+  std::string note;  // why it was fitted hop by hop, or that hops and whole traces disagree
+  FitResult fit;
+  /// At least one start ran to its end: there is something to report.
+  bool has_result = false;
+  /// Stopped from outside; profiles may be missing, starts are.
+  bool interrupted = false;
+  std::optional<Uncertainty> uncertainty;
+  std::optional<GradientCertificate> certificate;
+  std::vector<TrialErrors> trials;
+  std::vector<Profile> profiles;
+
+  int finished_starts() const;
+  /// The data say nothing about it: the value found is an accident of the start.
+  bool Undetermined(int parameter) const;
+  bool AllUndetermined() const;
+  /// Why there is no usable result; empty if there is one.
+  std::string Failure() const;
+};
+
+/// Checks, fits and assesses. Throws InputError for options that do not suit the dataset.
+FitRun RunFit(const Dataset& dataset, const FitRunOptions& options);
+
+}  // namespace hoplab

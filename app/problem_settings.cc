@@ -1,0 +1,79 @@
+#include "app/problem_settings.h"
+
+#include <cmath>
+#include <thread>
+
+#include "app/usage_error.h"
+#include "base/text.h"
+
+namespace hoplab {
+
+void AddIntegratorOptions(CLI::App& sub, std::string& integrator, double& tolerance) {
+  sub.add_option("--integrator", integrator, "dop853 (default), erkstep or cvodes")
+      ->check(CLI::IsMember({"dop853", "erkstep", "cvodes"}))
+      ->option_text("NAME");
+  sub.add_option("--tolerance", tolerance, "Relative tolerance of a step (default 1e-9)")
+      ->check(CLI::Range(1e-14, 1e-3))
+      ->option_text("NUMBER");
+}
+
+void AddProblemOptions(CLI::App& sub, ProblemSettings& settings) {
+  sub.add_option("DATASET", settings.dataset, "Folder with a dataset.yaml")->required();
+  sub.add_option("--law", settings.law, "How the leg carries its load; see hoplab laws")
+      ->option_text("LAW");
+  sub.add_option("--free", settings.free, "Parameters to fit, as E,d,air_drag.c_drag")
+      ->delimiter(',')
+      ->option_text("NAME,...")
+      ->allow_extra_args(false);
+  sub.add_option("--fix", settings.fix, "name=value in SI units: hold a parameter; repeatable")
+      ->delimiter(',')
+      ->option_text("NAME=VALUE")
+      ->allow_extra_args(false);
+  sub.add_option("--with", settings.with, "Effects whose parameters are fitted; see hoplab effects")
+      ->delimiter(',')
+      ->option_text("EFFECT,...")
+      ->allow_extra_args(false);
+  AddIntegratorOptions(sub, settings.integrator, settings.tolerance);
+  sub.add_option("--jobs", settings.jobs, "Threads (default: all cores); never changes a result")
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N");
+}
+
+IntegratorOptions IntegratorOptionsOf(const std::string& integrator, double tolerance) {
+  return {*FindIntegrator(integrator), tolerance, 0.1 * tolerance};
+}
+
+int JobsOf(int jobs) {
+  if (jobs > 0) return jobs;
+  const unsigned cores = std::thread::hardware_concurrency();
+  return cores > 0 ? static_cast<int>(cores) : 1;
+}
+
+std::map<std::string, double> ParseAssignments(const std::vector<std::string>& texts,
+                                               const std::string& option) {
+  std::map<std::string, double> values;
+  for (const std::string& text : texts) {
+    const std::size_t at = text.find('=');
+    const std::string name(Trim(text.substr(0, at)));
+    const std::optional<double> value =
+        at == text.npos ? std::nullopt : ParseDouble(Trim(text.substr(at + 1)));
+    if (name.empty() || !value || !std::isfinite(*value))
+      throw UsageError(option + ": " + Printable(text) +
+                       "; must be name=value with a number, as E=22e9");
+    if (!values.emplace(name, *value).second)
+      throw UsageError(option + ": " + Printable(name) + " is given twice");
+  }
+  return values;
+}
+
+ProblemOptions ProblemOptionsOf(const ProblemSettings& settings) {
+  ProblemOptions options;
+  options.law = settings.law;
+  options.free = settings.free;
+  options.with_effects = settings.with;
+  options.integrator = IntegratorOptionsOf(settings.integrator, settings.tolerance);
+  options.fix = ParseAssignments(settings.fix, "--fix");
+  return options;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "datasets/scenario.h"
+
+namespace hoplab {
+
+/// Options of `simulate` and `generate` that say what is simulated.
+struct ScenarioSettings {
+  std::string scenario;
+  std::string law;
+  std::vector<std::string> set;   // dotted.key=value
+  std::vector<std::string> with;  // effect:parameter=value
+};
+
+void AddScenarioOptions(CLI::App& sub, ScenarioSettings& settings);
+
+/// The file with the options put over it. Throws UsageError for options that are not of the form
+/// above, InputError for a bad scenario or an effect that does not exist.
+Scenario ReadScenarioOf(const ScenarioSettings& settings);
+
+}  // namespace hoplab

@@ -1,0 +1,85 @@
+#include "app/run_record.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "app/csv.h"
+#include "app/fit_record.h"
+#include "app/fit_report.h"
+#include "tests/datasets/small_dataset.h"
+
+namespace hoplab {
+namespace {
+
+TEST(RunRecord, WhatIsNotComputedIsNull) {
+  RecordHeader header;
+  header.command = "fit";
+  const Json record = NewRecord(header);
+  EXPECT_EQ(record.at("status"), "ok");
+  for (const char* key : {"dataset", "law", "seed", "seconds"})
+    EXPECT_TRUE(record.at(key).is_null()) << key;
+  EXPECT_TRUE(NumberOrNull(std::numeric_limits<double>::quiet_NaN()).is_null());
+  EXPECT_TRUE(NumberOrNull(std::numeric_limits<double>::infinity()).is_null());
+  EXPECT_TRUE(NumberOrNull(std::optional<double>()).is_null());
+  EXPECT_EQ(NumberOrNull(0.0), 0.0);
+}
+
+TEST(RunRecord, NumbersReadBackExactly) {
+  for (const double value :
+       {0.1, 1.0 / 3.0, 22.976543210987654e9, 5e-324, 1.7976931348623157e308}) {
+    Json record;
+    record["value"] = NumberOrNull(value);
+    EXPECT_EQ(Json::parse(TextOf(record)).at("value").get<double>(), value);
+  }
+}
+
+TEST(RunRecord, BytesThatAreNoTextDoNotStopIt) {
+  EXPECT_NO_THROW(Json::parse(TextOf(FailureRecord("fit", "caf\xe9"))));
+}
+
+TEST(CsvText, QuotesAndEmptyCells) {
+  CsvText csv({"a", "b"});
+  csv.Cell("x,\"y\"").Cell(std::numeric_limits<double>::quiet_NaN()).EndRow();
+  csv.Cell(std::string_view("plain")).Cell(0.1).EndRow();
+  EXPECT_EQ(csv.text(), "a,b\n\"x,\"\"y\"\"\",\nplain,0.1\n");
+}
+
+// A fit in which nothing was computed: every key of the contract is there all the same.
+TEST(FitRecord, AFitThatLedNowhereHasAllKeys) {
+  // `sigma: estimate` has nothing to go by in four rows.
+  const Dataset dataset = testing::ReadWithYaml("{sigma: estimate}", "{sigma: 0.001}");
+  FitRun run;
+  run.problem = MakeProblem(dataset, {});
+  run.fit.message = "a.csv: fell";
+  const Json record = FitRecord(dataset, "hops", {}, run);
+  EXPECT_EQ(record.at("status"), "failed");
+  EXPECT_NE(record.at("message").get<std::string>().find("a.csv: fell"), std::string::npos);
+  ASSERT_EQ(record.at("parameters").size(), 2u);
+  EXPECT_TRUE(record.at("parameters")[0].at("value").is_null());
+  EXPECT_TRUE(record.at("parameters")[0].at("ci95").is_null());
+  for (const char* role : {"train", "test"}) {
+    EXPECT_TRUE(record.at(role).at("rmse").at("body_x_m").is_null());
+    EXPECT_TRUE(record.at(role).at("nll_per_sample").is_null());
+  }
+  EXPECT_TRUE(record.at("identifiability").at("condition_number").is_null());
+  EXPECT_TRUE(record.at("gradient_check").at("max_relative_error").is_null());
+  EXPECT_TRUE(record.at("starts").empty());
+  EXPECT_NE(FitReport(dataset, run, false).find("no result"), std::string::npos);
+}
+
+TEST(FitReport, NoSentenceForAnIntervalThatIsMissing) {
+  const Dataset dataset = testing::ReadWithYaml("{sigma: estimate}", "{sigma: 0.001}");
+  FitProblem problem = MakeProblem(dataset, {});
+  Uncertainty u;
+  u.parameters.resize(2);
+  u.identifiability.rank = 1;
+  u.identifiability.condition_number = std::numeric_limits<double>::infinity();
+  u.identifiability.weak_directions = {{0.0, {0.0, 1.0}}, {4.0, {0.8, 0.6}}};
+  EXPECT_EQ(DeterminedLine(problem, u, ""),
+            "the data say nothing about d; weakly: +0.80 E +0.60 d (to 0.50 of its size)");
+  EXPECT_EQ(CertificateLine(std::nullopt), "not computed");
+}
+
+}  // namespace
+}  // namespace hoplab
