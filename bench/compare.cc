@@ -7,13 +7,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
+#include <stdexcept>
 
 #include "base/atomic_file.h"
-#include "base/input_error.h"
 #include "bench/counted_calls.h"
 #include "bench/legs.h"
 #include "bench/odeint_stance.h"
@@ -25,14 +25,14 @@
 namespace hoplab::bench {
 namespace {
 
-/// Lift-off times of two solvers of one problem differ by less than this [s]: tenfold what a
-/// relative tolerance of 1e-9 a step adds up to over a stance.
+/// Lift-off times of two solvers of one problem differ by less than this [s]: what a dozen steps at
+/// a relative tolerance of 1e-9 may add up to, the state being of size one.
 constexpr double kAgreement = 1e-8;
 /// Bounds of the smoke test: far enough off that no load of the machine reaches them.
 constexpr double kSmokeOdeintRatio = 3.0;
 
 struct Size {
-  int laps;              // peers of their own process run once a lap
+  int laps;  // peers of their own process run once a lap
   int rounds_per_lap;
   int peer_repetitions;  // in each process
   double batch_s;
@@ -43,7 +43,9 @@ constexpr Size kQuick = {1, 3, 1, 2e-4};
 class Comparison {
  public:
   explicit Comparison(const Size& size)
-      : size_(size), timer_(size.batch_s), report_(NewReport()),
+      : size_(size),
+        timer_(size.batch_s),
+        report_(NewReport()),
         scratch_(std::filesystem::temp_directory_path() /
                  ("hoplab-bench-" + std::to_string(getpid()))) {
     std::filesystem::create_directories(scratch_);
@@ -112,8 +114,8 @@ class Comparison {
     const auto mechanism = std::make_shared<Body<double>>(MakeBody<Body>(law));
     const std::array<double, 4> body = TouchdownState(law);
     problem.odeint = OdeintStance(*mechanism, body, IntegratorOptions{});
-    problem.odeint_timing =
-        timer_.Add("odeint", [mechanism, body] { OdeintStance(*mechanism, body, IntegratorOptions{}); });
+    problem.odeint_timing = timer_.Add(
+        "odeint", [mechanism, body] { OdeintStance(*mechanism, body, IntegratorOptions{}); });
     return problem;
   }
 
@@ -175,8 +177,8 @@ class Comparison {
     const double odeint_error = problem.odeint.liftoff_time - problem.reference;
     if (Agrees(law, "Boost.Odeint", problem.odeint.liftoff_time, problem.ours)) {
       report_.stances.push_back({law, "Boost.Odeint dopri5, dense output", odeint,
-                                 problem.odeint.rhs_calls, problem.odeint.guard_calls,
-                                 odeint_error, odeint_error});
+                                 problem.odeint.rhs_calls, problem.odeint.guard_calls, odeint_error,
+                                 odeint_error});
       AddBound("stance, hoplab / Boost.Odeint, " + law, ours.Min() / odeint.Min(), 1.0, true, "x");
     }
     for (const auto& [name, run] : problem.programs) {

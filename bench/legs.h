@@ -11,7 +11,8 @@ namespace hoplab::bench {
 
 template <class T>
 using BenchArcLeg = CLeg<T, LargeDeflectionLaw>;
-/// The mechanisms behind the laws `large_deflection` and `straight_leg`, as the model compiles them.
+/// The mechanisms behind the laws `large_deflection` and `straight_leg`, as the model compiles
+/// them.
 template <class T>
 using ArcBody = LeggedBody<T, BenchArcLeg>;
 template <class T>

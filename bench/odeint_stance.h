@@ -20,8 +20,8 @@ struct PeerStance {
 
 /// One stance by Boost.Odeint as its manual would have it: runge_kutta_dopri5 with step control and
 /// dense output, and the lift-off (chord force back at zero) by bisection on the dense output down
-/// to 1e-12 s. Right-hand side and guard are those of `mechanism`, the mechanism our own runs use; its
-/// construction is not part of the stance. `body` is (x, y, vx, vy) at touch-down.
+/// to 1e-12 s. Right-hand side and guard are those of `mechanism`, the mechanism our own runs use;
+/// its construction is not part of the stance. `body` is (x, y, vx, vy) at touch-down.
 template <class Mechanism>
 PeerStance OdeintStance(Mechanism& mechanism, const std::array<double, 4>& body,
                         const IntegratorOptions& options) {
@@ -44,9 +44,8 @@ PeerStance OdeintStance(Mechanism& mechanism, const std::array<double, 4>& body,
     return g[0];
   };
 
-  auto stepper =
-      odeint::make_dense_output(options.absolute_tolerance, options.relative_tolerance,
-                                odeint::runge_kutta_dopri5<State>());
+  auto stepper = odeint::make_dense_output(options.absolute_tolerance, options.relative_tolerance,
+                                           odeint::runge_kutta_dopri5<State>());
   stepper.initialize(z, 0.0, mechanism.FirstStep(mode, z.data()));
   while (stepper.current_time() < kLongestStance) {
     const auto [begin, end] = stepper.do_step(rhs);

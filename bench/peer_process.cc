@@ -30,8 +30,8 @@ std::string ProblemText(Law law) {
   if (law == Law::kStraightLeg) {
     parameters.update({{"k", p.k}, {"l0", p.l0}});
   } else {
-    parameters.update({{"r", p.r}, {"E", p.E}, {"G", p.G}, {"I", p.I}, {"A", p.A},
-                       {"kappa", p.kappa}});
+    parameters.update(
+        {{"r", p.r}, {"E", p.E}, {"G", p.G}, {"I", p.I}, {"A", p.A}, {"kappa", p.kappa}});
   }
   const IntegratorOptions tolerances;
   return nlohmann::json{{"law", std::string(NameOf(law))},
@@ -64,12 +64,11 @@ PeerProgram FindOctave() {
 
 void RunPeer(const PeerProgram& peer, Law law, int repetitions,
              const std::filesystem::path& scratch_folder, PeerRun& run) {
-  const std::filesystem::path problem =
-      scratch_folder / (std::string(NameOf(law)) + ".json");
+  const std::filesystem::path problem = scratch_folder / (std::string(NameOf(law)) + ".json");
   std::ofstream(problem) << ProblemText(law);
   const std::optional<std::string> text =
-      OutputOf(peer.interpreter + " " + Quoted(peer.script) + " " + Quoted(problem.string()) +
-               " " + std::to_string(repetitions));
+      OutputOf(peer.interpreter + " " + Quoted(peer.script) + " " + Quoted(problem.string()) + " " +
+               std::to_string(repetitions));
   const nlohmann::json answer = nlohmann::json::parse(text.value_or(""), nullptr, false);
   run.ran = answer.is_object();
   if (!run.ran) return;

@@ -49,21 +49,22 @@ Parameters<double> LegParameters(Law law) {
 std::span<const SensitivityDirection> Directions(int count) {
   using D = SensitivityDirection;
   using P = ParameterId;
-  static const std::array<D, 16> kAll = {
-      D::Parameter(P::kE),       D::Parameter(P::kD),           D::Parameter(P::kM),
-      D::Parameter(P::kR),       D::Parameter(P::kGravity),     D::Parameter(P::kThetaTd),
-      D::Parameter(P::kG),       D::Parameter(P::kSecondMoment), D::Parameter(P::kArea),
-      D::Parameter(P::kShearFactor), D::Parameter(P::kKp),      D::Parameter(P::kVDes),
-      D::InitialState(0),        D::InitialState(1),            D::InitialState(2),
-      D::InitialState(3)};
+  static const std::array<D, 16> kAll = {D::Parameter(P::kE),       D::Parameter(P::kD),
+                                         D::Parameter(P::kM),       D::Parameter(P::kR),
+                                         D::Parameter(P::kGravity), D::Parameter(P::kThetaTd),
+                                         D::Parameter(P::kG),       D::Parameter(P::kSecondMoment),
+                                         D::Parameter(P::kArea),    D::Parameter(P::kShearFactor),
+                                         D::Parameter(P::kKp),      D::Parameter(P::kVDes),
+                                         D::InitialState(0),        D::InitialState(1),
+                                         D::InitialState(2),        D::InitialState(3)};
   HOPLAB_CHECK(count >= 0 && count <= static_cast<int>(kAll.size()));
   return std::span(kAll).first(count);
 }
 
 std::array<double, 4> TouchdownState(Law law) {
   const Parameters<double> p = LegParameters(law);
-  const double y = law == Law::kStraightLeg ? p.l0 * std::cos(p.theta_td)
-                                            : p.r * (1.0 + std::cos(p.theta_td));
+  const double y =
+      law == Law::kStraightLeg ? p.l0 * std::cos(p.theta_td) : p.r * (1.0 + std::cos(p.theta_td));
   const double fall = std::sqrt(2.0 * (kDropHeight - y) / p.g);  // s
   return {kForwardSpeed * fall, y, kForwardSpeed, -p.g * fall};
 }

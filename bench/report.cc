@@ -87,15 +87,16 @@ std::string Piped(const std::vector<Cells>& rows) {
 
 std::string Sections(const Report& report, std::string (*table)(const std::vector<Cells>&),
                      const std::string& mark) {
-  std::string out = fmt::format("{}, {} ({} threads), {}, {}. Best and median of {} rounds, all in turn.\n\n",
-                                report.date, report.cpu, report.threads, report.compiler,
-                                report.build, report.rounds);
+  std::string out = fmt::format(
+      "{}, {} ({} threads), {}, {}. Best and median of {} rounds in turn; ratios of the best.\n\n",
+      report.date, report.cpu, report.threads, report.compiler, report.build, report.rounds);
   out += mark + "One stance from touch-down to lift-off, relative tolerance 1e-9\n\n";
   out += table(StanceCells(report)) + "\n";
   out += mark + "Our simulations and their sensitivities\n\n";
   out += table(SimulationCells(report)) + "\n";
   out += mark + "Claims\n\n" + table(BoundCells(report));
-  for (const std::string& note : report.notes) out += "\n" + note + "\n";
+  if (!report.notes.empty()) out += "\n";
+  for (const std::string& note : report.notes) out += "- " + note + "\n";
   return out;
 }
 

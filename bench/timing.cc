@@ -40,8 +40,10 @@ int RoundRobin::Add(std::string name, std::function<void()> body) {
 }
 
 void RoundRobin::Round() {
-  for (Thing& thing : things_)
+  for (Thing& thing : things_) {
+    if (thing.calls > 1) thing.body();  // what ran before has the caches
     thing.timing.seconds.push_back(SecondsPerCall(thing.body, thing.calls));
+  }
 }
 
 }  // namespace hoplab::bench
