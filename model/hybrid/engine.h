@@ -60,7 +60,7 @@ class Engine {
     t_ = 0.0;
     next_row_ = 0;
     stance_step_ = 0.0;
-    event_times_.reserve(kWidth * kUsualEvents);
+    event_times_.reserve(static_cast<std::size_t>(kWidth) * kUsualEvents);
     RowsBeforeStart(row_time);
     out_.outcome = Loop(row_time);
     FinishSegment();

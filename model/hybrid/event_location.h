@@ -147,9 +147,10 @@ class GuardWatch {
     if (ga <= kAtZero) {
       // The guard opened at the very start of the step: leave that zero behind.
       double ahead = 1e-3 * (b - a);
-      for (; ahead < b - a; ahead *= 2.0) {
+      ga = g(a + ahead);
+      for (int doubling = 0; doubling < 9 && !(ga > 0.0); ++doubling) {
+        ahead *= 2.0;  // up to half the step
         ga = g(a + ahead);
-        if (ga > 0.0) break;
       }
       if (!(ga > 0.0)) return {i, a};
       a += ahead;
