@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "model/effects/effect.h"
+#include "model/leg_compliance.h"
 #include "tests/support/requests.h"
 
 namespace hoplab {
@@ -150,6 +152,58 @@ TEST(TouchdownAngleBias, IsAnotherTouchdownAngle) {
   q.effects = {};
   q.parameters.theta_td += 0.05;
   EXPECT_EQ(Simulate(q).final_state, biased.final_state);
+}
+
+TEST(LegMaterialDamping, OnAStraightLegIsItsDamper) {
+  SimulationRequest q = RequestOf(Law::kStraightLeg);
+  std::array effects = {EffectSetting::Null(*FindEffect("leg_material_damping"))};
+  effects[0].values[0] = 2e-3;
+  q.effects = effects;
+  const Trajectory material = Simulate(q);
+  q.effects = {};
+  q.parameters.d = 2e-3 * q.parameters.k;
+  const Trajectory damper = Simulate(q);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(material.final_state[i], damper.final_state[i], 1e-11);
+}
+
+TEST(LegMaterialDamping, OnTheToeIsADamperOfItsStiffnessThere) {
+  // A leg that lands on its toe and leaves from it has one stiffness, k(pi).
+  SimulationRequest q = RequestOf(Law::kConsistent);
+  q.parameters.d = 0.0;
+  q.parameters.theta_td = Degrees(-10.0);
+  q.initial = {0.0, 0.25, 0.3, -0.1};
+  std::array effects = {EffectSetting::Null(*FindEffect("leg_material_damping"))};
+  effects[0].values[0] = 1e-3;
+  q.effects = effects;
+  const Trajectory material = Simulate(q);
+  q.effects = {};
+  q.parameters.d = 1e-3 / LegCompliance<double>(q.parameters).Chord(std::numbers::pi);
+  const Trajectory damper = Simulate(q);
+  ASSERT_EQ(material.events.size(), damper.events.size());
+  for (const Event& e : material.events) {
+    EXPECT_NE(e.mode_before, Mode::kRolling);
+    EXPECT_NE(e.mode_after, Mode::kRolling);
+  }
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(material.final_state[i], damper.final_state[i], 1e-11);
+}
+
+TEST(TouchdownLoss, TakesItsShareOfTheSpeedAlongTheChordAndNoneAcross) {
+  SimulationRequest q = RequestOf(Law::kLargeDeflection);
+  std::array effects = {EffectSetting::Null(*FindEffect("touchdown_loss"))};
+  effects[0].values[0] = 0.2;
+  q.effects = effects;
+  const Trajectory run = Simulate(q);
+  const auto landing = std::find_if(run.events.begin(), run.events.end(),
+                                    [](const Event& e) { return e.kind == EventKind::kTouchdown; });
+  ASSERT_NE(landing, run.events.end());
+  const double alpha = 0.5 * q.parameters.theta_td;  // chord angle of an unloaded rolling leg
+  const double ex = -std::sin(alpha), ey = std::cos(alpha);
+  EXPECT_NEAR(landing->vx_after * ex + landing->vy_after * ey,
+              0.8 * (landing->vx * ex + landing->vy * ey), 1e-13);
+  EXPECT_NEAR(landing->vx_after * ey - landing->vy_after * ex, landing->vx * ey - landing->vy * ex,
+              1e-13);
 }
 
 TEST(SensorDelay, ReadsRowsEarlier) {
