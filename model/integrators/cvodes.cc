@@ -150,10 +150,4 @@ StepStatus CvodesSolver::At(double t, double* y) {
   return StepStatus::kOk;
 }
 
-double CvodesSolver::next_step() const {
-  double h = 0.0;
-  CVodeGetCurrentStep(memory_->solver, &h);
-  return h;
-}
-
 }  // namespace hoplab

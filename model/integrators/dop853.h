@@ -20,7 +20,6 @@ namespace hoplab {
 ///   t0(), t1(), y1()         the last step's interval and its end
 ///   At(t, y)                 the state inside the last step, by the continuous extension
 ///   EndAt(t)                 takes the last step again so that it ends exactly at t
-///   next_step()              the step the controller would try next
 template <int kSize, int kControlled, class Rhs>
 class Dop853 {
  public:
@@ -80,9 +79,7 @@ class Dop853 {
 
   double t0() const { return t0_; }
   double t1() const { return t1_; }
-  const double* y0() const { return y0_.data(); }
   const double* y1() const { return y1_.data(); }
-  double next_step() const { return next_step_; }
 
   void At(double t, double* y) { Read<kSize>(t, y); }
   /// The controlled part only.

@@ -82,7 +82,7 @@ StepStatus ErkStepSolver::Step(double t_limit, double* t, double* y) {
   return flag < 0 ? StepStatus::kFailed : StepStatus::kOk;
 }
 
-StepStatus ErkStepSolver::RunTo(double t0, const double* y0, double t, double* y) {
+StepStatus ErkStepSolver::EndAt(double t0, const double* y0, double t, double* y) {
   Memory& m = *memory_;
   Start(t0, y0, t - t0);
   HOPLAB_CHECK(ERKStepSetStopTime(m.solver, t) == ARK_SUCCESS);
@@ -92,16 +92,10 @@ StepStatus ErkStepSolver::RunTo(double t0, const double* y0, double t, double* y
   return flag < 0 ? StepStatus::kFailed : StepStatus::kOk;
 }
 
-void ErkStepSolver::Interpolate(double t, double* y) {
+void ErkStepSolver::At(double t, double* y) {
   Memory& m = *memory_;
   HOPLAB_CHECK(ERKStepGetDky(m.solver, t, 0, m.y) == ARK_SUCCESS);
   std::copy(N_VGetArrayPointer(m.y), N_VGetArrayPointer(m.y) + m.system.size, y);
-}
-
-double ErkStepSolver::next_step() const {
-  double h = 0.0;
-  ERKStepGetCurrentStep(memory_->solver, &h);
-  return h;
 }
 
 }  // namespace hoplab
