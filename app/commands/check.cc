@@ -25,7 +25,7 @@ namespace {
 struct CheckSettings {
   ProblemSettings problem;
   std::string out;
-  bool force = false, json = false, quiet = false;
+  bool force = false, json = false;
 };
 
 // What the traces alone show of a channel's noise.
@@ -177,7 +177,6 @@ void AddCheckCommand(CLI::App& app, Invocation& invocation) {
   sub.add_option("--out", settings->out, "Write a run folder here (default: nothing is written)")
       ->option_text("DIR");
   sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
-  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
   sub.footer(
       "Examples:\n"
       "  hoplab check datasets/rig-drops\n"

@@ -35,6 +35,15 @@ TEST_F(ScenarioCli, WhatIsGeneratedIsFittedBack) {
   EXPECT_NEAR(E.at("value").get<double>(), 22e9, 5.0 * E.at("std_error").get<double>());
 }
 
+TEST_F(ScenarioCli, EveryCommandTakesQuiet) {
+  const std::string scenario = WriteScenario(temp_.path());
+  const ProcessResult run = Hoplab({"simulate", scenario, "--quiet"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(Hoplab({"generate", scenario, "--quiet", "--out", "made"}).err, "");
+  EXPECT_EQ(Hoplab({"laws", "--quiet"}).exit_code, 0);
+}
+
 TEST_F(ScenarioCli, TheSameSeedGeneratesTheSameBytes) {
   const std::string scenario = WriteScenario(temp_.path());
   for (const char* out : {"a", "b"})
