@@ -121,7 +121,7 @@ Eigen::VectorXd ShootApexes(const FitProblem& problem, const std::vector<TrialPr
 
 // ---- growing horizon ------------------------------------------------------------------------
 
-// Rows of a trial that the simulation from `shared` and the given starts can speak for.
+// The trials cut to the first `fraction` of their time.
 std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
                                         const std::vector<TrialProblem>& trials, double fraction) {
   std::vector<TrialProblem> cut;

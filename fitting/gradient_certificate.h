@@ -29,9 +29,8 @@ struct GradientCertificate {
   std::vector<CertificateFlag> flags;
 };
 
-/// Derivatives of the sampled rows, as a fit would get them: analytic for the certificate, or
-/// another supplier's, which is how the certificate itself is tested.
-/// Returns row-major [datum][shared, start], NaN-free.
+/// Simulates a trial with the sensitivities to be checked: the evaluator's own for a certificate,
+/// or another supplier's, which is how the certificate itself is tested.
 using JacobianSource =
     std::function<void(const TrialEvaluator&, const EvaluationRequest&, Trajectory&)>;
 

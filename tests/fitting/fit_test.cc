@@ -62,12 +62,15 @@ TEST(Fit, WorksWithoutHeightsByRawTime) {
   EXPECT_NEAR(fit.shared[0] / 22e9, 1.0, 0.05);
 }
 
-TEST(Fit, AnInterruptedFitKeepsNothingUnfinishedAsResult) {
+TEST(Fit, AnInterruptedFitSaysSoOfTheStartItCutShort) {
   std::atomic<bool> stop{true};
   FitOptions options;
+  options.starts = 3;
   options.stop = &stop;
   const FitResult fit = Fit(MakeProblem(SmallDataset(), {}), options);
   EXPECT_TRUE(fit.interrupted);
+  ASSERT_EQ(fit.records.size(), 1u);  // the others were not begun
+  EXPECT_EQ(fit.records[0].status, SolveStatus::kInterrupted);
 }
 
 TEST(Fit, SurvivesMissingSamples) {
