@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "fitting/model_of_spec.h"
 #include "tests/support/fit_cases.h"
 #include "tests/support/input_error_of.h"
 
@@ -14,6 +15,11 @@ using testing::SmallDataset;
 
 std::string MessageOf(const Dataset& d, const ProblemOptions& o) {
   return testing::InputErrorOf([&] { MakeProblem(d, o); });
+}
+
+TEST(Problem, EveryChannelOfTheFormatIsOneOfTheSimulator) {
+  static_assert(kChannelIdCount == kChannelCount);
+  for (const ChannelId id : kAllChannels) EXPECT_EQ(NameOf(ChannelOfSpec(id)), ChannelName(id));
 }
 
 TEST(Problem, FreesModulusAndDampingOfACLegByDefault) {
