@@ -67,7 +67,7 @@ std::string Trajectories(const FitRun& run) {
     request.liftoff = trial.liftoff;
     request.parameters = trial.parameters;
     std::vector<EffectSetting> effects = run.problem.effects;
-    ApplyShared(run.problem, run.fit.shared, request.parameters, effects);
+    ApplyShared(run.problem, trial, run.fit.shared, request.parameters, effects);
     request.effects = effects;
     request.initial = run.trials[i].start;
     request.horizon = trial.row_times.back();

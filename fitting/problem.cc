@@ -65,7 +65,7 @@ class Builder {
   void AddTrials() {
     for (const Trial& trial : dataset_.trials) {
       TrialProblem t;
-      t.file = trial.file;
+      t.file = t.recording = trial.file;
       t.role = trial.role;
       t.parameters = ParametersOfSpec(trial.mechanism, trial.controller, trial.touchdown_angle_rad);
       t.liftoff = LiftoffOfSpec(trial.mechanism);

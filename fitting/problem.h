@@ -22,6 +22,9 @@ struct SharedParameter {
   double lower, upper;  // physical bounds, closed
   double initial;       // nominal value
   double scale;         // one typical size of it, > 0
+  /// The one recording (TrialProblem::recording) in which it acts; empty: in all. Elsewhere an
+  /// effect's parameter stays at its null.
+  std::string only_recording = {};
 };
 
 /// How a contact channel's switching times are compared with the events of a simulation.
@@ -33,6 +36,7 @@ struct ContactTimes {
 /// One recorded trial, ready to be compared with a simulation. Row times count from the first row.
 struct TrialProblem {
   std::string file;
+  std::string recording;  // the file it was cut from; `file` itself for a whole trial
   TrialRole role = TrialRole::kTrain;
   Parameters<double> parameters;  // of this trial; shared values are put over them
   LiftoffRule liftoff = LiftoffRule::kZeroForce;

@@ -36,10 +36,16 @@ double ApplyLoss(const Loss& loss, double& r) {
 
 }  // namespace
 
-void ApplyShared(const FitProblem& problem, const Eigen::Ref<const Eigen::VectorXd>& shared,
-                 Parameters<double>& parameters, std::vector<EffectSetting>& effects) {
+bool ActsIn(const SharedParameter& parameter, const TrialProblem& trial) {
+  return parameter.only_recording.empty() || parameter.only_recording == trial.recording;
+}
+
+void ApplyShared(const FitProblem& problem, const TrialProblem& trial,
+                 const Eigen::Ref<const Eigen::VectorXd>& shared, Parameters<double>& parameters,
+                 std::vector<EffectSetting>& effects) {
   effects = problem.effects;
   for (int i = 0; i < problem.shared_count(); ++i) {
+    if (!ActsIn(problem.shared[i], trial)) continue;
     const SensitivityDirection& d = problem.shared[i].direction;
     if (d.of == SensitivityDirection::Of::kParameter)
       Field(parameters, d.parameter) = shared[i];
@@ -72,7 +78,7 @@ void TrialEvaluator::Simulate(const EvaluationRequest& request, const Integrator
   sim.liftoff = trial_->liftoff;
   sim.parameters = trial_->parameters;
   std::vector<EffectSetting> effects;
-  ApplyShared(*problem_, request.shared, sim.parameters, effects);
+  ApplyShared(*problem_, *trial_, request.shared, sim.parameters, effects);
   sim.effects = effects;
   sim.initial = request.start;
   sim.horizon = horizon_;
@@ -137,6 +143,11 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
       out.jacobian(next, shared + i) = 1.0 / trial_->prior_sigma[i];
     }
     ++next;
+  }
+  if (request.want_jacobian) {
+    for (int k = 0; k < shared; ++k) {
+      if (!ActsIn(problem_->shared[k], *trial_)) out.jacobian.col(k).setZero();
+    }
   }
   out.complete = next == residual_count_;
 }

@@ -63,9 +63,13 @@ class TrialEvaluator {
   int residual_count_ = 0;
 };
 
-/// The trial's parameters and effects with the shared values put over them.
-void ApplyShared(const FitProblem& problem, const Eigen::Ref<const Eigen::VectorXd>& shared,
-                 Parameters<double>& parameters, std::vector<EffectSetting>& effects);
+/// Whether a shared value acts in a trial.
+bool ActsIn(const SharedParameter& parameter, const TrialProblem& trial);
+
+/// A trial's effects and, over its own `parameters`, the shared values that act in it.
+void ApplyShared(const FitProblem& problem, const TrialProblem& trial,
+                 const Eigen::Ref<const Eigen::VectorXd>& shared, Parameters<double>& parameters,
+                 std::vector<EffectSetting>& effects);
 
 /// The trial cut to its rows [first, last), its time starting anew at `first`.
 TrialProblem CutTrial(const FitProblem& problem, const TrialProblem& trial, int first, int last);

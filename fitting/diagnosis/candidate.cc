@@ -1,0 +1,82 @@
+#include "fitting/diagnosis/candidate.h"
+
+#include <algorithm>
+
+#include "base/input_error.h"
+#include "fitting/model_of_spec.h"
+
+namespace hoplab {
+namespace {
+
+const Effect& Applicable(const FitProblem& problem, const std::string& name,
+                         const std::string& place) {
+  const Effect& effect = ResolveEffect(name, place);
+  if (AppliesTo(effect, problem.law)) return effect;
+  throw InputError({place, "effect " + name,
+                    "does not apply to the law " + std::string(NameOf(problem.law)),
+                    "`hoplab effects` says which do."});
+}
+
+bool Simulates(const FitProblem& problem, const Effect& effect) {
+  return std::any_of(problem.effects.begin(), problem.effects.end(),
+                     [&](const EffectSetting& e) { return e.effect == &effect; });
+}
+
+}  // namespace
+
+std::string Candidate::Name() const {
+  const std::string name(effect->info.name);
+  return only_recording.empty() ? name : name + " in " + only_recording;
+}
+
+std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOptions& options) {
+  std::vector<const Effect*> without, only;
+  for (const std::string& name : options.without)
+    without.push_back(&Applicable(problem, name, "--without"));
+  for (const std::string& name : options.only)
+    only.push_back(&Applicable(problem, name, "--effects"));
+  const auto holds = [](const std::vector<const Effect*>& list, const Effect* effect) {
+    return std::find(list.begin(), list.end(), effect) != list.end();
+  };
+  std::vector<Candidate> candidates;
+  for (const Effect* effect : AllEffects()) {
+    if (!AppliesTo(*effect, problem.law) || Simulates(problem, *effect)) continue;
+    if (holds(without, effect) || (!only.empty() && !holds(only, effect))) continue;
+    candidates.push_back({effect});
+  }
+  return candidates;
+}
+
+FitProblem Extend(const FitProblem& problem, std::span<const Candidate> candidates) {
+  FitProblem extended = problem;
+  for (const Candidate& c : candidates) {
+    const int index = static_cast<int>(extended.effects.size());
+    extended.effects.push_back(EffectSetting::Null(*c.effect));
+    const std::string suffix = c.only_recording.empty() ? "" : "@" + c.only_recording;
+    for (int i = 0; i < c.parameter_count(); ++i) {
+      const EffectParameter& p = c.effect->info.parameters[i];
+      extended.shared.push_back(
+          {std::string(c.effect->info.name) + "." + std::string(p.name) + suffix,
+           std::string(p.unit), SensitivityDirection::EffectParameter(index, i), p.lower, p.upper,
+           p.null, p.typical, c.only_recording});
+    }
+  }
+  return extended;
+}
+
+Eigen::VectorXd NullValues(std::span<const Candidate> candidates) {
+  Eigen::VectorXd values(ParameterCount(candidates));
+  int next = 0;
+  for (const Candidate& c : candidates) {
+    for (const EffectParameter& p : c.effect->info.parameters) values[next++] = p.null;
+  }
+  return values;
+}
+
+int ParameterCount(std::span<const Candidate> candidates) {
+  int count = 0;
+  for (const Candidate& c : candidates) count += c.parameter_count();
+  return count;
+}
+
+}  // namespace hoplab

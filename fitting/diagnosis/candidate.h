@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fitting/problem.h"
+
+namespace hoplab {
+
+/// One explanation of a misfit: an effect of the catalogue that the simulation lacks, in every
+/// trial or in one only.
+struct Candidate {
+  const Effect* effect = nullptr;
+  std::string only_recording = {};  // file of the one trial it acts in; empty: all
+
+  bool operator==(const Candidate&) const = default;
+  int parameter_count() const { return static_cast<int>(effect->info.parameters.size()); }
+  /// "air_drag", or "air_drag in train-2.csv".
+  std::string Name() const;
+};
+
+/// Which effects are tried.
+struct CandidateOptions {
+  std::vector<std::string> only;     // empty: every effect that applies to the law
+  std::vector<std::string> without;  // left out
+};
+
+/// The effects to try on `problem`, in the order of the catalogue; those it simulates already are
+/// not among them. Throws InputError (place: the option) for names that are not effects or do not
+/// apply to the law.
+std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOptions& options);
+
+/// `problem` with the candidates' parameters as further shared values, at their null.
+FitProblem Extend(const FitProblem& problem, std::span<const Candidate> candidates);
+
+/// Null values of the candidates' parameters, one after the other.
+Eigen::VectorXd NullValues(std::span<const Candidate> candidates);
+
+int ParameterCount(std::span<const Candidate> candidates);
+
+}  // namespace hoplab

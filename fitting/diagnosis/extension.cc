@@ -1,0 +1,97 @@
+#include "fitting/diagnosis/extension.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hoplab {
+namespace {
+
+// Where in the shared values member i begins.
+int PlaceOf(const Extension& e, int i) {
+  return e.problem.shared_count() - e.parameter_count() +
+         ParameterCount(std::span(e.members).first(static_cast<std::size_t>(i)));
+}
+
+// A start inside the bounds, off null so that a derivative that ends there has a side.
+double Inside(const SharedParameter& s, double value) {
+  const double room = std::min(1e-3 * s.scale, 0.25 * (s.upper - s.lower));
+  return std::clamp(value, s.lower + room, s.upper - room);
+}
+
+void Run(Extension& e, const Eigen::VectorXd& null_values, const RefitSettings& settings) {
+  SolveRequest request;
+  request.problem = &e.problem;
+  request.trials = settings.train;
+  request.starts = e.starts;
+  request.max_iterations = settings.max_iterations;
+  request.jobs = settings.jobs;
+  request.stop = settings.stop;
+  const Eigen::Index added = null_values.size(), kept = e.shared.size() - added;
+  const Eigen::VectorXd sizes = e.shared.tail(added);
+  SolveResult result;
+  // A large effect may end a simulation early where the fitted values are not yet its own.
+  for (double share : {1.0, 0.3, 0.1, 0.01}) {
+    request.shared = e.shared;
+    for (Eigen::Index k = 0; k < added; ++k) {
+      const SharedParameter& s = e.problem.shared[static_cast<std::size_t>(kept + k)];
+      const double size = std::isfinite(sizes[k]) ? sizes[k] : 0.0;
+      request.shared[kept + k] = Inside(s, null_values[k] + share * size);
+    }
+    result = Solve(request);
+    if (result.status != SolveStatus::kNoStart) break;
+  }
+  e.shared = result.shared;
+  e.starts = result.starts;
+  e.cost = result.cost;
+  e.status = result.status;
+  e.evaluations += result.iterations;
+}
+
+}  // namespace
+
+Eigen::VectorXd Extension::ValuesOf(int i) const {
+  return shared.segment(PlaceOf(*this, i), members[static_cast<std::size_t>(i)].parameter_count());
+}
+
+bool Extension::AtPhysicalBound(int i) const {
+  const int first = PlaceOf(*this, i);
+  const Candidate& member = members[static_cast<std::size_t>(i)];
+  for (int k = 0; k < member.parameter_count(); ++k) {
+    const SharedParameter& s = problem.shared[static_cast<std::size_t>(first + k)];
+    const double null = member.effect->info.parameters[k].null, near = 1e-6 * s.scale;
+    const double value = shared[first + k];
+    if (value <= s.lower + near && null > s.lower + near) return true;
+    if (value >= s.upper - near && null < s.upper - near) return true;
+  }
+  return false;
+}
+
+Extension Refit(const Extension& base, std::span<const Candidate> added,
+                const Eigen::VectorXd& sizes, const RefitSettings& settings) {
+  Extension e;
+  e.members = base.members;
+  e.members.insert(e.members.end(), added.begin(), added.end());
+  e.problem = Extend(base.problem, added);
+  e.shared.resize(base.shared.size() + sizes.size());
+  e.shared << base.shared, sizes;
+  e.starts = base.starts;
+  Run(e, NullValues(added), settings);
+  return e;
+}
+
+Extension RefitWithout(const Extension& base, int i, const FitProblem& null_problem,
+                       const RefitSettings& settings) {
+  Extension e;
+  const int place = PlaceOf(base, i);
+  const int count = base.members[static_cast<std::size_t>(i)].parameter_count();
+  e.members = base.members;
+  e.members.erase(e.members.begin() + i);
+  e.problem = Extend(null_problem, e.members);
+  e.shared.resize(base.shared.size() - count);
+  e.shared << base.shared.head(place), base.shared.tail(base.shared.size() - place - count);
+  e.starts = base.starts;
+  Run(e, Eigen::VectorXd(0), settings);
+  return e;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <span>
+#include <vector>
+
+#include "fitting/diagnosis/candidate.h"
+#include "fitting/solve.h"
+
+namespace hoplab {
+
+/// A model with candidate effects in it, fitted to the train trials. With no members it is the
+/// null fit.
+struct Extension {
+  std::vector<Candidate> members;
+  FitProblem problem;       // the null problem extended by the members
+  Eigen::VectorXd shared;   // fitted: those of the null problem, then the members'
+  std::vector<std::array<double, 4>> starts;  // of the train trials
+  double cost = 0.0;        // half the sum of squares; its difference is a log-likelihood ratio
+  SolveStatus status = SolveStatus::kFailed;
+  int evaluations = 0;      // solver iterations spent
+
+  bool ok() const {
+    return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit;
+  }
+  /// Fitted values of member `i`.
+  Eigen::VectorXd ValuesOf(int i) const;
+  /// A member's value lies on a bound other than its null: physics would have to give more.
+  bool AtPhysicalBound(int i) const;
+  int parameter_count() const { return ParameterCount(members); }
+  /// Log-likelihood gained over `null` [nats].
+  double GainOver(const Extension& null) const { return null.cost - cost; }
+};
+
+/// What every refit of a diagnosis shares.
+struct RefitSettings {
+  const std::vector<TrialProblem>* train = nullptr;
+  int max_iterations = 40;
+  int jobs = 1;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Fits `base` with `added` candidates, from the base's values and the added ones' `sizes` (own
+/// units; NaN: their null). A start that cannot be simulated is moved towards null.
+Extension Refit(const Extension& base, std::span<const Candidate> added,
+                const Eigen::VectorXd& sizes, const RefitSettings& settings);
+
+/// The same model without member `i`.
+Extension RefitWithout(const Extension& base, int i, const FitProblem& null_problem,
+                       const RefitSettings& settings);
+
+}  // namespace hoplab

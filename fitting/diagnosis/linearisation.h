@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "fitting/problem.h"
+#include "fitting/trial_evaluator.h"
+
+namespace hoplab {
+
+/// Where one whitened residual comes from.
+struct RowLabel {
+  enum class Of { kSample, kContactTime, kPrior };
+  Of of = Of::kSample;
+  int trial = 0;       // place among the linearised trials
+  int channel = -1;    // place in FitProblem::channels; -1 for contact times and priors
+  double time = 0.0;   // s since the trial's first row
+  Mode mode = Mode::kFlight;
+  double phase = 0.0;  // share of its flight or stance gone by, 0..1
+  int hop = 0;         // hop number in the trial, from 0
+};
+
+/// The train trials linearised at a fit: whitened residuals r, and columns of tested values, with
+/// what the fitted values and the starts can explain projected out (M of the method).
+struct Linearisation {
+  Eigen::VectorXd r;        // M r
+  Eigen::VectorXd raw;      // r itself
+  Eigen::MatrixXd columns;  // M s_j, per own unit of value j, one a tested value
+  Eigen::VectorXd length;   // |s_j| before the projection
+  std::vector<RowLabel> labels;
+  Eigen::VectorXd leverage;  // share of each row the fitted values can explain, 0..1
+  int fitted_rank = 0;       // dimensions projected out
+  int samples = 0;           // rows that come from data
+
+  int rows() const { return static_cast<int>(r.size()); }
+  double chi2() const { return r.squaredNorm(); }
+  int degrees_of_freedom() const { return rows() - fitted_rank; }
+};
+
+/// Linearises `trials` of `problem` at `shared` and `starts`. Shared values from place
+/// `first_tested` on are tested, those before it are fitted; a fitted value on a bound is taken as
+/// given. Trials whose simulation ends before their data are left out.
+Linearisation Linearise(const FitProblem& problem, int first_tested,
+                        const std::vector<TrialProblem>& trials, const Eigen::VectorXd& shared,
+                        const std::vector<std::array<double, 4>>& starts, int jobs);
+
+/// Part of a column's length (squared) that the projection must leave for it to be told from the
+/// fitted values: sensitivities are good to about 1e-7 of their column.
+inline constexpr double kInseparable = 1e-10;
+
+}  // namespace hoplab

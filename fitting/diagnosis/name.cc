@@ -1,0 +1,454 @@
+#include "fitting/diagnosis/name.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "base/parallel.h"
+
+namespace hoplab {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kAlpha = 0.05;
+// Models tried at each step of the search beyond the single ones.
+constexpr int kForwardWidth = 6;
+constexpr int kPairWidth = 8;
+constexpr int kLocalWidth = 4;
+
+/// Places of members in the pool, ascending.
+using Model = std::vector<int>;
+
+class Search {
+ public:
+  Search(const Extension& null, std::span<const Candidate> candidates, const Linearisation& null_at,
+         const std::vector<TrialProblem>& train, const NamingOptions& options)
+      : null_(null), null_at_(null_at), train_(train), options_(options) {
+    refit_.train = &train_;
+    refit_.stop = options.stop;
+    FillPool(candidates);
+  }
+
+  Naming Run() {
+    RefitAll(Singles());
+    for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
+      CandidateResult& c = naming_.candidates[i];
+      if (!c.separable) continue;
+      c.alone = models_.at({static_cast<int>(i)});
+      c.gain = c.alone.ok() ? c.alone.GainOver(null_) : 0.0;
+    }
+    Model current = Better({}, Singles());
+    current = Better(current, PairsFromNull());
+    while (!current.empty() && static_cast<int>(current.size()) < options_.max_effects &&
+           !Stopped()) {
+      Model grown = Better(current, Forward(current));
+      if (grown == current) break;
+      current = Tidy(grown);
+    }
+    if (!current.empty()) current = Tidy(current);
+    naming_.best = At(current);
+    FindGroups(current);
+    Judge(current);
+    naming_.interrupted = Stopped();
+    return std::move(naming_);
+  }
+
+ private:
+  bool Stopped() const { return options_.stop && *options_.stop; }
+
+  // ---- the pool: given candidates, then the best of them in single trials
+  void FillPool(std::span<const Candidate> candidates) {
+    const std::vector<Hypothesis> hypotheses = HypothesesOf(candidates);
+    int tested = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      CandidateResult c;
+      c.candidate = candidates[i];
+      c.score = ScoreOf(null_at_, hypotheses[i]);
+      c.separable = c.score.rank > 0;
+      c.power = std::numeric_limits<double>::infinity();
+      for (int k = 0; k < hypotheses[i].count; ++k) {
+        const double typical = candidates[i].effect->info.parameters[k].typical;
+        c.power = std::min(c.power,
+                           typical * typical * Information(null_at_, hypotheses[i].first + k));
+      }
+      tested += c.separable;
+      naming_.candidates.push_back(std::move(c));
+    }
+    std::set<std::string> recordings;
+    for (const TrialProblem& t : train_) recordings.insert(t.recording);
+    naming_.penalty = std::log(std::max(tested, 1) / kAlpha);
+    naming_.local_penalty =
+        naming_.penalty + std::log(static_cast<double>(std::max<std::size_t>(recordings.size(), 1)));
+    if (recordings.size() > 1) AddLocal(candidates, hypotheses, recordings);
+  }
+
+  // A candidate's column cut to one trial, what the fitted values take of it projected out again.
+  void AddLocal(std::span<const Candidate> candidates, const std::vector<Hypothesis>& hypotheses,
+                const std::set<std::string>& recordings) {
+    struct Local {
+      std::size_t candidate;
+      std::string recording;
+      double gain;
+    };
+    std::vector<Local> locals;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (candidates[i].parameter_count() != 1 || !naming_.candidates[i].separable) continue;
+      for (const std::string& recording : recordings) {
+        // M applied to the cut column: the projection of a projected column's part, to first order
+        // its part itself (the fitted values are shared by all trials).
+        Eigen::VectorXd s = null_at_.columns.col(hypotheses[i].first);
+        for (int row = 0; row < null_at_.rows(); ++row) {
+          if (train_[null_at_.labels[row].trial].recording != recording) s[row] = 0.0;
+        }
+        const double V = s.squaredNorm();
+        if (!(V > 0.0)) continue;
+        const double z = -s.dot(null_at_.r) / std::sqrt(V);
+        if (hypotheses[i].lower[0] >= 0.0 && z < 0.0) continue;
+        locals.push_back({i, recording, 0.5 * z * z});
+      }
+    }
+    std::stable_sort(locals.begin(), locals.end(),
+                     [](const Local& a, const Local& b) { return a.gain > b.gain; });
+    for (const Local& l : locals) {
+      if (naming_.candidates.size() >= candidates.size() + kLocalWidth) break;
+      // In one trial only is worth a thought if it says nearly as much as in all.
+      if (l.gain < naming_.local_penalty ||
+          l.gain < 0.8 * naming_.candidates[l.candidate].score.predicted_gain)
+        continue;
+      CandidateResult c = naming_.candidates[l.candidate];
+      c.candidate.only_recording = l.recording;
+      c.score.predicted_gain = l.gain;
+      c.score.score = 2.0 * l.gain;
+      naming_.candidates.push_back(std::move(c));
+    }
+  }
+
+  bool IsLocal(int i) const { return !naming_.candidates[i].candidate.only_recording.empty(); }
+  bool SameEffect(int i, int j) const {
+    return naming_.candidates[i].candidate.effect == naming_.candidates[j].candidate.effect;
+  }
+  double PenaltyOf(const Model& model) const {
+    double sum = 0.0;
+    for (int i : model)
+      sum += naming_.candidates[i].candidate.parameter_count() *
+             (IsLocal(i) ? naming_.local_penalty : naming_.penalty);
+    return sum;
+  }
+
+  // ---- models
+  const Extension& At(const Model& model) const {
+    return model.empty() ? null_ : models_.at(model);
+  }
+  bool Usable(const Model& model) const {
+    return model.empty() || (models_.count(model) && models_.at(model).ok());
+  }
+  double Worth(const Model& model) const { return At(model).GainOver(null_) - PenaltyOf(model); }
+
+  // The best of `current` and the given models by penalised likelihood, after refitting those.
+  Model Better(Model current, const std::vector<Model>& models) {
+    RefitAll(models);
+    for (const Model& m : models) {
+      if (Usable(m) && Worth(m) > Worth(current) + 1e-6) current = m;
+    }
+    return current;
+  }
+
+  // Refits the models not refitted yet, in parallel, each from its best known part.
+  void RefitAll(const std::vector<Model>& models) {
+    std::vector<Model> missing;
+    for (const Model& m : models) {
+      if (!m.empty() && !models_.count(m) &&
+          std::find(missing.begin(), missing.end(), m) == missing.end())
+        missing.push_back(m);
+    }
+    std::vector<Extension> results(missing.size());
+    ParallelFor(static_cast<int>(missing.size()), options_.jobs, [&](int i) {
+      if (Stopped()) return;
+      results[i] = RefitModel(missing[i]);
+      if (options_.progress) {
+        const std::lock_guard lock(mutex_);
+        options_.progress(++naming_.refits, NamesOf(missing[i]));
+      }
+    });
+    for (std::size_t i = 0; i < missing.size(); ++i)
+      models_.emplace(missing[i], std::move(results[i]));
+    if (!options_.progress) naming_.refits += static_cast<int>(missing.size());
+  }
+
+  std::string NamesOf(const Model& model) const {
+    std::string names;
+    for (int i : model) names += (names.empty() ? "" : " + ") + naming_.candidates[i].candidate.Name();
+    return names;
+  }
+
+  Extension RefitModel(const Model& model) const {
+    // From the best refitted model with one member less; its missing member at its expected size.
+    Model part;
+    for (std::size_t i = 0; i < model.size(); ++i) {
+      Model less = model;
+      less.erase(less.begin() + static_cast<std::ptrdiff_t>(i));
+      if (!Usable(less) || less.empty()) continue;
+      if (part.empty() || At(less).cost < At(part).cost) part = less;
+    }
+    std::vector<int> added;
+    std::set_difference(model.begin(), model.end(), part.begin(), part.end(),
+                        std::back_inserter(added));
+    std::vector<Candidate> candidates;
+    for (int i : added) candidates.push_back(naming_.candidates[i].candidate);
+    Eigen::VectorXd sizes(ParameterCount(candidates));
+    if (part.empty() && added.size() == 1 && !IsLocal(added[0])) {
+      sizes = naming_.candidates[added[0]].score.size;
+    } else {
+      const Linearisation at = LineariseAt(At(part), candidates);
+      Hypothesis all{0, static_cast<int>(sizes.size()), Eigen::VectorXd(sizes.size()),
+                     Eigen::VectorXd(sizes.size())};
+      sizes = ScoreOf(at, all).size;
+    }
+    Extension e = Refit(At(part), candidates, sizes, refit_);
+    return Ordered(std::move(e), part, added, model);
+  }
+
+  // Members in the order of the pool, whatever order they were added in.
+  Extension Ordered(Extension e, const Model& part, const std::vector<int>& added,
+                    const Model& model) const {
+    std::vector<int> order = part;
+    order.insert(order.end(), added.begin(), added.end());
+    if (order == model) return e;
+    Extension sorted = e;
+    sorted.members.clear();
+    for (int i : model) sorted.members.push_back(naming_.candidates[i].candidate);
+    sorted.problem = Extend(null_.problem, sorted.members);
+    Eigen::Index next = null_.shared.size();
+    for (int i : model) {
+      const auto at = std::find(order.begin(), order.end(), i) - order.begin();
+      const Eigen::VectorXd values = e.ValuesOf(static_cast<int>(at));
+      sorted.shared.segment(next, values.size()) = values;
+      next += values.size();
+    }
+    return sorted;
+  }
+
+  Linearisation LineariseAt(const Extension& e, std::span<const Candidate> tested) const {
+    const FitProblem problem = Extend(e.problem, tested);
+    Eigen::VectorXd shared(problem.shared_count());
+    shared << e.shared, NullValues(tested);
+    return Linearise(problem, e.problem.shared_count(), train_, shared, e.starts, 1);
+  }
+
+  // ---- steps
+  std::vector<Model> Singles() const {
+    std::vector<Model> models;
+    for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
+      if (naming_.candidates[i].separable) models.push_back({static_cast<int>(i)});
+    }
+    return models;
+  }
+
+  // Pool members not in `model`, the best expected gain beside it first.
+  std::vector<std::pair<double, int>> Ranked(const Model& model) const {
+    std::vector<int> rest;
+    std::vector<Candidate> tested;
+    for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
+      if (!naming_.candidates[i].separable) continue;
+      if (std::any_of(model.begin(), model.end(), [&](int m) { return SameEffect(m, i); })) continue;
+      rest.push_back(i);
+      tested.push_back(naming_.candidates[i].candidate);
+    }
+    const Linearisation at = LineariseAt(At(model), tested);
+    const std::vector<Hypothesis> hypotheses = HypothesesOf(tested);
+    std::vector<std::pair<double, int>> ranked;
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      ranked.emplace_back(ScoreOf(at, hypotheses[i]).predicted_gain, rest[i]);
+    std::stable_sort(ranked.begin(), ranked.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    return ranked;
+  }
+
+  static Model With(Model model, int i) {
+    model.insert(std::upper_bound(model.begin(), model.end(), i), i);
+    return model;
+  }
+
+  std::vector<Model> Forward(const Model& model) const {
+    std::vector<Model> models;
+    for (const auto& [gain, i] : Ranked(model)) {
+      if (static_cast<int>(models.size()) >= kForwardWidth || gain < 0.5 * naming_.penalty) break;
+      models.push_back(With(model, i));
+    }
+    return models;
+  }
+
+  // The pairs that promise most by the linear model at the null fit.
+  std::vector<Model> PairsFromNull() const {
+    if (options_.max_effects < 2) return {};
+    const Eigen::MatrixXd gram = null_at_.columns.transpose() * null_at_.columns;
+    const Eigen::VectorXd b = -(null_at_.columns.transpose() * null_at_.r);
+    struct Pair {
+      double gain;
+      Model model;
+    };
+    std::vector<Pair> pairs;
+    std::vector<int> first;
+    int columns = 0;
+    for (const CandidateResult& c : naming_.candidates) {
+      first.push_back(columns);
+      if (c.candidate.only_recording.empty()) columns += c.candidate.parameter_count();
+    }
+    const int globals = static_cast<int>(naming_.candidates.size());
+    for (int i = 0; i < globals; ++i) {
+      for (int j = i + 1; j < globals; ++j) {
+        const CandidateResult &ci = naming_.candidates[i], &cj = naming_.candidates[j];
+        if (!ci.separable || !cj.separable || IsLocal(i) || IsLocal(j)) continue;
+        if (ci.candidate.parameter_count() + cj.candidate.parameter_count() > 2) continue;
+        const double a = gram(first[i], first[i]), d = gram(first[j], first[j]);
+        const double off = gram(first[i], first[j]), det = a * d - off * off;
+        if (!(det > 1e-6 * a * d)) continue;
+        const double x = (d * b[first[i]] - off * b[first[j]]) / det;
+        const double y = (a * b[first[j]] - off * b[first[i]]) / det;
+        if (!Allowed(ci, x) || !Allowed(cj, y)) continue;
+        pairs.push_back({0.5 * (x * b[first[i]] + y * b[first[j]]), {i, j}});
+      }
+    }
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Pair& p, const Pair& q) { return p.gain > q.gain; });
+    std::vector<Model> models;
+    for (const Pair& p : pairs) {
+      if (static_cast<int>(models.size()) >= kPairWidth || p.gain < 1.5 * naming_.penalty) break;
+      models.push_back(p.model);
+    }
+    return models;
+  }
+  static bool Allowed(const CandidateResult& c, double size) {
+    const EffectParameter& p = c.candidate.effect->info.parameters[0];
+    return size > 0.0 ? p.upper > p.null : p.lower < p.null;
+  }
+
+  // Backward elimination and swaps, until neither helps.
+  Model Tidy(Model model) {
+    for (int round = 0; round < 3 && !Stopped(); ++round) {
+      Model best = Better(model, Eliminations(model));
+      best = Better(best, Swaps(best, kForwardWidth));
+      if (best == model) break;
+      model = best;
+    }
+    return model;
+  }
+  static std::vector<Model> Eliminations(const Model& model) {
+    std::vector<Model> models;
+    for (std::size_t i = 0; i < model.size() && model.size() > 1; ++i) {
+      Model less = model;
+      less.erase(less.begin() + static_cast<std::ptrdiff_t>(i));
+      models.push_back(less);
+    }
+    return models;
+  }
+  // Models in which one member gives its place to another candidate.
+  std::vector<Model> Swaps(const Model& model, int width) {
+    if (model.size() < 2) return {};
+    std::vector<Model> swaps;
+    RefitAll(Eliminations(model));
+    for (const Model& less : Eliminations(model)) {
+      if (!Usable(less)) continue;
+      int taken = 0;
+      for (const auto& [gain, i] : Ranked(less)) {
+        if (taken >= width || gain < 0.5 * naming_.penalty) break;
+        if (std::find(model.begin(), model.end(), i) != model.end()) continue;
+        swaps.push_back(With(less, i));
+        ++taken;
+      }
+    }
+    return swaps;
+  }
+
+  // ---- what can take a member's place
+  void FindGroups(const Model& model) {
+    const auto close = [&](const Model& other) {
+      double extra = 0.0;  // a trial picked out of many must pay for the picking
+      for (int i : other) extra += IsLocal(i) ? naming_.local_penalty - naming_.penalty : 0.0;
+      for (int i : model) extra -= IsLocal(i) ? naming_.local_penalty - naming_.penalty : 0.0;
+      return Usable(other) && At(other).cost + std::max(extra, 0.0) <=
+                                  At(model).cost + kIndistinguishable;
+    };
+    if (model.size() > 1) RefitAll(Swaps(model, 3 * kForwardWidth));
+    for (int member : model) {
+      std::vector<int> group = {member};
+      Model less = model;
+      less.erase(std::find(less.begin(), less.end(), member));
+      std::vector<std::pair<double, int>> others;
+      for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
+        if (std::find(model.begin(), model.end(), i) != model.end()) continue;
+        const Model swapped = With(less, i);
+        if (models_.count(swapped) && close(swapped)) others.emplace_back(At(swapped).cost, i);
+      }
+      std::stable_sort(others.begin(), others.end());
+      for (const auto& [cost, i] : others) group.push_back(i);
+      naming_.groups.push_back(std::move(group));
+    }
+  }
+
+  void Judge(const Model& model) {
+    std::set<int> doubtful, members(model.begin(), model.end());
+    for (const std::vector<int>& group : naming_.groups) {
+      if (group.size() > 1) doubtful.insert(group.begin(), group.end());
+    }
+    for (std::size_t n = 0; n < naming_.candidates.size(); ++n) {
+      const int i = static_cast<int>(n);
+      CandidateResult& c = naming_.candidates[n];
+      c.bound95 = Eigen::VectorXd::Constant(c.candidate.parameter_count(), kNaN);
+      if (doubtful.count(i)) {
+        c.status = CandidateStatus::kIndistinguishable;
+      } else if (members.count(i)) {
+        c.status = CandidateStatus::kSupported;
+      } else if (c.separable && c.power >= kTestable) {
+        c.status = CandidateStatus::kExcluded;
+      }
+      if (!members.count(i) && c.separable) Bound(model, c);
+    }
+  }
+  // What is left of a candidate once the accepted effects are in.
+  void Bound(const Model& model, CandidateResult& c) const {
+    const std::array one = {c.candidate};
+    const Linearisation at = LineariseAt(At(model), one);
+    const Score score = ScoreOf(at, HypothesesOf(one).front());
+    for (int k = 0; k < c.candidate.parameter_count(); ++k) {
+      const double V = Information(at, k);
+      if (V > 0.0) c.bound95[k] = std::abs(score.size[k]) + 1.96 / std::sqrt(V);
+    }
+  }
+
+  const Extension& null_;
+  const Linearisation& null_at_;
+  const std::vector<TrialProblem>& train_;
+  const NamingOptions& options_;
+  RefitSettings refit_;
+  Naming naming_;
+  std::map<Model, Extension> models_;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+std::string_view NameOf(CandidateStatus status) {
+  switch (status) {
+    case CandidateStatus::kSupported:
+      return "supported";
+    case CandidateStatus::kIndistinguishable:
+      return "indistinguishable";
+    case CandidateStatus::kExcluded:
+      return "excluded";
+    case CandidateStatus::kNotTested:
+      return "not_tested";
+  }
+  return "";
+}
+
+Naming NameCauses(const Extension& null, std::span<const Candidate> candidates,
+                  const Linearisation& null_at, const std::vector<TrialProblem>& train,
+                  const NamingOptions& options) {
+  return Search(null, candidates, null_at, train, options).Run();
+}
+
+}  // namespace hoplab
