@@ -53,8 +53,12 @@ std::string Disagreement(const FitProblem& problem, const FitResult& fit) {
 
 DatasetFit FitDataset(const Dataset& dataset, const ProblemOptions& problem_options,
                       const FitOptions& fit_options, FitSpan span) {
+  return FitTraces(MakeProblem(dataset, problem_options), fit_options, span);
+}
+
+DatasetFit FitTraces(FitProblem problem, const FitOptions& fit_options, FitSpan span) {
   DatasetFit fit;
-  fit.problem = MakeProblem(dataset, problem_options);
+  fit.problem = std::move(problem);
   if (span != FitSpan::kHops) {
     fit.result = Fit(fit.problem, fit_options);
     fit.note = Disagreement(fit.problem, fit.result);

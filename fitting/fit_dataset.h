@@ -29,4 +29,8 @@ struct DatasetFit {
 DatasetFit FitDataset(const Dataset& dataset, const ProblemOptions& problem_options,
                       const FitOptions& fit_options, FitSpan span = FitSpan::kWholeElseHops);
 
+/// The same of a problem that is set up already.
+DatasetFit FitTraces(FitProblem problem, const FitOptions& fit_options,
+                     FitSpan span = FitSpan::kWholeElseHops);
+
 }  // namespace hoplab

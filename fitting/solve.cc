@@ -206,7 +206,7 @@ SolveResult SolveOnce(const SolveRequest& request) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = request.max_iterations;
-  options.function_tolerance = 1e-14;
+  options.function_tolerance = request.function_tolerance;
   options.parameter_tolerance = 1e-11;
   options.gradient_tolerance = 1e-12;
   // Far from the optimum many steps end in a fall before the data do; each only shrinks the region.

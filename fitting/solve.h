@@ -24,6 +24,7 @@ struct SolveRequest {
   std::vector<int> held;                              // shared values held one by one
   Loss loss;
   int max_iterations = 100;
+  double function_tolerance = 1e-14;  // relative change of the cost that counts as converged
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;  // set: end as soon as possible
   std::function<void(int iteration, double cost)> progress = nullptr;

@@ -6,6 +6,9 @@
 namespace hoplab {
 namespace {
 
+// Likelihoods are compared to a hundredth of a nat.
+constexpr double kCostTolerance = 1e-8;
+
 // Where in the shared values member i begins.
 int PlaceOf(const Extension& e, int i) {
   return e.problem.shared_count() - e.parameter_count() +
@@ -24,6 +27,7 @@ void Run(Extension& e, const Eigen::VectorXd& null_values, const RefitSettings& 
   request.trials = settings.train;
   request.starts = e.starts;
   request.max_iterations = settings.max_iterations;
+  request.function_tolerance = kCostTolerance;
   request.jobs = settings.jobs;
   request.stop = settings.stop;
   const Eigen::Index added = null_values.size(), kept = e.shared.size() - added;

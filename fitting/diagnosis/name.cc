@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <set>
 
 #include "base/parallel.h"
@@ -203,8 +204,9 @@ class Search {
       sizes = naming_.candidates[added[0]].score.size;
     } else {
       const Linearisation at = LineariseAt(At(part), candidates);
-      Hypothesis all{0, static_cast<int>(sizes.size()), Eigen::VectorXd(sizes.size()),
-                     Eigen::VectorXd(sizes.size())};
+      const Eigen::Index n = sizes.size();
+      const Hypothesis all{0, static_cast<int>(n), Eigen::VectorXd::Constant(n, -1.0),
+                           Eigen::VectorXd::Constant(n, 1.0)};
       sizes = ScoreOf(at, all).size;
     }
     Extension e = Refit(At(part), candidates, sizes, refit_);
@@ -384,8 +386,13 @@ class Search {
         if (models_.count(swapped) && close(swapped)) others.emplace_back(At(swapped).cost, i);
       }
       std::stable_sort(others.begin(), others.end());
-      for (const auto& [cost, i] : others) group.push_back(i);
+      std::vector<Extension> rivals = {At(model)};
+      for (const auto& [cost, i] : others) {
+        group.push_back(i);
+        rivals.push_back(At(With(less, i)));
+      }
       naming_.groups.push_back(std::move(group));
+      naming_.rivals.push_back(std::move(rivals));
     }
   }
 

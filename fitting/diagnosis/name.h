@@ -54,6 +54,7 @@ struct Naming {
   Extension best;              // without members if none pays
   /// One a member of `best`: places in `candidates` of what does as well there, itself first.
   std::vector<std::vector<int>> groups;
+  std::vector<std::vector<Extension>> rivals;  // the models behind `groups`, in the same order
   int refits = 0;
   bool interrupted = false;
 };

@@ -122,7 +122,7 @@ Score ScoreOf(const Linearisation& at, const Hypothesis& h) {
   for (int i = 0; i < h.count; ++i) scale[i] = A.col(i).norm() > 0.0 ? A.col(i).norm() : 1.0;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A * scale.cwiseInverse().asDiagonal());
   qr.setThreshold(kRankTolerance);
-  out.size = -scale.cwiseInverse().asDiagonal() * qr.solve(at.r);
+  out.size = -qr.solve(at.r).cwiseQuotient(scale);
   return out;
 }
 

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fitting/diagnosis/free_forces.h"
+#include "fitting/diagnosis/gate.h"
+#include "fitting/diagnosis/localise.h"
+#include "fitting/diagnosis/measure.h"
+#include "fitting/diagnosis/name.h"
+#include "fitting/diagnosis/probes.h"
+#include "fitting/diagnosis/separate.h"
+#include "fitting/fit_dataset.h"
+#include "fitting/uncertainty.h"
+
+namespace hoplab {
+
+enum class Verdict {
+  kAdequate,    // nothing is missing that these data could show
+  kNamed,       // one cause (or one for each effect found) stands alone
+  kConfounded,  // several causes explain the data equally well
+  kUnexplained  // something is missing, and nothing in the catalogue explains it
+};
+std::string_view NameOf(Verdict verdict);
+
+/// Level of the global test: the share of clean datasets on which something is seen.
+inline constexpr double kDetectionLevel = 0.01;
+/// Share of the misfit's excess over noise an extension must explain to name a cause while some
+/// misfit remains.
+inline constexpr double kExplained = 0.9;
+
+struct DiagnosisOptions {
+  ProblemOptions problem;
+  FitOptions fit;  // jobs, stop and seed serve the whole diagnosis
+  FitSpan span = FitSpan::kWholeElseHops;
+  CandidateOptions candidates;
+  int max_effects = 3;
+  /// Called where a stage begins, and how far it is (may come from several threads, one at a time).
+  std::function<void(std::string_view stage)> stage = nullptr;
+  std::function<void(const std::string& text)> step = nullptr;
+};
+
+/// One test of the detection: a candidate's score or a probe group's chi-square.
+struct DetectionTest {
+  std::string name;
+  double statistic = 0.0;
+  int dof = 0;  // 0: it cannot be told from the fitted values
+  double p_value = 1.0;
+};
+
+/// Whether anything is there, candidates and probes tested together.
+struct Detection {
+  double p_value = 1.0;              // chance of as extreme a test under noise alone
+  std::vector<DetectionTest> tests;  // candidates, then probe groups
+  double chi2 = 0.0;                 // of all residuals
+  int degrees_of_freedom = 0;
+};
+
+/// How one of the old parameters moved when the accepted effects joined.
+struct Movement {
+  std::string name, unit;
+  double before = 0.0, after = 0.0;
+  std::optional<double> std_errors;  // (after - before) over the standard error before
+};
+
+/// What the accepted extension is worth.
+struct ExtensionReport {
+  Uncertainty uncertainty;  // of the extended model
+  HeldOutErrors after;
+  HeldOutGain gain;
+  std::vector<std::string> left_out;  // held-out trials that could not be compared
+  std::vector<Movement> movements;
+  Detection remainder;                // probes at the extension
+  double explained = 0.0;             // share of the excess chi-square, 0..1
+  bool at_bound = false;              // a member's size lies on a physical bound
+};
+
+/// A diagnosis from the gate to the proposed experiment. What was not reached is empty.
+struct Diagnosis {
+  FitProblem problem;  // the null problem; trials are hops if `by_hop`
+  bool by_hop = false;
+  std::vector<std::string> notes;  // what was decided on the way
+  FitResult fit;
+  Gate gate;
+  /// Why there is no diagnosis; empty if there is one.
+  std::string refusal;
+  bool interrupted = false;
+
+  Extension null;
+  Uncertainty uncertainty;  // of the null fit
+  Linearisation null_at;    // with the candidates' columns
+  Detection detection;
+  Localisation localisation;
+  Naming naming;
+  std::vector<std::optional<HeldOutGain>> candidate_gains;  // of each candidate added alone
+  HeldOutErrors before;
+  std::optional<ExtensionReport> extension;
+  std::optional<SeparatingExperiment> experiment;
+  std::optional<FreeForces> free_forces;  // where the catalogue does not explain the misfit
+  Verdict verdict = Verdict::kAdequate;
+  std::string reason;  // why the verdict is what it is
+
+  /// Place in naming.candidates of the member that gains most; absent without an extension.
+  std::optional<int> Cause() const;
+};
+
+/// Diagnoses a dataset. Throws InputError for options that do not suit it.
+Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options);
+
+}  // namespace hoplab

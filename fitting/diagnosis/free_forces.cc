@@ -1,0 +1,152 @@
+#include "fitting/diagnosis/free_forces.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/random.h"
+
+namespace hoplab {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr int kResamples = 200;
+constexpr double kRankTolerance = 1e-6;
+constexpr std::array kTermNames = {"1", "s", "s^2", "s^3"};
+
+// Least-squares sizes of a group's columns and their covariance; columns the data do not determine
+// are left out.
+struct Estimate {
+  std::vector<int> seen;  // places within the group
+  Eigen::VectorXd size;
+  Eigen::MatrixXd covariance;
+};
+
+Estimate EstimateGroup(const Linearisation& at, const ProbeGroup& group) {
+  Estimate out;
+  for (int k = 0; k < group.count; ++k) {
+    if (Information(at, group.first + k) > 0.0) out.seen.push_back(k);
+  }
+  const auto n = static_cast<Eigen::Index>(out.seen.size());
+  if (n == 0) return out;
+  Eigen::MatrixXd A(at.rows(), n);
+  Eigen::VectorXd scale(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    A.col(i) = at.columns.col(group.first + out.seen[static_cast<std::size_t>(i)]);
+    scale[i] = A.col(i).norm();
+    A.col(i) /= scale[i];
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  Eigen::VectorXd inverse = svd.singularValues();
+  for (double& s : inverse) s = s > kRankTolerance * svd.singularValues()[0] ? 1.0 / s : 0.0;
+  const Eigen::MatrixXd half = svd.matrixV() * inverse.asDiagonal();
+  out.size = -(half * (svd.matrixU().transpose() * at.r)).cwiseQuotient(scale);
+  out.covariance = half * half.transpose();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    out.covariance.row(i) /= scale[i];
+    out.covariance.col(i) /= scale[i];
+  }
+  return out;
+}
+
+// Weighted forward selection among the terms by BIC: which are kept, with their coefficients.
+std::array<double, kTermNames.size()> Select(const Eigen::MatrixXd& terms,
+                                             const Eigen::VectorXd& values,
+                                             const Eigen::MatrixXd& whitener) {
+  std::array<double, kTermNames.size()> kept{};
+  std::vector<int> chosen;
+  const Eigen::VectorXd y = whitener * values;
+  const double price = std::log(static_cast<double>(values.size()));
+  double best = y.squaredNorm();
+  while (chosen.size() < kTermNames.size() &&
+         static_cast<Eigen::Index>(chosen.size()) + 1 < values.size()) {
+    int pick = -1;
+    Eigen::VectorXd coefficients;
+    for (int t = 0; t < static_cast<int>(kTermNames.size()); ++t) {
+      if (std::find(chosen.begin(), chosen.end(), t) != chosen.end()) continue;
+      std::vector<int> columns = chosen;
+      columns.push_back(t);
+      Eigen::MatrixXd X(values.size(), static_cast<Eigen::Index>(columns.size()));
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        X.col(static_cast<Eigen::Index>(c)) = whitener * terms.col(columns[c]);
+      const Eigen::VectorXd b = X.colPivHouseholderQr().solve(y);
+      const double cost =
+          (y - X * b).squaredNorm() + price * static_cast<double>(columns.size());
+      if (cost < best) {
+        best = cost;
+        pick = t;
+        coefficients = b;
+      }
+    }
+    if (pick < 0) break;
+    chosen.push_back(pick);
+    for (std::size_t c = 0; c < chosen.size(); ++c)
+      kept[static_cast<std::size_t>(chosen[c])] = coefficients[static_cast<Eigen::Index>(c)];
+  }
+  return kept;
+}
+
+std::vector<RegressionTerm> Regress(const ProbeGroup& group, const Estimate& e,
+                                    std::uint64_t seed) {
+  const Eigen::Index n = e.size.size();
+  if (group.against.empty() || n < 3) return {};
+  Eigen::MatrixXd terms(n, static_cast<Eigen::Index>(kTermNames.size()));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double s = group.centres[static_cast<std::size_t>(e.seen[static_cast<std::size_t>(i)])];
+    terms.row(i) << 1.0, s, s * s, s * s * s;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(e.covariance);
+  const double floor = 1e-9 * eigen.eigenvalues().maxCoeff();
+  const Eigen::VectorXd root = eigen.eigenvalues().cwiseMax(floor).cwiseSqrt();
+  const Eigen::MatrixXd whitener =
+      root.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+  const auto kept = Select(terms, e.size, whitener);
+  std::array<int, kTermNames.size()> counts{};
+  RandomStream random(seed, 2);
+  Eigen::VectorXd noise(n);
+  for (int draw = 0; draw < kResamples; ++draw) {
+    for (double& z : noise) z = random.Normal();
+    const auto again =
+        Select(terms, e.size + eigen.eigenvectors() * root.cwiseProduct(noise), whitener);
+    for (std::size_t t = 0; t < counts.size(); ++t) counts[t] += again[t] != 0.0;
+  }
+  std::vector<RegressionTerm> out;
+  for (std::size_t t = 0; t < counts.size(); ++t)
+    out.push_back({kTermNames[t], kept[t], static_cast<double>(counts[t]) / kResamples});
+  return out;
+}
+
+}  // namespace
+
+FreeForces Reconstruct(const Linearisation& at, const ProbeBasis& basis, std::uint64_t seed) {
+  FreeForces out;
+  for (std::size_t g = 0; g < basis.groups.size(); ++g) {
+    const ProbeGroup& group = basis.groups[g];
+    ReconstructedForce force;
+    force.group = group;
+    const Score score = ScoreOf(at, basis.hypotheses[g]);
+    if (score.rank == 0) continue;
+    force.score = score.score;
+    force.p_value = score.p_value;
+    const Estimate e = EstimateGroup(at, group);
+    for (int k = 0; k < group.count; ++k)
+      force.points.push_back({group.centres[static_cast<std::size_t>(k)], kNaN, kNaN});
+    for (std::size_t i = 0; i < e.seen.size(); ++i) {
+      ForcePoint& point = force.points[static_cast<std::size_t>(e.seen[i])];
+      point.value = e.size[static_cast<Eigen::Index>(i)];
+      point.band95 = 1.96 * std::sqrt(e.covariance(static_cast<Eigen::Index>(i),
+                                                   static_cast<Eigen::Index>(i)));
+    }
+    force.terms = Regress(group, e, seed);
+    out.forces.push_back(std::move(force));
+  }
+  std::stable_sort(out.forces.begin(), out.forces.end(),
+                   [](const ReconstructedForce& a, const ReconstructedForce& b) {
+                     return a.p_value < b.p_value;
+                   });
+  return out;
+}
+
+}  // namespace hoplab

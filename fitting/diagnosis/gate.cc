@@ -1,0 +1,111 @@
+#include "fitting/diagnosis/gate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fitting/noise.h"
+#include "fitting/trial_evaluator.h"
+
+namespace hoplab {
+namespace {
+
+constexpr double kNoiseExcess = 1.25;
+
+// Estimated noise of a channel over all trials; NaN where there are too few samples. Only
+// coordinates and speeds are parabolas in flight.
+double EstimatedNoise(const FitProblem& problem, std::size_t channel) {
+  if (problem.channels[channel].channel > Channel::kBodyVy)
+    return std::numeric_limits<double>::quiet_NaN();
+  const std::size_t width = problem.channels.size();
+  std::vector<std::vector<double>> values;
+  values.reserve(problem.trials.size());
+  std::vector<SampledColumn> columns;
+  for (const TrialProblem& t : problem.trials) {
+    std::vector<double>& column = values.emplace_back();
+    for (std::size_t row = 0; row < t.row_times.size(); ++row)
+      column.push_back(t.data[row * width + channel]);
+    columns.push_back({t.row_times, column});
+  }
+  return EstimateNoise(columns);
+}
+
+std::string Text(const char* format, double a, double b = 0.0) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+}  // namespace
+
+bool Gate::passed() const {
+  return std::all_of(checks.begin(), checks.end(), [](const GateCheck& c) { return c.passed; });
+}
+
+std::string Gate::Refusal() const {
+  for (const GateCheck& c : checks) {
+    if (!c.passed) return c.name + ": " + c.text;
+  }
+  return "";
+}
+
+std::vector<std::string> CorrectNoise(FitProblem& problem) {
+  std::vector<std::string> notes;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    ChannelProblem& channel = problem.channels[c];
+    if (channel.sigma_estimated) continue;
+    const double estimate = EstimatedNoise(problem, c);
+    if (!(estimate > kNoiseExcess * channel.sigma)) continue;
+    notes.push_back(std::string(NameOf(channel.channel)) +
+                    Text(": the flights scatter by %.3g, more than the stated sigma %.3g; the "
+                         "larger one is used",
+                         estimate, channel.sigma));
+    channel.sigma = estimate;
+    channel.sigma_estimated = true;
+  }
+  return notes;
+}
+
+Gate CheckGate(const Extension& null, const std::vector<TrialProblem>& train, int jobs) {
+  Gate gate;
+  gate.checks.push_back({"fit", null.status == SolveStatus::kConverged,
+                         null.status == SolveStatus::kConverged
+                             ? "the model without further effects is at its optimum"
+                             : "the fit without further effects ended as " +
+                                   std::string(NameOf(null.status)) +
+                                   "; try --starts 8 or another law with `hoplab fit`"});
+  if (!null.ok()) return gate;
+
+  std::string incomplete;
+  for (std::size_t i = 0; i < train.size(); ++i) {
+    const TrialEvaluator evaluator(null.problem, train[i]);
+    TrialEvaluation e;
+    evaluator.Evaluate({null.shared, null.starts[i], false}, e);
+    if (!e.complete && incomplete.empty())
+      incomplete = train[i].file + ": " + std::string(SentenceOf(e.trajectory.outcome));
+  }
+  gate.checks.push_back({"events", incomplete.empty(),
+                         incomplete.empty()
+                             ? "the simulation goes through every contact of every train trial"
+                             : incomplete});
+
+  std::string sigmas;
+  bool known = true;
+  for (const ChannelProblem& c : null.problem.channels) {
+    known = known && std::isfinite(c.sigma) && c.sigma > 0.0;
+    sigmas += (sigmas.empty() ? "" : ", ") + std::string(NameOf(c.channel)) +
+              Text(" %.3g", c.sigma) + (c.sigma_estimated ? " (from the flights)" : " (stated)");
+  }
+  gate.checks.push_back({"noise", known, known ? sigmas : "is not known: " + sigmas});
+
+  gate.certificate = CertifyGradients(null.problem, train, null.shared, null.starts, jobs);
+  const double worst = gate.certificate.max_relative_error;
+  gate.checks.push_back(
+      {"gradients", worst < kGradientBound,
+       worst < kGradientBound
+           ? Text("agree with differences to %.1e through every event", worst)
+           : Text("differ from differences by %.1e", worst) + " (" +
+                 gate.certificate.worst_parameter + "): an event is met without crossing it"});
+  return gate;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fitting/diagnosis/extension.h"
+#include "fitting/gradient_certificate.h"
+
+namespace hoplab {
+
+/// One condition of a diagnosis.
+struct GateCheck {
+  std::string name;  // "fit", "noise", "events", "gradients"
+  bool passed = false;
+  std::string text;  // what was found, with figures
+};
+
+struct Gate {
+  std::vector<GateCheck> checks;
+  GradientCertificate certificate;
+  bool passed() const;
+  /// The first condition that failed, in words; empty if none did.
+  std::string Refusal() const;
+};
+
+/// Sensitivities must agree with differences this well to be trusted with a diagnosis.
+inline constexpr double kGradientBound = 1e-4;
+
+/// Whether the null fit may be diagnosed: it converged, every train trial is simulated through all
+/// its data, the noise is known and white enough, the gradients hold.
+Gate CheckGate(const Extension& null, const std::vector<TrialProblem>& train, int jobs);
+
+/// Replaces stated noise that the flights contradict (estimated more than a quarter above it) by
+/// the estimate; notes say so. A diagnosis with noise stated too small would see causes everywhere.
+std::vector<std::string> CorrectNoise(FitProblem& problem);
+
+}  // namespace hoplab
