@@ -66,7 +66,7 @@ SimulationRequest RequestOfScenario(const Scenario& scenario,
 GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions& options) {
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
-  const std::vector<EffectSetting> effects = ResolveEffects(scenario.effects, mechanism);
+  const std::vector<EffectSetting> effects = ResolveEffects(scenario.effects, law);
   const std::vector<ChannelSpec> channels = ChannelsOf(scenario, options);
   const double horizon = HorizonOf(scenario);
   const double rate =

@@ -1,5 +1,7 @@
 #include "fitting/model_of_spec.h"
 
+#include <algorithm>
+
 #include "base/input_error.h"
 #include "base/text.h"
 
@@ -94,18 +96,24 @@ const Effect& ResolveEffect(const std::string& name, const std::string& place) {
                     DidYouMean(name, known) + " `hoplab effects` lists them."});
 }
 
-std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs,
-                                          MechanismKind mechanism) {
+void CheckApplies(const Effect& effect, Law law, const std::string& place) {
+  if (AppliesTo(effect, law)) return;
+  const MechanismKind mechanism = MechanismOf(law);
+  const std::span<const Law> laws = LawsOf(mechanism);
+  const bool to_another =
+      std::any_of(laws.begin(), laws.end(), [&](Law l) { return AppliesTo(effect, l); });
+  throw InputError({place, "effect " + std::string(effect.info.name),
+                    to_another
+                        ? "does not apply to the law " + std::string(NameOf(law))
+                        : "does not apply to the mechanism " + std::string(NameOf(mechanism)),
+                    "`hoplab effects` says which do."});
+}
+
+std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law) {
   std::vector<EffectSetting> settings;
   for (const EffectSpec& spec : specs) {
     const Effect& effect = ResolveEffect(spec.name, spec.origin.place);
-    const bool applies =
-        mechanism == MechanismKind::kBall ? effect.info.for_ball : effect.info.for_legs;
-    if (!applies) {
-      throw InputError({spec.origin.place, "effect " + spec.name,
-                        "does not apply to the mechanism " + std::string(NameOf(mechanism)),
-                        "`hoplab effects` says which do."});
-    }
+    CheckApplies(effect, law, spec.origin.place);
     EffectSetting setting = EffectSetting::Null(effect);
     for (const NamedNumber& given : spec.parameters) {
       const std::optional<int> index = effect.FindParameter(given.name);

@@ -27,9 +27,11 @@ Law ResolveLaw(const std::string& name, MechanismKind mechanism, const std::stri
 /// The effect named `name`; throws InputError with the nearest known name.
 const Effect& ResolveEffect(const std::string& name, const std::string& place);
 
+/// Throws InputError if the effect means nothing under the law.
+void CheckApplies(const Effect& effect, Law law, const std::string& place);
+
 /// Effects with their values as a scenario gives them; parameters not given stay null. Throws
-/// InputError for unknown names, values out of bounds, an effect that this mechanism cannot have.
-std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs,
-                                          MechanismKind mechanism);
+/// InputError for unknown names, values out of bounds, an effect that this law cannot have.
+std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law);
 
 }  // namespace hoplab

@@ -273,13 +273,7 @@ class Builder {
   }
 
   int EffectIndex(const Effect& effect, const std::string& place) {
-    const bool applies =
-        mechanism_ == MechanismKind::kBall ? effect.info.for_ball : effect.info.for_legs;
-    if (!applies) {
-      throw InputError({place, "effect " + std::string(effect.info.name),
-                        "does not apply to the mechanism " + std::string(NameOf(mechanism_)),
-                        "`hoplab effects` says which do."});
-    }
+    CheckApplies(effect, problem_.law, place);
     for (std::size_t i = 0; i < problem_.effects.size(); ++i) {
       if (problem_.effects[i].effect == &effect) return static_cast<int>(i);
     }

@@ -22,19 +22,37 @@ Json RecordOf(const Effect& effect) {
                           {"bounds", Json::array({NumberOrNull(p.lower), NumberOrNull(p.upper)})},
                           {"typical", p.typical}});
   }
-  Json mechanisms = Json::array();
-  if (effect.info.for_legs) mechanisms = {"c_leg", "straight_leg"};
-  if (effect.info.for_ball) mechanisms.push_back("ball");
-  return {{"name", effect.info.name},         {"kind", NameOf(effect.info.kind)},
-          {"equation", effect.info.equation}, {"sentence", effect.info.sentence},
-          {"mechanisms", mechanisms},         {"dissipative", effect.info.dissipative},
+  Json mechanisms = Json::array(), laws = Json::array();
+  for (MechanismKind mechanism :
+       {MechanismKind::kCLeg, MechanismKind::kStraightLeg, MechanismKind::kBall}) {
+    const std::size_t before = laws.size();
+    for (Law law : LawsOf(mechanism)) {
+      if (AppliesTo(effect, law)) laws.push_back(NameOf(law));
+    }
+    if (laws.size() > before) mechanisms.push_back(NameOf(mechanism));
+  }
+  return {{"name", effect.info.name},
+          {"kind", NameOf(effect.info.kind)},
+          {"equation", effect.info.equation},
+          {"sentence", effect.info.sentence},
+          {"mechanisms", mechanisms},
+          {"laws", laws},
+          {"dissipative", effect.info.dissipative},
           {"parameters", parameters}};
 }
 
 void PrintEffect(const EffectInfo& info, Console& console) {
-  const char* whom = info.for_legs && info.for_ball ? "legs and ball"
+  std::string whom = info.for_legs && info.for_ball ? "legs and ball"
                      : info.for_legs                ? "legs"
                                                     : "ball";
+  if (!info.only_laws.empty()) {
+    whom = "law";
+    const char* separator = " ";
+    for (Law law : info.only_laws) {
+      whom += separator + std::string(NameOf(law));
+      separator = ", ";
+    }
+  }
   console.out << Styled(info.name, Emphasis::kBold, console.out_colours) << "  "
               << NameOf(info.kind) << ", " << whom << ": " << info.sentence << "\n  "
               << info.equation << '\n';

@@ -108,7 +108,8 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
   if (!settings.out.empty()) place.out = settings.out;
   const RunFolder folder(place, scenario.name, "simulate");
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
-  const std::vector<EffectSetting> effects = ResolveEffects(scenario.effects, mechanism);
+  const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
+  const std::vector<EffectSetting> effects = ResolveEffects(scenario.effects, law);
   SimulationRequest request = RequestOfScenario(scenario, effects);
   request.integrator = IntegratorOptionsOf(settings.integrator, settings.tolerance);
   std::vector<SensitivityDirection> directions;

@@ -1,5 +1,7 @@
 #include "model/effects/effect.h"
 
+#include <algorithm>
+
 namespace hoplab {
 
 std::string_view NameOf(EffectKind kind) {
@@ -21,6 +23,13 @@ std::optional<int> Effect::FindParameter(std::string_view name) const {
     if (info.parameters[i].name == name) return static_cast<int>(i);
   }
   return std::nullopt;
+}
+
+bool AppliesTo(const Effect& effect, Law law) {
+  const EffectInfo& info = effect.info;
+  if (!(MechanismOf(law) == MechanismKind::kBall ? info.for_ball : info.for_legs)) return false;
+  return info.only_laws.empty() ||
+         std::find(info.only_laws.begin(), info.only_laws.end(), law) != info.only_laws.end();
 }
 
 const Effect* FindEffect(std::string_view name) {

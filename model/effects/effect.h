@@ -37,6 +37,7 @@ struct EffectInfo {
   bool dissipative;           // never creates energy
   int order = 0;              // effects on one hook act in this order, then as they were given
   std::span<const EffectParameter> parameters;
+  std::span<const Law> only_laws = {};  // of those mechanisms' laws; empty: all of them
 };
 
 /// Motion of the body at one instant, for forces on it. Frame W.
@@ -128,6 +129,9 @@ struct Effect {
   /// Index of a parameter by name.
   std::optional<int> FindParameter(std::string_view name) const;
 };
+
+/// Whether an effect means anything under a law.
+bool AppliesTo(const Effect& effect, Law law);
 
 /// Every effect there is, by name. One entry per file in model/effects (cmake writes the list).
 std::span<const Effect* const> AllEffects();

@@ -24,9 +24,6 @@ SimulationRequest RequestOf(Law law) {
   q.channels = kBody;
   return q;
 }
-bool AppliesTo(const Effect& effect, Law law) {
-  return law == Law::kBall ? effect.info.for_ball : effect.info.for_legs;
-}
 
 TEST(EffectRegistry, ListsEveryEffectByName) {
   std::vector<std::string> names;

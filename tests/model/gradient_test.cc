@@ -161,7 +161,7 @@ TEST_P(Gradient, OfEveryParameterAndInitialStateMatchesDifferences) {
 
 TEST_P(Gradient, OfEveryEffectAtNullMatchesDifferences) {
   for (const Effect* effect : AllEffects()) {
-    if (!(request_.law == Law::kBall ? effect->info.for_ball : effect->info.for_legs)) continue;
+    if (!AppliesTo(*effect, request_.law)) continue;
     SCOPED_TRACE(effect->info.name);
     const std::array effects = {EffectSetting::Null(*effect)};
     const std::array directions = {D::EffectParameter(0, 0)};
@@ -173,7 +173,7 @@ TEST_P(Gradient, OfEveryEffectAtNullMatchesDifferences) {
 
 TEST_P(Gradient, OfEveryEffectOffNullMatchesDifferences) {
   for (const Effect* effect : AllEffects()) {
-    if (!(request_.law == Law::kBall ? effect->info.for_ball : effect->info.for_legs)) continue;
+    if (!AppliesTo(*effect, request_.law)) continue;
     SCOPED_TRACE(effect->info.name);
     std::array effects = {EffectSetting::Null(*effect)};
     effects[0].values[0] += 0.3 * effect->info.parameters[0].typical;
@@ -199,7 +199,7 @@ TEST(GradientEffects, OfAllEffectsTogetherMatchesDifferences) {
   std::vector<EffectSetting> effects;
   std::vector<D> directions;
   for (const Effect* effect : AllEffects()) {
-    if (!effect->info.for_legs) continue;
+    if (!AppliesTo(*effect, q.law)) continue;
     effects.push_back(EffectSetting::Null(*effect));
     effects.back().values[0] += 0.3 * effect->info.parameters[0].typical;
     directions.push_back(D::EffectParameter(static_cast<int>(effects.size()) - 1, 0));
