@@ -35,6 +35,13 @@ double Slope(const Jet<N>& x, int k) {
   return x.v[k];
 }
 
+/// Zero, and zero in every direction: what depends on it can be left out.
+inline bool IsZero(double x) { return x == 0.0; }
+template <int N>
+bool IsZero(const Jet<N>& x) {
+  return x.a == 0.0 && x.v.isZero(0.0);
+}
+
 /// `value` with one direction seeded with `slope`.
 template <class T>
 T Seeded(double value, int k, double slope) {

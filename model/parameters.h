@@ -43,6 +43,12 @@ struct Parameters {
   T radius{0.0};           // [m]
   T restitution{1.0};      // [-]
   T tangential_loss{0.0};  // [-]
+  // Changed by effects alone.
+  T slope{0.0};                       // of the ground, uphill forward [rad]
+  T inertia_x{0.0}, inertia_y{0.0};   // mass without weight per axis, in units of m [-]
+  T torque_lag{0.0};                  // time constant of the hip torque [s]
+  T rest_length_step{0.0};            // growth of l0 at greatest compression [m]
+  bool has_rest_length_step = false;  // greatest compression is an event
   // Settings without derivatives.
   double torque_limit = std::numeric_limits<double>::infinity();  // T_max [N m]
   double fall_height = std::numeric_limits<double>::quiet_NaN();  // y_min [m]; NaN: the default

@@ -10,9 +10,11 @@ template <class T>
 using ConsistentLeg = CLeg<T, ConsistentLaw>;
 template <class T>
 using ConsistentBody = LeggedBody<T, ConsistentLeg>;
+template <class T>
+using LaggedConsistentBody = LeggedBody<T, ConsistentLeg, kLaggedLegStateSize>;
 
 void RunConsistent(const SimulationRequest& request, Trajectory& out) {
-  RunAutomaton<ConsistentBody>(request, out);
+  RunLeg<ConsistentBody, LaggedConsistentBody>(request, out);
 }
 double EnergyConsistent(const SimulationRequest& request, Mode mode,
                         std::span<const double> state) {

@@ -10,9 +10,11 @@ template <class T>
 using LargeDeflectionLeg = CLeg<T, LargeDeflectionLaw>;
 template <class T>
 using LargeDeflectionBody = LeggedBody<T, LargeDeflectionLeg>;
+template <class T>
+using LaggedLargeDeflectionBody = LeggedBody<T, LargeDeflectionLeg, kLaggedLegStateSize>;
 
 void RunLargeDeflection(const SimulationRequest& request, Trajectory& out) {
-  RunAutomaton<LargeDeflectionBody>(request, out);
+  RunLeg<LargeDeflectionBody, LaggedLargeDeflectionBody>(request, out);
 }
 double EnergyLargeDeflection(const SimulationRequest& request, Mode mode,
                              std::span<const double> state) {

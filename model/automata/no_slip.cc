@@ -10,9 +10,11 @@ template <class T>
 using NoSlipLeg = CLeg<T, NoSlipLaw>;
 template <class T>
 using NoSlipBody = LeggedBody<T, NoSlipLeg>;
+template <class T>
+using LaggedNoSlipBody = LeggedBody<T, NoSlipLeg, kLaggedLegStateSize>;
 
 void RunNoSlip(const SimulationRequest& request, Trajectory& out) {
-  RunAutomaton<NoSlipBody>(request, out);
+  RunLeg<NoSlipBody, LaggedNoSlipBody>(request, out);
 }
 double EnergyNoSlip(const SimulationRequest& request, Mode mode, std::span<const double> state) {
   return EnergyOn<NoSlipBody>(request, mode, state);

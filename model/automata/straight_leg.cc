@@ -6,9 +6,11 @@
 namespace hoplab {
 template <class T>
 using StraightBody = LeggedBody<T, StraightSpring>;
+template <class T>
+using LaggedStraightBody = LeggedBody<T, StraightSpring, kLaggedLegStateSize>;
 
 void RunStraightLeg(const SimulationRequest& request, Trajectory& out) {
-  RunAutomaton<StraightBody>(request, out);
+  RunLeg<StraightBody, LaggedStraightBody>(request, out);
 }
 double EnergyStraightLeg(const SimulationRequest& request, Mode mode,
                          std::span<const double> state) {

@@ -10,9 +10,11 @@ template <class T>
 using ThesisLeg = CLeg<T, ThesisLaw>;
 template <class T>
 using ThesisBody = LeggedBody<T, ThesisLeg>;
+template <class T>
+using LaggedThesisBody = LeggedBody<T, ThesisLeg, kLaggedLegStateSize>;
 
 void RunThesis(const SimulationRequest& request, Trajectory& out) {
-  RunAutomaton<ThesisBody>(request, out);
+  RunLeg<ThesisBody, LaggedThesisBody>(request, out);
 }
 double EnergyThesis(const SimulationRequest& request, Mode mode, std::span<const double> state) {
   return EnergyOn<ThesisBody>(request, mode, state);

@@ -8,7 +8,8 @@
 namespace hoplab {
 
 /// The effects that act in one run, in the scalar type of the run. Only effects off their null, or
-/// whose parameter is differentiated, are in it: the others cost nothing and change nothing.
+/// whose parameter is differentiated, are in it: the others cost nothing and change nothing. They
+/// act in ascending EffectInfo::order, those of one order as they were added.
 template <class T>
 class ActiveEffects {
  public:
@@ -16,7 +17,10 @@ class ActiveEffects {
 
   void Add(const Effect& effect, const std::array<T, kMaxEffectParameters>& values) {
     HOPLAB_CHECK(entries_.size() < kMax);
-    entries_.push_back({&effect.Hooks<T>(), values, &effect});
+    auto place = entries_.end();
+    while (place != entries_.begin() && (place - 1)->effect->info.order > effect.info.order)
+      --place;
+    entries_.insert(place, {&effect.Hooks<T>(), values, &effect});
   }
 
   /// The same effects in another scalar type; directions are dropped.
@@ -50,11 +54,35 @@ class ActiveEffects {
     }
     return force;
   }
+  void AddHipTorque(const HipMotion<T>& hip, T& torque) const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->add_hip_torque) e.hooks->add_hip_torque(e.values.data(), hip, torque);
+    }
+  }
   void ChangeLandingVelocity(const Landing<T>& landing, Vector2<T>& velocity) const {
     for (const Entry& e : entries_) {
       if (e.hooks->change_landing_velocity)
         e.hooks->change_landing_velocity(e.values.data(), landing, velocity);
     }
+  }
+  void ChangeLiftoffVelocity(const Landing<T>& leaving, Vector2<T>& velocity) const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->change_liftoff_velocity)
+        e.hooks->change_liftoff_velocity(e.values.data(), leaving, velocity);
+    }
+  }
+  T ContactHeight(T height) const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->change_contact_height) e.hooks->change_contact_height(e.values.data(), height);
+    }
+    return height;
+  }
+  T Restitution(const T& speed, T restitution) const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->change_restitution)
+        e.hooks->change_restitution(e.values.data(), speed, restitution);
+    }
+    return restitution;
   }
   T TouchdownAngle(const T& vx, T theta_td) const {
     for (const Entry& e : entries_) {
@@ -74,12 +102,22 @@ class ActiveEffects {
       if (e.hooks->change_observation) e.hooks->change_observation(e.values.data(), seen);
     }
   }
-  /// Whether flight is not ballistic.
+  /// What is there at all, so that what is not costs nothing.
   bool HasBodyForce() const {
     return Any([](const EffectHooks<T>& hooks) { return hooks.add_body_force != nullptr; });
   }
   bool HasChordForce() const {
     return Any([](const EffectHooks<T>& hooks) { return hooks.add_chord_force != nullptr; });
+  }
+  bool HasHipTorque() const {
+    return Any([](const EffectHooks<T>& hooks) { return hooks.add_hip_torque != nullptr; });
+  }
+  bool HasLiftoffVelocity() const {
+    return Any(
+        [](const EffectHooks<T>& hooks) { return hooks.change_liftoff_velocity != nullptr; });
+  }
+  bool HasTouchdownAngle() const {
+    return Any([](const EffectHooks<T>& hooks) { return hooks.change_touchdown_angle != nullptr; });
   }
 
  private:

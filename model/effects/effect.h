@@ -35,6 +35,7 @@ struct EffectInfo {
   std::string_view sentence;  // for a reader who does not know the symbols
   bool for_legs, for_ball;    // mechanisms it applies to
   bool dissipative;           // never creates energy
+  int order = 0;              // effects on one hook act in this order, then as they were given
   std::span<const EffectParameter> parameters;
   std::span<const Law> only_laws = {};  // of those mechanisms' laws; empty: all of them
 };
@@ -44,6 +45,7 @@ template <class T>
 struct BodyMotion {
   T t;             // time since the first row [s]
   T x, y, vx, vy;  // [m], [m/s]
+  bool in_stance = false;
 };
 
 /// A loaded leg at one instant, for forces along its chord.
@@ -52,9 +54,22 @@ struct ChordMotion {
   T elastic_force;  // F_el [N]
   T stiffness;      // k = 1/C at small load (M3) [N/m]
   T rate;           // what the damper sees [m/s], positive while lengthening
+  T compression;    // (l0 - l)/l0 [-]
 };
 
-/// A touch-down, for what it does to the body's velocity.
+/// A driven hip in stance at one instant, for torques on it.
+template <class T>
+struct HipMotion {
+  T motor_torque;  // what the motor gives: M15, clipped and lagged [N m]
+  /// dtheta/dt of the leg [rad/s], the rate the hip torque does work on: -v_hip . n/l. Forward
+  /// motion turns the leg with falling theta. Exact on the toe, on a straight leg and for an
+  /// unloaded rolling leg; the power of a torque T on the body is -T rate under every law.
+  T rate;
+  T t;   // time since the first row [s]
+  T vx;  // [m/s]
+};
+
+/// A touch-down or lift-off, for what it does to the body's velocity.
 template <class T>
 struct Landing {
   Vector2<T> chord;  // e, contact to hip, length 1
@@ -71,9 +86,19 @@ struct EffectHooks {
   void (*add_body_force)(const T* p, const BodyMotion<T>& body, Vector2<T>& force) = nullptr;
   /// Adds a force along the chord of a loaded leg [N], positive pushes the hip away.
   void (*add_chord_force)(const T* p, const ChordMotion<T>& chord, T& force) = nullptr;
+  /// Adds a torque on the hip in stance [N m], positive pushes it forward (M13).
+  void (*add_hip_torque)(const T* p, const HipMotion<T>& hip, T& torque) = nullptr;
   /// Changes the velocity with which stance begins [m/s].
   void (*change_landing_velocity)(const T* p, const Landing<T>& landing,
                                   Vector2<T>& velocity) = nullptr;
+  /// Changes the velocity with which flight begins [m/s].
+  void (*change_liftoff_velocity)(const T* p, const Landing<T>& leaving,
+                                  Vector2<T>& velocity) = nullptr;
+  /// Changes the height of the hip at which the leg meets the ground [m]: the guard of touch-down
+  /// alone, not its reset.
+  void (*change_contact_height)(const T* p, T& height) = nullptr;
+  /// Changes the restitution of a ball from the speed of the impact [m/s], positive.
+  void (*change_restitution)(const T* p, const T& speed, T& restitution) = nullptr;
   /// Changes the leg angle that touches down (guard and reset) from the speed at that moment.
   void (*change_touchdown_angle)(const T* p, const T& vx, T& theta_td) = nullptr;
   /// Changes the time at which the row stamped `t` was really read.
@@ -135,10 +160,22 @@ constexpr EffectHooks<T> HooksOf() {
                   Physics::AddChordForce(p, c, f);
                 })
     hooks.add_chord_force = &Physics::template AddChordForce<T>;
+  if constexpr (requires(const T* p, const HipMotion<T>& h, T& t) {
+                  Physics::AddHipTorque(p, h, t);
+                })
+    hooks.add_hip_torque = &Physics::template AddHipTorque<T>;
   if constexpr (requires(const T* p, const Landing<T>& l, Vector2<T>& v) {
                   Physics::ChangeLandingVelocity(p, l, v);
                 })
     hooks.change_landing_velocity = &Physics::template ChangeLandingVelocity<T>;
+  if constexpr (requires(const T* p, const Landing<T>& l, Vector2<T>& v) {
+                  Physics::ChangeLiftoffVelocity(p, l, v);
+                })
+    hooks.change_liftoff_velocity = &Physics::template ChangeLiftoffVelocity<T>;
+  if constexpr (requires(const T* p, T& h) { Physics::ChangeContactHeight(p, h); })
+    hooks.change_contact_height = &Physics::template ChangeContactHeight<T>;
+  if constexpr (requires(const T* p, const T& v, T& e) { Physics::ChangeRestitution(p, v, e); })
+    hooks.change_restitution = &Physics::template ChangeRestitution<T>;
   if constexpr (requires(const T* p, const T& v, T& a) { Physics::ChangeTouchdownAngle(p, v, a); })
     hooks.change_touchdown_angle = &Physics::template ChangeTouchdownAngle<T>;
   if constexpr (requires(const T* p, T& t) { Physics::ChangeObservationTime(p, t); })

@@ -5,9 +5,11 @@
 
 #include "model/effects/active_effects.h"
 #include "model/hybrid/engine.h"
+#include "model/hybrid/ground_frame.h"
 #include "model/integrators/cvodes.h"
 #include "model/integrators/dop853.h"
 #include "model/integrators/erkstep.h"
+#include "model/laws/leg_load.h"
 #include "model/simulate.h"
 
 namespace hoplab {
@@ -16,10 +18,11 @@ namespace hoplab {
 template <class T>
 class RowSink {
  public:
-  RowSink(const SimulationRequest& request, const ActiveEffects<T>& effects, int first_direction,
-          int directions, Trajectory& out)
+  RowSink(const SimulationRequest& request, const ActiveEffects<T>& effects,
+          const GroundFrame<T>& frame, int first_direction, int directions, Trajectory& out)
       : request_(request),
         effects_(effects),
+        frame_(frame),
         first_(first_direction),
         count_(directions),
         out_(out) {
@@ -34,7 +37,9 @@ class RowSink {
       for (int i = 0; i < 4; ++i) seen.channel[i] = z[i];
     } else {
       seen = system.Observe(mode, time, z);
+      frame_.LegToWorld(seen);
     }
+    frame_.BodyToWorld(seen);
     effects_.ChangeObservation(seen);
     const int channels = static_cast<int>(request_.channels.size());
     const int width = static_cast<int>(request_.directions.size());
@@ -50,6 +55,7 @@ class RowSink {
  private:
   const SimulationRequest& request_;
   const ActiveEffects<T>& effects_;
+  const GroundFrame<T>& frame_;
   int first_, count_;
   Trajectory& out_;
   bool body_only_;
@@ -102,6 +108,26 @@ struct Seeds {
   }
 };
 
+// Events and the final state of a run, from the frame of the ground.
+inline void ToWorld(const GroundFrame<double>& frame, Trajectory& run) {
+  run.final_state.resize(std::min<std::size_t>(run.final_state.size(), kLegStateSize));
+  run.final_rate.resize(run.final_state.size());
+  if (frame.level()) return;
+  frame.ToWorld(run.final_state.data());
+  frame.ToWorld(run.final_rate.data());
+  for (Event& e : run.events) {
+    double before[] = {e.x, e.y, e.vx, e.vy}, after[] = {e.x, e.y, e.vx_after, e.vy_after};
+    frame.ToWorld(before);
+    frame.ToWorld(after);
+    e.x = before[0];
+    e.y = before[1];
+    e.vx = before[2];
+    e.vy = before[3];
+    e.vx_after = after[2];
+    e.vy_after = after[3];
+  }
+}
+
 template <template <class> class System, class T, template <int, int, class> class Stepper>
 void RunChunk(const SimulationRequest& request, int first, int count, Trajectory& out) {
   const Seeds<T> seeds(request, first, count);
@@ -115,7 +141,8 @@ void RunChunk(const SimulationRequest& request, int first, int count, Trajectory
   // Every chunk runs the same simulation: only the first one's record of it is kept.
   Trajectory scratch;
   Trajectory& record = first == 0 ? out : scratch;
-  RowSink<T> sink(request, seeds.effects, first, count, out);
+  const GroundFrame<T> frame(seeds.parameters.slope);
+  RowSink<T> sink(request, seeds.effects, frame, first, count, out);
   const RunSettings settings{request.horizon, request.max_hops, request.row_times,
                              request.channels};
   Engine<System, T, Stepper, RowSink<T>> engine(system, value_system, rate_system,
@@ -123,11 +150,16 @@ void RunChunk(const SimulationRequest& request, int first, int count, Trajectory
   std::array<T, System<T>::kDim> z;
   std::fill(z.begin(), z.end(), T(0.0));
   std::copy(seeds.initial.begin(), seeds.initial.end(), z.begin());
+  frame.FromWorld(z.data());
   engine.Run(Mode::kFlight, z.data(),
              [&](int row) { return seeds.effects.ObservationTime(T(request.row_times[row])); });
 
+  // What the run leaves, in world W and without a lag's own state.
+  std::array<T, System<T>::kDim> final_state = engine.final_state();
+  frame.ToWorld(final_state.data());
   const std::size_t width = request.directions.size();
   if (first == 0) {
+    ToWorld(GroundFrame<double>(Value(seeds.parameters.slope)), out);
     out.event_time_sensitivities.resize(out.events.size() * width);
     out.final_sensitivities.resize(out.final_state.size() * width);
   }
@@ -140,7 +172,7 @@ void RunChunk(const SimulationRequest& request, int first, int count, Trajectory
     }
     for (std::size_t i = 0; i < out.final_state.size(); ++i) {
       for (int k = 0; k < count; ++k)
-        out.final_sensitivities[i * width + first + k] = Slope(engine.final_state()[i], k);
+        out.final_sensitivities[i * width + first + k] = Slope(final_state[i], k);
     }
   }
 }
@@ -177,13 +209,27 @@ void RunAutomaton(const SimulationRequest& request, Trajectory& out) {
   }
 }
 
+/// The same for a leg; `Lagged` is the automaton with the motor's torque as one state more, for a
+/// lag long enough to be integrated.
+template <template <class> class System, template <class> class Lagged>
+void RunLeg(const SimulationRequest& request, Trajectory& out) {
+  constexpr double kShortestLag = 1e-5;  // s
+  const bool lagged =
+      !request.effects.empty() &&
+      run_detail::Seeds<double>(request, 0, 0).parameters.torque_lag >= kShortestLag;
+  return lagged ? RunAutomaton<Lagged>(request, out) : RunAutomaton<System>(request, out);
+}
+
 /// Energy of a state on the automaton `System`.
 template <template <class> class System>
 double EnergyOn(const SimulationRequest& request, Mode mode, std::span<const double> state) {
   const run_detail::Seeds<double> seeds(request, 0, 0);
   System<double> system(seeds.parameters, seeds.effects, request.liftoff);
-  system.StartSearch(mode, state.data());
-  return system.Energy(mode, state.data());
+  std::array<double, System<double>::kDim> z{};
+  std::copy_n(state.begin(), std::min(state.size(), z.size()), z.begin());
+  GroundFrame<double>(seeds.parameters.slope).FromWorld(z.data());
+  system.StartSearch(mode, z.data());
+  return system.Energy(mode, z.data());
 }
 
 }  // namespace hoplab

@@ -20,5 +20,7 @@ struct LegLoad {
 /// coordinate is x_c in toe stance and under `thesis` and `no_slip`; under `consistent` and
 /// `large_deflection` it is X0 = x_c - r phi while rolling (M11). Not used in flight.
 enum LegState { kX = 0, kY, kVx, kVy, kContact, kLegStateSize };
+/// One state more where the hip torque lags: what the motor gives [N m].
+inline constexpr int kMotorTorque = kLegStateSize, kLaggedLegStateSize = kLegStateSize + 1;
 
 }  // namespace hoplab

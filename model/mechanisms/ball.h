@@ -7,12 +7,14 @@
 #include "model/hybrid/automaton.h"
 #include "model/hybrid/ballistic.h"
 #include "model/laws/leg_load.h"
+#include "model/mechanisms/inertia.h"
 #include "model/observation.h"
 
 namespace hoplab {
 
 /// A ball: ballistic flight, and at each bounce vy+ = -restitution vy-,
-/// vx+ = (1 - tangential_loss) vx-. State: x, y, vx, vy of its centre. One mode.
+/// vx+ = (1 - tangential_loss) vx-. State: x, y, vx, vy of its centre, on a slope in the frame of
+/// the ground. One mode.
 template <class T>
 class Ball {
  public:
@@ -22,7 +24,7 @@ class Ball {
   static constexpr double kRestInterval = 1e-6;
 
   Ball(const Parameters<T>& parameters, const ActiveEffects<T>& effects, LiftoffRule)
-      : p_(parameters), effects_(effects), has_body_force_(effects.HasBodyForce()) {}
+      : p_(parameters), effects_(effects), inertia_(p_), has_body_force_(effects.HasBodyForce()) {}
 
   template <class Other>
   void CopyHidden(const Other&) {}
@@ -32,12 +34,12 @@ class Ball {
   void Derivative(Mode, const T& t, const T* z, T* dz) const {
     dz[kX] = z[kVx];
     dz[kY] = z[kVy];
-    dz[kVx] = T(0.0);
-    dz[kVy] = -p_.g;
+    dz[kVx] = inertia_.gravity_x;
+    dz[kVy] = inertia_.gravity_y;
     if (has_body_force_) {
       const Vector2<T> force = effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy]});
-      dz[kVx] += force.x / p_.m;
-      dz[kVy] += force.y / p_.m;
+      dz[kVx] += force.x / inertia_.mx;
+      dz[kVy] += force.y / inertia_.my;
     }
   }
 
@@ -52,14 +54,16 @@ class Ball {
   ResetResult Reset(Mode mode, int i, const T&, T* z) {
     if (i == 1) return {mode};
     z[kVx] *= 1.0 - p_.tangential_loss;
-    z[kVy] *= -p_.restitution;
-    const double next_interval = 2.0 * Value(z[kVy]) / Value(p_.g);
+    z[kVy] *= -effects_.Restitution(-z[kVy], p_.restitution);
+    const double next_interval = -2.0 * Value(z[kVy]) / Value(inertia_.gravity_y);
     if (!(next_interval >= kRestInterval)) return {mode, Outcome::kCameToRest};
     return {mode};
   }
 
   bool IsBallistic(Mode) const { return !has_body_force_; }
-  BallisticFlight<T> Ballistic(const T*) const { return {T(0.0), T(-p_.g), p_.radius}; }
+  BallisticFlight<T> Ballistic(const T*) const {
+    return {inertia_.gravity_x, inertia_.gravity_y, p_.radius};
+  }
   double FirstStep(Mode, const T*) const { return 0.01; }
 
   Observation<T> Observe(Mode, const T&, const T* z) const {
@@ -72,14 +76,13 @@ class Ball {
     seen[Channel::kContact] = T(0.0);
     return seen;
   }
-  T Energy(Mode, const T* z) const {
-    return 0.5 * p_.m * (z[kVx] * z[kVx] + z[kVy] * z[kVy]) + p_.m * p_.g * z[kY];
-  }
+  T Energy(Mode, const T* z) const { return inertia_.Energy(z); }
   double Flexure(Mode, const T*) const { return 0.0; }
 
  private:
   Parameters<T> p_;
   ActiveEffects<T> effects_;
+  Inertia<T> inertia_;
   bool has_body_force_;
 };
 

@@ -7,6 +7,7 @@
 #include "model/hybrid/automaton.h"
 #include "model/hybrid/ballistic.h"
 #include "model/laws/leg_load.h"
+#include "model/mechanisms/inertia.h"
 #include "model/mechanisms/speed_controller.h"
 #include "model/observation.h"
 #include "model/parameters.h"
@@ -31,12 +32,14 @@ inline constexpr double kFallCosine = 0.17364817766693041;
 ///   OwnGuardCount(mode), OwnGuard(mode, i), OwnGuards(mode, load, g), Pass(event, z)
 ///                           its own events between stance modes: guards, and their resets
 ///   StartSearch(mode, z), CopyHidden(other)  where it searches a root
-/// State: LegState. Modes: flight and those of the leg.
-template <class T, template <class> class LegT>
+/// State: LegState, and with kStates = kLaggedLegStateSize what the motor gives. Modes: flight and
+/// those of the leg. On a slope everything is in the frame of the ground (GroundFrame).
+template <class T, template <class> class LegT, int kStates = kLegStateSize>
 class LeggedBody {
  public:
   using Scalar = T;
-  static constexpr int kDim = kLegStateSize;
+  static constexpr int kDim = kStates;
+  static constexpr bool kLagged = kStates == kLaggedLegStateSize;
 
   LeggedBody(const Parameters<T>& parameters, const ActiveEffects<T>& effects, LiftoffRule liftoff)
       : p_(parameters),
@@ -44,6 +47,12 @@ class LeggedBody {
         liftoff_(liftoff),
         has_body_force_(effects.HasBodyForce()),
         has_chord_force_(effects.HasChordForce()),
+        has_hip_torque_(effects.HasHipTorque()),
+        has_quick_lag_(!kLagged && !IsZero(parameters.torque_lag)),
+        // The touch-down angle moves in flight if it depends on a speed that does.
+        flies_freely_(!has_body_force_ &&
+                      (IsZero(parameters.slope) || !effects.HasTouchdownAngle())),
+        inertia_(p_),
         leg_(p_),
         controller_(p_),
         y_min_(std::isnan(p_.fall_height) ? leg_.LowestHip() : T(p_.fall_height)) {}
@@ -62,21 +71,26 @@ class LeggedBody {
     T contact_rate(0.0);
     if (mode != Mode::kFlight) {
       const LegLoad<T> load = leg_.Load(mode, z);
-      const Vector2<T> force = HipForce(load, z);
+      const Vector2<T> force = HipForce(load, HipTorque(mode, load, t, z), z);
       fx = force.x;
       fy = force.y;
       contact_rate = load.contact_rate;
     }
     if (has_body_force_) {
-      const Vector2<T> force = effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy]});
+      const Vector2<T> force = BodyForce(mode, t, z);
       fx += force.x;
       fy += force.y;
     }
     dz[kX] = z[kVx];
     dz[kY] = z[kVy];
-    dz[kVx] = fx / p_.m;         // M13
-    dz[kVy] = fy / p_.m - p_.g;  // M14
+    dz[kVx] = fx / inertia_.mx + inertia_.gravity_x;  // M13
+    dz[kVy] = fy / inertia_.my + inertia_.gravity_y;  // M14
     dz[kContact] = contact_rate;
+    if constexpr (kLagged) {
+      dz[kMotorTorque] = T(0.0);
+      if (mode != Mode::kFlight)
+        dz[kMotorTorque] = (controller_.Torque(z[kVx]) - z[kMotorTorque]) / p_.torque_lag;
+    }
   }
 
   // Guards in stance: lift-off, the leg's own, fall by height, fall by angle, torque limit. Of two
@@ -129,9 +143,11 @@ class LeggedBody {
         const Mode stance = leg_.Land(theta, z);
         ApplyLanding(theta, z);
         controller_.Enter(Value(z[kVx]));
+        if constexpr (kLagged) z[kMotorTorque] = controller_.Torque(z[kVx]);
         return {stance};
       }
       case EventKind::kLiftoff:
+        if (effects_.HasLiftoffVelocity()) ApplyLiftoff(leg_.Load(mode, z), z);
         z[kContact] = T(0.0);
         if (Value(z[kVy]) <= 0.0 && Value(z[kY] - TouchdownHeight(z)) < 0.0)
           return {Mode::kFlight, Outcome::kFellNoReturn};
@@ -154,8 +170,10 @@ class LeggedBody {
   }
 
   /// Flight in closed form, where nothing pushes the body but gravity.
-  bool IsBallistic(Mode mode) const { return mode == Mode::kFlight && !has_body_force_; }
-  BallisticFlight<T> Ballistic(const T* z) const { return {T(0.0), T(-p_.g), TouchdownHeight(z)}; }
+  bool IsBallistic(Mode mode) const { return mode == Mode::kFlight && flies_freely_; }
+  BallisticFlight<T> Ballistic(const T* z) const {
+    return {inertia_.gravity_x, inertia_.gravity_y, TouchdownHeight(z)};
+  }
 
   /// First step of a mode [s]: in stance a tenth of a radian of the undamped oscillation.
   double FirstStep(Mode mode, const T* z) const {
@@ -163,7 +181,7 @@ class LeggedBody {
   }
 
   /// What the sensors see, before the observation effects.
-  Observation<T> Observe(Mode mode, const T&, const T* z) const {
+  Observation<T> Observe(Mode mode, const T& t, const T* z) const {
     Observation<T> seen;
     seen[Channel::kBodyX] = z[kX];
     seen[Channel::kBodyY] = z[kY];
@@ -179,19 +197,20 @@ class LeggedBody {
       return seen;
     }
     const LegLoad<T> load = leg_.Load(mode, z);
-    const Vector2<T> force = HipForce(load, z);
+    const T torque = HipTorque(mode, load, t, z);
+    const Vector2<T> force = HipForce(load, torque, z);
     seen[Channel::kLegAngle] = leg_.ShownAngle(mode, load, z);
     seen[Channel::kLegLength] = load.l;
     seen[Channel::kGroundForceX] = force.x;
     seen[Channel::kGroundForceY] = force.y;
-    seen[Channel::kHipTorque] = controller_.Torque(z[kVx]);
+    seen[Channel::kHipTorque] = torque;
     seen[Channel::kContact] = T(1.0);
     return seen;
   }
 
   /// Kinetic, potential and strain energy [J].
   T Energy(Mode mode, const T* z) const {
-    T energy = 0.5 * p_.m * (z[kVx] * z[kVx] + z[kVy] * z[kVy]) + p_.m * p_.g * z[kY];
+    T energy = inertia_.Energy(z);
     if (mode != Mode::kFlight) energy += leg_.StrainEnergy(leg_.Load(mode, z));
     return energy;
   }
@@ -205,13 +224,41 @@ class LeggedBody {
   const SpeedController<T>& controller() const { return controller_; }
 
  private:
-  T TouchdownAngle(const T* z) const { return effects_.TouchdownAngle(z[kVx], p_.theta_td); }
-  T TouchdownHeight(const T* z) const { return leg_.TouchdownHeight(TouchdownAngle(z)); }
+  T TouchdownAngle(const T* z) const {
+    return effects_.TouchdownAngle(z[kVx], p_.theta_td) - p_.slope;
+  }
+  T TouchdownHeight(const T* z) const {
+    return effects_.ContactHeight(leg_.TouchdownHeight(TouchdownAngle(z)));
+  }
+  Vector2<T> BodyForce(Mode mode, const T& t, const T* z) const {
+    return effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy], mode != Mode::kFlight});
+  }
   T ChordForce(const LegLoad<T>& load) const {
     T force = load.elastic_force - p_.d * load.damping_rate;  // M6, M12
-    if (has_chord_force_)
-      force += effects_.ChordForce({load.elastic_force, leg_.Stiffness(load), load.damping_rate});
+    if (has_chord_force_) {
+      const T rest = leg_.RestChord(load);
+      force += effects_.ChordForce(
+          {load.elastic_force, leg_.Stiffness(load), load.damping_rate, T((rest - load.l) / rest)});
+    }
     return force;
+  }
+  // Torque on the hip: the motor's, and what effects add.
+  T HipTorque(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const {
+    if constexpr (kLagged) return WithTorqueEffects(z[kMotorTorque], load, t, z);
+    const T commanded = controller_.Torque(z[kVx]);
+    if (!has_quick_lag_) return WithTorqueEffects(commanded, load, t, z);
+    // A lag too short to integrate, to its first order: T_cmd - t_lag dT_cmd/dt.
+    T fx = HipForce(load, WithTorqueEffects(commanded, load, t, z), z).x;
+    if (has_body_force_) fx += BodyForce(mode, t, z).x;
+    const T rate = controller_.TorqueRate(fx / inertia_.mx + inertia_.gravity_x);
+    return WithTorqueEffects(commanded - p_.torque_lag * rate, load, t, z);
+  }
+  T WithTorqueEffects(T torque, const LegLoad<T>& load, const T& t, const T* z) const {
+    if (!has_hip_torque_) return torque;
+    const T rate = -(z[kY] * z[kVx] + load.u * z[kVy]) / (load.l * load.l);
+    const HipMotion<T> hip{torque, rate, t, z[kVx]};
+    effects_.AddHipTorque(hip, torque);
+    return torque;
   }
   // What a touch-down at leg angle `theta` does to the velocity.
   void ApplyLanding(const T& theta, T* z) const {
@@ -223,17 +270,25 @@ class LeggedBody {
     z[kVx] = velocity.x;
     z[kVy] = velocity.y;
   }
+  // What a lift-off does to it.
+  void ApplyLiftoff(const LegLoad<T>& load, T* z) const {
+    Vector2<T> velocity{z[kVx], z[kVy]};
+    effects_.ChangeLiftoffVelocity({{-load.u / load.l, z[kY] / load.l}}, velocity);
+    z[kVx] = velocity.x;
+    z[kVy] = velocity.y;
+  }
   // F e + (T/l) n, the bracket of M13 and M14; by reaction, the ground's force on the leg.
-  Vector2<T> HipForce(const LegLoad<T>& load, const T* z) const {
+  Vector2<T> HipForce(const LegLoad<T>& load, const T& torque, const T* z) const {
     const T chord = ChordForce(load) / load.l;
-    const T normal = controller_.Torque(z[kVx]) / (load.l * load.l);
+    const T normal = torque / (load.l * load.l);
     return {normal * z[kY] - chord * load.u, chord * z[kY] + normal * load.u};
   }
 
   Parameters<T> p_;
   ActiveEffects<T> effects_;
   LiftoffRule liftoff_;
-  bool has_body_force_, has_chord_force_;
+  bool has_body_force_, has_chord_force_, has_hip_torque_, has_quick_lag_, flies_freely_;
+  Inertia<T> inertia_;
   LegT<T> leg_;
   SpeedController<T> controller_;
   T y_min_;

@@ -19,6 +19,8 @@ class SpeedController {
   T Torque(const T& vx) const {
     return saturation_ == 0 ? T(kp_ * (v_des_ - vx)) : T(saturation_ * limit_);
   }
+  /// dT/dt at acceleration `ax` [N m/s]; none at the limit.
+  T TorqueRate(const T& ax) const { return saturation_ == 0 ? T(-kp_ * ax) : T(0.0); }
   bool limited() const { return std::isfinite(limit_); }
   double limit() const { return limit_; }
   /// Guard: zero where the torque meets (or comes back from) its limit; positive before.

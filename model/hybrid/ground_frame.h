@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cmath>
+
+#include "model/jet.h"
+#include "model/observation.h"
+
+namespace hoplab {
+
+/// The frame an automaton runs in: turned about the origin with a sloping ground, so that the
+/// ground is its x axis. Requests, samples, events and final states are in world W.
+template <class T>
+class GroundFrame {
+ public:
+  /// `slope` of the ground [rad], uphill forward.
+  explicit GroundFrame(const T& slope) : slope_(slope), level_(IsZero(slope)) {
+    using std::cos;
+    using std::sin;
+    cos_ = cos(slope);
+    sin_ = sin(slope);
+  }
+  bool level() const { return level_; }
+
+  /// Position and velocity (x, y, vx, vy) from W to the frame of the ground, and back.
+  void FromWorld(T* z) const {
+    if (level_) return;
+    Turn(-sin_, z[0], z[1]);
+    Turn(-sin_, z[2], z[3]);
+  }
+  void ToWorld(T* z) const {
+    if (level_) return;
+    Turn(sin_, z[0], z[1]);
+    Turn(sin_, z[2], z[3]);
+  }
+  /// Body channels.
+  void BodyToWorld(Observation<T>& seen) const {
+    if (level_) return;
+    Turn(sin_, seen[Channel::kBodyX], seen[Channel::kBodyY]);
+    Turn(sin_, seen[Channel::kBodyVx], seen[Channel::kBodyVy]);
+  }
+  /// The other channels: forces turned, the leg angle measured from the horizontal.
+  void LegToWorld(Observation<T>& seen) const {
+    if (level_) return;
+    Turn(sin_, seen[Channel::kGroundForceX], seen[Channel::kGroundForceY]);
+    seen[Channel::kLegAngle] += slope_;
+  }
+
+ private:
+  void Turn(const T& sin, T& x, T& y) const {
+    const T turned = cos_ * x - sin * y;
+    y = sin * x + cos_ * y;
+    x = turned;
+  }
+
+  T slope_, cos_, sin_;
+  bool level_;
+};
+
+}  // namespace hoplab
