@@ -34,6 +34,11 @@ class Search {
   }
 
   Naming Run() {
+    if (options_.max_effects < 1) {
+      naming_.best = null_;
+      Judge({});
+      return std::move(naming_);
+    }
     RefitAll(Singles());
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
       CandidateResult& c = naming_.candidates[i];

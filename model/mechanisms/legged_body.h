@@ -256,7 +256,7 @@ class LeggedBody {
   T WithTorqueEffects(T torque, const LegLoad<T>& load, const T& t, const T* z) const {
     if (!has_hip_torque_) return torque;
     const T rate = -(z[kY] * z[kVx] + load.u * z[kVy]) / (load.l * load.l);
-    const HipMotion<T> hip{torque, rate, t, z[kVx]};
+    const HipMotion<T> hip{torque, rate, t, z[kVx], load.u / load.l};
     effects_.AddHipTorque(hip, torque);
     return torque;
   }
