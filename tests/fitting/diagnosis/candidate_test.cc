@@ -67,8 +67,7 @@ TEST(Candidates, AnEffectOfAnotherMechanismIsRefusedWithARemedy) {
   ball.law = Law::kBall;
   const std::string error =
       InputErrorOf([&] { CandidatesOf(ball, {.only = {"leg_material_damping"}}); });
-  EXPECT_NE(error.find("leg_material_damping does not apply to the law ball"), std::string::npos)
-      << error;
+  EXPECT_NE(error.find("does not apply to the law ball"), std::string::npos) << error;
   EXPECT_NE(error.find("`hoplab effects`"), std::string::npos) << error;
 }
 
@@ -122,12 +121,13 @@ TEST(Extend, AnEffectInOneRecordingActsOnlyThere) {
   Eigen::VectorXd shared(after.shared_count());
   shared << InitialShared(before), 0.1;
   for (const TrialProblem& trial : after.trials) {
-    TrialEvaluation plain, with;
+    TrialEvaluation plain, with, columns;
     TrialEvaluator(before, trial).Evaluate({InitialShared(before), trial.start, false}, plain);
-    TrialEvaluator(after, trial).Evaluate({shared, trial.start, true}, with);
+    TrialEvaluator(after, trial).Evaluate({shared, trial.start, false}, with);
+    TrialEvaluator(after, trial).Evaluate({shared, trial.start, true}, columns);
     const bool there = trial.file == "train-2.csv";
     EXPECT_EQ(plain.residuals != with.residuals, there) << trial.file;
-    EXPECT_EQ(with.jacobian.col(after.shared_count() - 1).norm() > 0.0, there) << trial.file;
+    EXPECT_EQ(columns.jacobian.col(after.shared_count() - 1).norm() > 0.0, there) << trial.file;
   }
 }
 

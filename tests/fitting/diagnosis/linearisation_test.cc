@@ -72,8 +72,9 @@ TEST(Linearisation, ProjectsAsAnExplicitDecompositionDoes) {
   const NullFit fit{testing::World{}};
   const Linearisation at = fit.With(kTested);
   const Dense dense(fit, {0, 1});
-  EXPECT_EQ(at.raw, dense.r);
-  EXPECT_LT((at.r - dense.Projected(dense.r)).norm(), 1e-9 * at.r.norm());
+  // More sensitivities, other steps: equal to the solver's tolerance, not to the bit.
+  EXPECT_LT((at.raw - dense.r).norm(), 1e-5 * dense.r.norm());
+  EXPECT_LT((at.r - dense.Projected(at.raw)).norm(), 1e-9 * at.r.norm());
 }
 
 TEST(Linearisation, ProjectingTwiceChangesNothing) {
@@ -110,7 +111,7 @@ TEST(Linearisation, ColumnsAreProjectedDifferencesOfTheResiduals) {
       return all;
     };
     const testing::DifferenceColumn d =
-        testing::RichardsonDerivative(residuals, 0.0, 0.1 * extended.shared[2 + k].scale);
+        testing::RichardsonDerivative(residuals, 0.0, 0.01 * extended.shared[2 + k].scale);
     ASSERT_EQ(static_cast<Eigen::Index>(d.value.size()), at.raw.size());
     const Eigen::Map<const Eigen::VectorXd> raw(d.value.data(), at.raw.size());
     ASSERT_LT(d.error_norm, testing::kGradientOracle * raw.norm()) << k;
@@ -136,7 +137,7 @@ TEST(Linearisation, AValueOnItsBoundIsTakenAsGiven) {
   const Linearisation at = fit.With(kTested);
   EXPECT_EQ(at.fitted_rank, 1 + 4 * 3);
   const Dense without_d(fit, {0});
-  EXPECT_LT((at.r - without_d.Projected(without_d.r)).norm(), 1e-9 * at.r.norm());
+  EXPECT_LT((at.r - without_d.Projected(at.raw)).norm(), 1e-9 * at.r.norm());
 }
 
 TEST(Linearisation, LeavesOutATrialThatFalls) {

@@ -72,13 +72,18 @@ TEST(HeldOutGain, OfTheTrueEffectMayBeClaimed) {
   EXPECT_TRUE(c.left_out.empty());
 }
 
-TEST(HeldOutGain, OfAnEffectThatIsNotThereIsNoClaim) {
-  NullFit fit({.test = 2, .hops = 3});
-  const Extension after = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
-  const HeldOutGain gain =
-      CompareHeldOut(fit.null, MeasureHeldOut(fit.null, 1), MeasureHeldOut(after, 1), 1, nullptr);
-  EXPECT_FALSE(gain.IsClaim());
-  EXPECT_NEAR(gain.nats_per_sample, 0.0, 0.05);
+TEST(HeldOutGain, OfAnEffectThatIsNotThereIsSeldomClaimed) {
+  // The interval promises 2.5 %; three or more of ten would be a chance of 0.2 %.
+  int claims = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const NullFit fit({.test = 2, .hops = 3, .seed = seed});
+    const Extension after = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
+    const HeldOutGain gain =
+        CompareHeldOut(fit.null, MeasureHeldOut(fit.null, 1), MeasureHeldOut(after, 1), 1, nullptr);
+    claims += gain.IsClaim();
+    EXPECT_NEAR(gain.nats_per_sample, 0.0, 0.05);
+  }
+  EXPECT_LE(claims, 2);
 }
 
 TEST(HeldOutGain, IntervalHoldsWhatOtherRecordingsOfTheTrialsGain) {
@@ -133,7 +138,7 @@ TEST(HeldOutGain, IntervalRepeatsWithTheSameSeed) {
 TEST(HeldOutErrors, OfTheTrueModelAreTheNoise) {
   const Compared c(Biased());
   for (double rmse : c.errors_after.test.rmse) EXPECT_NEAR(rmse, 0.001, 0.0003);
-  EXPECT_GT(c.errors_before.test.rmse[0], 0.002);
+  EXPECT_GT(c.errors_before.test.rmse[0], 1.1 * c.errors_after.test.rmse[0]);
 }
 
 TEST(HeldOutErrors, ApexHeightsOfTheTrueModelAreRight) {

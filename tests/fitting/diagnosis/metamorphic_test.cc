@@ -18,7 +18,7 @@ using testing::World;
 
 // One cause that stands alone, and one with a look-alike.
 World Named() { return {.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}}; }
-World Confounded() { return {.effects = {EffectOfSize("touchdown_loss", 0.012)}}; }
+World Confounded() { return {.effects = {EffectOfSize("touchdown_loss", 0.02)}, .seed = 7}; }
 
 const std::vector<std::string> kPool = {"gravity_scale", "leg_material_damping",
                                         "touchdown_angle_bias", "touchdown_loss"};

@@ -19,7 +19,7 @@ using testing::OptionsWith;
 TEST(Diagnose, CleanDataAreAdequatelySimulated) {
   const Diagnosis d = Diagnose(DatasetOf({}), OptionsWith(testing::kSixEffects));
   EXPECT_EQ(d.refusal, "");
-  EXPECT_EQ(d.verdict, Verdict::kAdequate) << d.reason;
+  EXPECT_EQ(NameOf(d.verdict), "adequate") << d.reason;
   EXPECT_GT(d.detection.p_value, kDetectionLevel);
   EXPECT_FALSE(d.extension);
   EXPECT_FALSE(d.Cause());
@@ -38,7 +38,7 @@ TEST(Diagnose, AClearEffectIsNamed) {
   const Diagnosis d = Diagnose(
       DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}, .test = 2, .hops = 3}),
       OptionsWith(testing::kSixEffects));
-  EXPECT_EQ(d.verdict, Verdict::kNamed) << d.reason;
+  EXPECT_EQ(NameOf(d.verdict), "named") << d.reason;
   EXPECT_EQ(GroupNames(d.naming), std::vector<std::string>{"touchdown_angle_bias"});
   ASSERT_TRUE(d.Cause());
   EXPECT_EQ(d.naming.candidates[static_cast<std::size_t>(*d.Cause())].candidate.Name(),
@@ -61,10 +61,11 @@ TEST(Diagnose, TheExtensionBringsTheFittedValuesBackToTheTruth) {
 }
 
 TEST(Diagnose, LookAlikesAreConfoundedAndATrialIsProposed) {
-  // A little of either takes the same speed at the ground.
-  const Diagnosis d = Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_loss", 0.012)}}),
-                               OptionsWith({"touchdown_loss", "leg_material_damping"}));
-  EXPECT_EQ(d.verdict, Verdict::kConfounded) << d.reason;
+  // Between this little loss of speed at touch-down and another angle there the cosine is 0.93.
+  const Diagnosis d =
+      Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_loss", 0.02)}, .seed = 7}),
+               OptionsWith({"touchdown_loss", "touchdown_angle_bias"}));
+  EXPECT_EQ(NameOf(d.verdict), "confounded") << d.reason;
   const std::vector<std::string> group = GroupNames(d.naming);
   EXPECT_EQ(group.size(), 2u);
   EXPECT_NE(std::find(group.begin(), group.end(), "touchdown_loss"), group.end());
@@ -75,46 +76,37 @@ TEST(Diagnose, LookAlikesAreConfoundedAndATrialIsProposed) {
 TEST(Diagnose, AnEffectThatNothingResemblesIsUnexplained) {
   const Diagnosis d = Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.05)}}),
                                OptionsWith({"air_drag", "sensor_delay"}));
-  EXPECT_EQ(d.verdict, Verdict::kUnexplained) << d.reason;
+  EXPECT_EQ(NameOf(d.verdict), "unexplained") << d.reason;
   ASSERT_TRUE(d.free_forces);
   EXPECT_LT(d.free_forces->forces.front().p_value, 1e-3);
 }
 
-TEST(Diagnose, ASizeBeyondItsBoundIsUnexplained) {
-  // A tenth of a second of delay is more than any sensor here is allowed.
+TEST(Diagnose, AMisfitThatTheOnlyCandidateCannotExplainNamesNobody) {
   Dataset d = DatasetOf({});
   for (Trial& t : d.trials) {
-    for (TraceColumn& c : t.trace.columns) {
-      if (c.name != ChannelName(ChannelId::kBodyX)) continue;
-      for (double& x : c.values) x *= 1.3;  // a scale no effect of the pool has
-    }
+    for (double& x : t.trace.columns[0].values) x *= 1.3;  // a scale that no sensor_delay makes
   }
   const Diagnosis result = Diagnose(d, OptionsWith({"sensor_delay"}));
-  EXPECT_NE(result.verdict, Verdict::kNamed) << result.reason;
-  EXPECT_NE(result.verdict, Verdict::kConfounded) << result.reason;
+  EXPECT_EQ(NameOf(result.verdict), "unexplained") << result.reason;
 }
 
 TEST(Diagnose, StatedNoiseThatIsTooSmallRaisesNoAlarm) {
   Dataset d = DatasetOf({.rate_hz = 250.0});
   for (ChannelSpec& c : d.channels) c.sigma = 0.0004;
   const Diagnosis result = Diagnose(d, OptionsWith(testing::kSixEffects));
-  EXPECT_EQ(result.verdict, Verdict::kAdequate) << result.reason;
+  EXPECT_EQ(NameOf(result.verdict), "adequate") << result.reason;
   EXPECT_TRUE(std::any_of(result.notes.begin(), result.notes.end(), [](const std::string& note) {
     return note.find("the flights scatter by") != std::string::npos;
   }));
 }
 
 TEST(Diagnose, ADatasetThatCannotBeFittedIsRefusedWithTheReason) {
-  Dataset d = DatasetOf({.train = 1});
-  for (Trial& t : d.trials) {
-    // Through the ground: no parameters simulate that.
-    for (double& y : t.trace.columns[1].values) y -= 0.5;
-  }
   DiagnosisOptions options = OptionsWith(testing::kSixEffects);
+  options.problem.fix = {{"E", 1e8}};  // a leg like rubber
   options.span = FitSpan::kWhole;
-  const Diagnosis result = Diagnose(d, options);
-  EXPECT_NE(result.refusal, "");
-  EXPECT_TRUE(result.naming.candidates.empty());
+  const Diagnosis d = Diagnose(DatasetOf({.train = 1}), options);
+  EXPECT_NE(d.refusal, "");
+  EXPECT_TRUE(d.naming.candidates.empty());
 }
 
 TEST(Diagnose, AnUnknownEffectIsRefusedBeforeAnythingIsFitted) {
