@@ -25,8 +25,9 @@ inline constexpr double kFallCosine = 0.17364817766693041;
 ///   TouchdownHeight(theta)  height of the hip when a leg at that angle meets the ground [m]
 ///   ChordAngle(theta)       chord angle from the vertical at touch-down [rad]
 ///   Stiffness(load)         small-load chord stiffness there [N/m]
-///   ShownAngle(mode, load, z), ShownLength(theta)  leg angle in stance, leg length in flight
-///   StrainEnergy(load), Flexure(load), TimeScale(mode, z)
+///   ShownAngle(mode, load), ShownLength(theta)  leg angle in stance, leg length in flight
+///   StrainEnergy(load), Flexure(load), TimeScale(load)
+///   extended()              the same leg where an effect adds to its law: Load, StrainEnergy
 ///   Size(), LowestHip()     a length of it; the default y_min [m]
 ///   OwnGuardCount(mode), OwnGuard(mode, i), OwnGuards(mode, load, g), Pass(event, z)
 ///                           its own events between stance modes: guards, and their resets
@@ -44,6 +45,7 @@ class LeggedBody {
         liftoff_(liftoff),
         has_body_force_(effects.HasBodyForce()),
         has_chord_force_(effects.HasChordForce()),
+        extended_(p_.law_terms.active),
         leg_(p_),
         controller_(p_),
         y_min_(std::isnan(p_.fall_height) ? leg_.LowestHip() : T(p_.fall_height)) {}
@@ -61,11 +63,12 @@ class LeggedBody {
     T fx(0.0), fy(0.0);
     T contact_rate(0.0);
     if (mode != Mode::kFlight) {
-      const LegLoad<T> load = leg_.Load(mode, z);
+      const LegLoad<T> load = Load(mode, t, z);
       const Vector2<T> force = HipForce(load, z);
       fx = force.x;
       fy = force.y;
       contact_rate = load.contact_rate;
+      if (extended_) contact_rate -= load.slip_gain * p_.law_terms.foot_slip * force.x;  // M29
     }
     if (has_body_force_) {
       const Vector2<T> force = effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy]});
@@ -104,19 +107,19 @@ class LeggedBody {
     }
   }
   /// Guard functions, all crossing zero downward; the table of section 4.
-  void Guards(Mode mode, const T&, const T* z, T* g) const {
+  void Guards(Mode mode, const T& t, const T* z, T* g) const {
     if (mode == Mode::kFlight) {
       g[0] = z[kY] - TouchdownHeight(z);
       g[1] = z[kVy];
       return;
     }
-    const LegLoad<T> load = leg_.Load(mode, z);
+    const LegLoad<T> load = Load(mode, t, z);
     g[0] =
         liftoff_ == LiftoffRule::kZeroForce ? ChordForce(load) : T(leg_.RestChord(load) - load.l);
     leg_.OwnGuards(mode, load, g + 1);
     g += 1 + leg_.OwnGuardCount(mode);
     g[0] = z[kY] - y_min_;
-    g[1] = z[kY] / load.l - kFallCosine;
+    g[1] = load.y / load.l - kFallCosine;
     if (controller_.limited()) g[2] = controller_.Guard(z[kVx]);
   }
 
@@ -159,11 +162,11 @@ class LeggedBody {
 
   /// First step of a mode [s]: in stance a tenth of a radian of the undamped oscillation.
   double FirstStep(Mode mode, const T* z) const {
-    return mode == Mode::kFlight ? 0.01 : 0.1 * leg_.TimeScale(mode, z);
+    return mode == Mode::kFlight ? 0.01 : 0.1 * leg_.TimeScale(Load(mode, T(0.0), z));
   }
 
   /// What the sensors see, before the observation effects.
-  Observation<T> Observe(Mode mode, const T&, const T* z) const {
+  Observation<T> Observe(Mode mode, const T& t, const T* z) const {
     Observation<T> seen;
     seen[Channel::kBodyX] = z[kX];
     seen[Channel::kBodyY] = z[kY];
@@ -178,9 +181,9 @@ class LeggedBody {
         seen[c] = T(0.0);
       return seen;
     }
-    const LegLoad<T> load = leg_.Load(mode, z);
+    const LegLoad<T> load = Load(mode, t, z);
     const Vector2<T> force = HipForce(load, z);
-    seen[Channel::kLegAngle] = leg_.ShownAngle(mode, load, z);
+    seen[Channel::kLegAngle] = leg_.ShownAngle(mode, load);
     seen[Channel::kLegLength] = load.l;
     seen[Channel::kGroundForceX] = force.x;
     seen[Channel::kGroundForceY] = force.y;
@@ -189,22 +192,31 @@ class LeggedBody {
     return seen;
   }
 
-  /// Kinetic, potential and strain energy [J].
+  /// Kinetic, potential and strain energy [J]; the leg as stiff as at the start of the run.
   T Energy(Mode mode, const T* z) const {
     T energy = 0.5 * p_.m * (z[kVx] * z[kVx] + z[kVy] * z[kVy]) + p_.m * p_.g * z[kY];
-    if (mode != Mode::kFlight) energy += leg_.StrainEnergy(leg_.Load(mode, z));
-    return energy;
+    if (mode == Mode::kFlight) return energy;
+    const LegLoad<T> load = Load(mode, T(0.0), z);
+    if (extended_) return energy + leg_.extended().StrainEnergy(mode, load, Conditions(T(0.0), z));
+    return energy + leg_.StrainEnergy(load);
   }
   /// F C/l0 in stance, where the law is an expansion in it; else 0.
   double Flexure(Mode mode, const T* z) const {
     if constexpr (!LegT<T>::kIsExpansion) return 0.0;
-    return mode == Mode::kFlight ? 0.0 : leg_.Flexure(leg_.Load(mode, z));
+    return mode == Mode::kFlight ? 0.0 : leg_.Flexure(Load(mode, T(0.0), z));
   }
 
   const LegT<T>& leg() const { return leg_; }
   const SpeedController<T>& controller() const { return controller_; }
 
  private:
+  LegConditions<T> Conditions(const T& t, const T* z) const {
+    return {t, controller_.Torque(z[kVx])};
+  }
+  LegLoad<T> Load(Mode mode, const T& t, const T* z) const {
+    if (extended_) return leg_.extended().Load(mode, z, Conditions(t, z));
+    return leg_.Load(mode, z);
+  }
   T TouchdownAngle(const T* z) const { return effects_.TouchdownAngle(z[kVx], p_.theta_td); }
   T TouchdownHeight(const T* z) const { return leg_.TouchdownHeight(TouchdownAngle(z)); }
   T ChordForce(const LegLoad<T>& load) const {
@@ -227,13 +239,13 @@ class LeggedBody {
   Vector2<T> HipForce(const LegLoad<T>& load, const T* z) const {
     const T chord = ChordForce(load) / load.l;
     const T normal = controller_.Torque(z[kVx]) / (load.l * load.l);
-    return {normal * z[kY] - chord * load.u, chord * z[kY] + normal * load.u};
+    return {normal * load.y - chord * load.u, chord * load.y + normal * load.u};
   }
 
   Parameters<T> p_;
   ActiveEffects<T> effects_;
   LiftoffRule liftoff_;
-  bool has_body_force_, has_chord_force_;
+  bool has_body_force_, has_chord_force_, extended_;
   LegT<T> leg_;
   SpeedController<T> controller_;
   T y_min_;
