@@ -175,9 +175,12 @@ class LeggedBody {
     return {inertia_.gravity_x, inertia_.gravity_y, TouchdownHeight(z)};
   }
 
-  /// First step of a mode [s]: in stance a tenth of a radian of the undamped oscillation.
+  /// First step of a mode [s]: in stance a tenth of a radian of the undamped oscillation, and no
+  /// more than a lag of the torque.
   double FirstStep(Mode mode, const T* z) const {
-    return mode == Mode::kFlight ? 0.01 : 0.1 * leg_.TimeScale(mode, z);
+    if (mode == Mode::kFlight) return 0.01;
+    const double step = 0.1 * leg_.TimeScale(mode, z);
+    return kLagged ? std::min(step, Value(p_.torque_lag)) : step;
   }
 
   /// What the sensors see, before the observation effects.
