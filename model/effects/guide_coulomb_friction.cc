@@ -15,6 +15,7 @@ struct GuideCoulombFriction {
       .for_legs = true,
       .for_ball = false,
       .dissipative = true,
+      .sharp = true,
       .parameters = kParameters};
   static constexpr double kWidth = 0.02;  // m/s
 

@@ -17,6 +17,7 @@ struct HipCoulombFriction {
       .for_legs = true,
       .for_ball = false,
       .dissipative = true,
+      .sharp = true,
       .parameters = kParameters};
   static constexpr double kWidth = 0.5;  // rad/s
 

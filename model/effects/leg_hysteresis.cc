@@ -16,6 +16,7 @@ struct LegHysteresis {
                                        .for_legs = true,
                                        .for_ball = false,
                                        .dissipative = true,
+                                       .sharp = true,
                                        .parameters = kParameters};
   static constexpr double kWidth = 0.05;  // m/s
 

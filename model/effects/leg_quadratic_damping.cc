@@ -16,6 +16,7 @@ struct LegQuadraticDamping {
       .for_legs = true,
       .for_ball = false,
       .dissipative = true,
+      .sharp = true,
       .parameters = kParameters};
 
   template <class T>

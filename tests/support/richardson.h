@@ -20,7 +20,7 @@ struct DifferenceColumn {
 /// difference is, or their sizes differ.
 template <class Difference>
 DifferenceColumn RichardsonTable(const Difference& difference, double h, double base) {
-  constexpr int kLevels = 6;
+  constexpr int kLevels = 8;
   const auto norm_of_change = [](const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
@@ -44,7 +44,7 @@ DifferenceColumn RichardsonTable(const Difference& difference, double h, double 
       }
       const double error = std::max(norm_of_change(table[i][j], table[i][j - 1]),
                                     norm_of_change(table[i][j], table[i - 1][j - 1]));
-      if (error >= best.error_norm) continue;
+      if (!(error < best.error_norm)) continue;  // also NaN: a run that has ended before
       best = {table[i][j], std::vector<double>(size), error};
       for (std::size_t c = 0; c < size; ++c) {
         best.error[c] = std::max(std::abs(table[i][j][c] - table[i][j - 1][c]),
