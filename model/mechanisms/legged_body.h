@@ -20,6 +20,7 @@ inline constexpr double kFallCosine = 0.17364817766693041;
 /// lift-off, apex, falls, hip torque and body forces. What carries the body in stance is `Leg`:
 ///   Leg(parameters)
 ///   Land(theta, z)          touch-down at leg angle theta: sets the contact, gives the stance mode
+///   Settle(mode, z, conditions)  moves the contact of a landed leg that a torque bends
 ///   Load(mode, z)           LegLoad of a stance
 ///   RestChord(load)         chord length at which that leg carries nothing [m]
 ///   TouchdownHeight(theta)  height of the hip when a leg at that angle meets the ground [m]
@@ -46,6 +47,7 @@ class LeggedBody {
         has_body_force_(effects.HasBodyForce()),
         has_chord_force_(effects.HasChordForce()),
         extended_(p_.law_terms.active),
+        may_pull_(p_.law_terms.torque_active),
         leg_(p_),
         controller_(p_),
         y_min_(std::isnan(p_.fall_height) ? leg_.LowestHip() : T(p_.fall_height)) {}
@@ -94,7 +96,7 @@ class LeggedBody {
       return i == 0 ? GuardSpec{EventKind::kTouchdown, length} : GuardSpec{EventKind::kApex, 1.0};
     if (i == 0)
       return {EventKind::kLiftoff, liftoff_ == LiftoffRule::kZeroForce ? weight : length,
-              Outcome::kNoSupport};
+              may_pull_ ? std::nullopt : std::optional(Outcome::kNoSupport)};
     const int own = leg_.OwnGuardCount(mode);
     if (i <= own) return leg_.OwnGuard(mode, i - 1);
     switch (i - own) {
@@ -124,7 +126,7 @@ class LeggedBody {
   }
 
   /// Reset map of guard `i`, applied to `z` in place.
-  ResetResult Reset(Mode mode, int i, const T&, T* z) {
+  ResetResult Reset(Mode mode, int i, const T& t, T* z) {
     const EventKind event = Guard(mode, i).event;
     switch (event) {
       case EventKind::kTouchdown: {
@@ -132,7 +134,7 @@ class LeggedBody {
         const Mode stance = leg_.Land(theta, z);
         ApplyLanding(theta, z);
         controller_.Enter(Value(z[kVx]));
-        return {stance};
+        return {extended_ ? leg_.Settle(stance, z, Conditions(t, z)) : stance};
       }
       case EventKind::kLiftoff:
         z[kContact] = T(0.0);
@@ -246,6 +248,7 @@ class LeggedBody {
   ActiveEffects<T> effects_;
   LiftoffRule liftoff_;
   bool has_body_force_, has_chord_force_, extended_;
+  bool may_pull_;  // for a moment after touch-down, bent by the hip torque
   LegT<T> leg_;
   SpeedController<T> controller_;
   T y_min_;
