@@ -8,6 +8,7 @@
 #include "app/commands/compare.h"
 #include "app/commands/effects.h"
 #include "app/commands/fit.h"
+#include "app/commands/gait.h"
 #include "app/commands/generate.h"
 #include "app/commands/laws.h"
 #include "app/commands/simulate.h"
@@ -34,6 +35,7 @@ class CommandLine {
     AddCheckCommand(app_, invocation_);
     AddFitCommand(app_, invocation_);
     AddCompareCommand(app_, invocation_);
+    AddGaitCommand(app_, invocation_);
     AddSimulateCommand(app_, invocation_);
     AddGenerateCommand(app_, invocation_);
     AddLawsCommand(app_, invocation_);
