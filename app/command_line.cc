@@ -11,6 +11,7 @@
 #include "app/commands/gait.h"
 #include "app/commands/generate.h"
 #include "app/commands/laws.h"
+#include "app/commands/optimize.h"
 #include "app/commands/simulate.h"
 #include "app/commands/version.h"
 #include "app/run_record.h"
@@ -36,6 +37,7 @@ class CommandLine {
     AddFitCommand(app_, invocation_);
     AddCompareCommand(app_, invocation_);
     AddGaitCommand(app_, invocation_);
+    AddOptimizeCommand(app_, invocation_);
     AddSimulateCommand(app_, invocation_);
     AddGenerateCommand(app_, invocation_);
     AddLawsCommand(app_, invocation_);

@@ -326,6 +326,17 @@ Scenario ScenarioDocument::ReadAt(const Numbers& values, const std::string& plac
   return scenario;
 }
 
+std::optional<double> ScenarioDocument::NumberAt(std::string_view key) const {
+  const YamlNode* node = &root_;
+  while (node && !key.empty()) {
+    const std::size_t dot = key.find('.');
+    node = node->Find(key.substr(0, dot));
+    key = dot == key.npos ? std::string_view() : key.substr(dot + 1);
+  }
+  if (!node || node->kind != Kind::kScalar) return std::nullopt;
+  return ParseDouble(node->text);
+}
+
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<std::string>& set_options) {
   ScenarioDocument document = ScenarioDocument::FromFile(file);
