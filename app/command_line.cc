@@ -13,6 +13,7 @@
 #include "app/commands/laws.h"
 #include "app/commands/optimize.h"
 #include "app/commands/simulate.h"
+#include "app/commands/sweep.h"
 #include "app/commands/version.h"
 #include "app/run_record.h"
 #include "app/usage_error.h"
@@ -38,6 +39,7 @@ class CommandLine {
     AddCompareCommand(app_, invocation_);
     AddGaitCommand(app_, invocation_);
     AddOptimizeCommand(app_, invocation_);
+    AddSweepCommand(app_, invocation_);
     AddSimulateCommand(app_, invocation_);
     AddGenerateCommand(app_, invocation_);
     AddLawsCommand(app_, invocation_);

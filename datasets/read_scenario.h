@@ -40,6 +40,9 @@ class ScenarioDocument {
                   const std::string& place) const;
   /// The number that stands at a dotted key, unchecked; nothing where there is none.
   std::optional<double> NumberAt(std::string_view key) const;
+  /// What the file says of a single run, search, sweep and dataset blocks left out, one
+  /// `dotted.key=text` a line: equal for files that differ in layout and comments only.
+  std::string ResolvedText() const;
 
  private:
   explicit ScenarioDocument(YamlNode root) : root_(std::move(root)) {}
