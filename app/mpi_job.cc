@@ -6,6 +6,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
+#include <optional>
 #include <thread>
 
 namespace hoplab {
@@ -33,10 +34,24 @@ Message Receive(int from, int tag) {
   return message;
 }
 
-bool HasMessage() {
+// A message if one has come. Its sender may die before it has all of it across: then `stop` ends
+// the wait. `buffer` has to outlive that.
+std::optional<Message> TryReceive(std::string& buffer, const std::atomic<bool>* stop) {
   int waiting = 0;
-  MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &waiting, MPI_STATUS_IGNORE);
-  return waiting != 0;
+  MPI_Message handle = MPI_MESSAGE_NULL;
+  MPI_Status status;
+  MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &waiting, &handle, &status);
+  if (waiting == 0) return std::nullopt;
+  int bytes = 0;
+  MPI_Get_count(&status, MPI_CHAR, &bytes);
+  buffer.assign(static_cast<std::size_t>(bytes), 0);
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Imrecv(buffer.data(), bytes, MPI_CHAR, &handle, &request);
+  for (int done = 0; done == 0;) {
+    if (stop && *stop) return std::nullopt;
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+  }
+  return Message{status.MPI_SOURCE, status.MPI_TAG, buffer};
 }
 
 void Send(int to, int tag, const std::string& text) {
@@ -45,6 +60,19 @@ void Send(int to, int tag, const std::string& text) {
 
 void SendRows(int to, const std::vector<int>& rows) {
   MPI_Send(rows.data(), static_cast<int>(rows.size()), MPI_INT, to, kRows, MPI_COMM_WORLD);
+}
+
+// The same from rank 0 while others may die: false if `stop` ended the wait. `rows` has to outlive
+// that.
+bool TrySendRows(int to, const std::vector<int>& rows, const std::atomic<bool>* stop) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Isend(rows.data(), static_cast<int>(rows.size()), MPI_INT, to, kRows, MPI_COMM_WORLD,
+            &request);
+  for (int done = 0; done == 0;) {
+    if (stop && *stop) return false;
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+  }
+  return true;
 }
 
 std::vector<int> ReceiveRows() {
@@ -123,18 +151,18 @@ MpiJob::Served MpiJob::Serve(const std::vector<int>& rows, const Compute& comput
     const std::size_t chunk = std::min<std::size_t>(
         left,
         std::clamp<std::size_t>(left / (4 * static_cast<std::size_t>(size_)), 1, kLargestChunk));
-    const std::vector<int> given(rows.begin() + static_cast<std::ptrdiff_t>(next),
-                                 rows.begin() + static_cast<std::ptrdiff_t>(next + chunk));
+    outgoing_.assign(rows.begin() + static_cast<std::ptrdiff_t>(next),
+                     rows.begin() + static_cast<std::ptrdiff_t>(next + chunk));
     next += chunk;
-    served.lost[message.from].insert(given.begin(), given.end());
-    SendRows(message.from, given);
+    served.lost[message.from].insert(outgoing_.begin(), outgoing_.end());
+    TrySendRows(message.from, outgoing_, stop);
   };
   while (working > 0 || next < rows.size()) {
     if (stop && *stop) {
       served.stopped = true;
       return served;
     }
-    while (HasMessage()) answer(Receive(MPI_ANY_SOURCE, MPI_ANY_TAG));
+    while (const auto message = TryReceive(incoming_, stop)) answer(*message);
     if (next < rows.size()) {
       const int row = rows[next++];
       accept(row, compute(row));

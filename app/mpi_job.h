@@ -49,6 +49,9 @@ class MpiJob {
   void Dismiss();
   int rank_ = 0, size_ = 1;
   bool took_part_ = false;
+  // Messages that are on their way.
+  std::string incoming_;
+  std::vector<int> outgoing_;
 };
 
 }  // namespace hoplab

@@ -130,6 +130,8 @@ void SweepJournal::Add(int index, const SweepRow& row) {
   rows_[index] = std::move(RowOfLine(line, plan_)->second);
 }
 
+void SweepJournal::Note(const std::string& text) { Write("# " + text + "\n"); }
+
 std::vector<int> SweepJournal::Missing() const {
   std::vector<int> missing;
   for (std::size_t i = 0; i < rows_.size(); ++i) {

@@ -33,6 +33,8 @@ class SweepJournal {
   /// Adds a row; it is on its way to the disk when this returns. Throws InputError if it cannot be
   /// written.
   void Add(int index, const SweepRow& row);
+  /// Adds a line for who looks into the file: `# text`.
+  void Note(const std::string& text);
   const std::vector<std::optional<SweepRow>>& rows() const { return rows_; }
   std::vector<int> Missing() const;
   int done() const { return done_; }

@@ -92,12 +92,13 @@ void ComputeOnRanks(const SweepPlan& plan, SweepJournal& journal, MpiJob& job,
     const MpiJob::Served served = job.Serve(journal.Missing(), compute, accept, stop);
     if (!served.stopped) return;
     progress.Clear();
-    console.err << "hoplab sweep: stopped, as when a rank is lost; " << DoneText(journal, plan)
-                << " are kept in " << journal.file().string() << ", missing are "
-                << RangesText(journal.Missing()) << '\n';
-    if (const std::string lost = LostText(served); !lost.empty())
-      console.err << "of these " << lost << '\n';
-    console.err << "the same command computes what is missing" << std::endl;
+    std::string gap = "stopped, as when a rank is lost; " + DoneText(journal, plan) +
+                      " are kept in " + journal.file().string() + ", missing are " +
+                      RangesText(journal.Missing());
+    if (const std::string lost = LostText(served); !lost.empty()) gap += "; of these " + lost;
+    // The launcher may forward nothing any more: the journal says it, too.
+    journal.Note(gap);
+    console.err << "hoplab sweep: " << gap << "; the same command computes them" << std::endl;
     job.Abort(static_cast<int>(ExitCode::kInterrupted));
   } catch (const InputError& error) {
     progress.Clear();
@@ -119,13 +120,13 @@ ExitCode TellInterrupted(const SweepSettings& settings, const SweepPlan& plan,
 
 ExitCode Lead(const SweepSettings& settings, Console& console, MpiJob* job) {
   const auto begin = std::chrono::steady_clock::now();
+  const InterruptGuard interrupt;  // before there is anything to keep
   const SweepPlan plan = PlanOf(settings);
   RunFolderOptions place{std::nullopt, settings.force};
   if (!settings.out.empty()) place.out = settings.out;
   const RunFolder folder(place, plan.name(), "sweep");
   SweepJournal journal(folder.Partial(), plan, ProjectVersion(), settings.force);
 
-  const InterruptGuard interrupt;
   Progress progress(console, settings.quiet);
   progress.Stage("sweeping" + (journal.done() > 0 ? ", " + DoneText(journal, plan) + " stand in " +
                                                         journal.file().string()
