@@ -60,12 +60,18 @@ TEST_P(AgainstTheGrid, TheDefaultSearchIsNotWorseFromAnySeed) {
   const double grid = BestOfGrid(problem);
   std::printf("%s: best of %d x %d scores %.6f; %d evaluations a seed\n",
               std::string(NameOf(GetParam())).c_str(), kGrid, kGrid, grid, kBudget);
-  for (const SearchAlgorithm algorithm : {SearchAlgorithm::kDirectL, SearchAlgorithm::kCrs2,
-                                          SearchAlgorithm::kIsres, SearchAlgorithm::kRandom}) {
-    for (const double polish : {0.0, 0.3}) NotWorse(problem, grid, algorithm, polish);
-  }
   const GainSearchOptions defaults;
   EXPECT_EQ(NotWorse(problem, grid, defaults.algorithm, defaults.polish_share), kSeeds);
+}
+
+// The table of 0004-gain-search.md: ten minutes, run by --gtest_also_run_disabled_tests.
+TEST_P(AgainstTheGrid, DISABLED_EveryAlgorithmWithAndWithoutPolishing) {
+  const SearchProblem problem = GainProblem(GetParam());
+  const double grid = BestOfGrid(problem);
+  for (const std::string& name : SearchAlgorithmNames()) {
+    for (const double polish : {0.0, 0.3})
+      NotWorse(problem, grid, *FindSearchAlgorithm(name), polish);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Objectives, AgainstTheGrid,
