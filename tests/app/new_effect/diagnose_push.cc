@@ -1,6 +1,6 @@
 #include <iostream>
 
-#include "tests/support/diagnosis_cases.h"
+#include "tests/support/diagnosed_hops.h"
 
 // Makes traces with the effect `steady_push`, diagnoses them and prints verdict and group.
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/support/diagnosis_cases.h"
+#include "tests/support/diagnosed_hops.h"
 #include "tests/support/input_error_of.h"
 
 namespace hoplab {

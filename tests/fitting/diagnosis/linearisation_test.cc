@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "tests/support/diagnosis_cases.h"
+#include "tests/support/diagnosed_hops.h"
 #include "tests/support/richardson.h"
 #include "tests/support/tolerances.h"
 

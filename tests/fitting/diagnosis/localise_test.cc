@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-#include "tests/support/diagnosis_cases.h"
+#include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
 namespace {

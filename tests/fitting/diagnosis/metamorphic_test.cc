@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/diagnosis_cases.h"
+#include "tests/support/diagnosed_hops.h"
 
 // What does not change the physics must not change the diagnosis.
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/diagnosis_cases.h"
+#include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
 namespace {

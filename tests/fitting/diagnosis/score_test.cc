@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "tests/support/diagnosis_cases.h"
+#include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/diagnosis_cases.h"
+#include "tests/support/diagnosed_hops.h"
 #include "tests/support/input_error_of.h"
 
 // The whole pipeline, from a dataset to its verdict.
