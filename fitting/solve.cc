@@ -247,19 +247,45 @@ bool Usable(SolveStatus status) {
   return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit;
 }
 
-// `again` from where `best` ended; `best` becomes it if its cost is less. Whether it gained.
-bool Improve(const SolveRequest& again, SolveResult& best) {
+// Which of the values `on` a bound the cost would pull back inside, by its gradient at `at`.
+std::vector<int> PulledInside(const SolveRequest& request, const SolveResult& at,
+                              const std::vector<int>& on) {
+  SolveRequest there = request;
+  there.shared = at.shared;
+  there.starts = at.starts;
+  Evaluations evaluations(there);
+  evaluations.Run(true);
+  std::vector<int> inside;
+  for (int k : on) {
+    const SharedParameter& s = request.problem->shared[static_cast<std::size_t>(k)];
+    double gradient = 0.0;
+    for (std::size_t i = 0; i < request.trials->size(); ++i) {
+      const TrialEvaluation& e = evaluations.evaluation(static_cast<int>(i));
+      if (e.complete) gradient += e.jacobian.col(k).dot(e.residuals);
+    }
+    const bool on_lower = at.shared[k] <= s.lower + 1e-9 * s.scale;
+    if (on_lower ? gradient < 0.0 : gradient > 0.0) inside.push_back(k);
+  }
+  return inside;
+}
+
+// Goes on from where `best` ended with `held` values held; `best` becomes what comes out if its
+// cost is less. Whether it gained.
+bool GoOn(const SolveRequest& request, const std::vector<int>& held, SolveResult& best) {
   // Below this share of the cost a gain is the solver's own tolerance.
   constexpr double kGain = 1e-9;
-  SolveRequest request = again;
-  request.shared = best.shared;
-  request.starts = best.starts;
-  SolveResult next = SolveOnce(request);
-  if (!Usable(next.status) || !(next.cost < best.cost * (1.0 - kGain))) return false;
+  SolveRequest again = request;
+  again.held.insert(again.held.end(), held.begin(), held.end());
+  again.shared = best.shared;
+  again.starts = best.starts;
+  SolveResult next = SolveOnce(again);
+  if (!Usable(next.status)) return false;
+  const bool gained = next.cost < best.cost * (1.0 - kGain);
+  if (!(next.cost <= best.cost)) return false;
   next.iterations += best.iterations;
   for (const auto& [reason, count] : best.rejected) next.rejected[reason] += count;
   best = std::move(next);
-  return true;
+  return gained;
 }
 
 }  // namespace
@@ -281,19 +307,27 @@ std::string_view NameOf(SolveStatus status) {
 }
 
 SolveResult Solve(const SolveRequest& request) {
-  SolveResult best = SolveOnce(request);
-  // A trust region cut by a bound lets Ceres stop early: the step it would take is projected, and
-  // what is left of it gains little. So the rest is solved with what lies on a bound held there,
-  // then all of it is let go again, until neither gains.
-  constexpr int kMaxRounds = 5;
+  if (request.hold_shared) return SolveOnce(request);
+  // A trust region cut by a bound crawls: the step it would take is projected, and what is left of
+  // it gains little. So the first run is short; what lies on a bound then, and is not pulled back
+  // inside by the gradient, is held there while the rest is solved, until nothing changes.
+  constexpr int kFirstIterations = 15, kMaxRounds = 6;
+  SolveRequest first = request;
+  first.max_iterations = std::min(request.max_iterations, kFirstIterations);
+  SolveResult best = SolveOnce(first);
+  std::vector<int> held;
   for (int round = 0; round < kMaxRounds && Usable(best.status); ++round) {
-    if (request.hold_shared) break;
-    const std::vector<int> on = OnBounds(request, best);
-    if (on.empty()) break;
-    SolveRequest held = request;
-    held.held.insert(held.held.end(), on.begin(), on.end());
-    const bool rest_gained = Improve(held, best);
-    if (!Improve(request, best) && !rest_gained) break;
+    std::vector<int> on = OnBounds(request, best);
+    if (!on.empty()) {
+      const std::vector<int> inside = PulledInside(request, best, on);
+      std::erase_if(on, [&](int k) {
+        return std::find(inside.begin(), inside.end(), k) != inside.end();
+      });
+    }
+    const bool settled = best.status == SolveStatus::kConverged && on == held;
+    if (settled || request.max_iterations <= kFirstIterations) break;
+    held = on;
+    if (!GoOn(request, held, best) && best.status != SolveStatus::kConverged) break;
   }
   return best;
 }

@@ -159,6 +159,7 @@ TrialProblem CutTrial(const FitProblem& problem, const TrialProblem& trial, int 
   cut.row_times.assign(trial.row_times.begin() + first, trial.row_times.begin() + last);
   for (double& t : cut.row_times) t -= origin;
   cut.begin_s += origin;
+  cut.parameters.time_origin += origin;
   cut.data.assign(trial.data.begin() + static_cast<std::ptrdiff_t>(first * width),
                   trial.data.begin() + static_cast<std::ptrdiff_t>(last * width));
   cut.sample_count =

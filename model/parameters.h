@@ -16,6 +16,22 @@ enum class Law { kThesis, kNoSlip, kConsistent, kLargeDeflection, kStraightLeg, 
 /// What ends a stance: the chord force back at zero, or the chord back at its rest length.
 enum class LiftoffRule { kZeroForce, kRestLength };
 
+/// Terms of a leg law that only effects bring in (section "Effects" of the equation sheet). Each
+/// effect adds to its field and sets `active`: a flag, so that a run in double and in duals takes
+/// one branch. Not active: the plain laws, bit for bit.
+template <class T>
+struct LawTerms {
+  bool active = false;
+  bool rolling_active = false;
+  T hardening{0.0};          // beta [-]
+  T rolling{0.0};            // share of the other rolling law [-]
+  T tip{0.0};                // share of the tip's rotation [-]
+  T torque_bending{0.0};     // share of M24, M25 [-]
+  T stiffness_drift{0.0};    // gamma_E [1/s]
+  T ground_compliance{0.0};  // c_g [m/N]
+  T foot_slip{0.0};          // c_slip [m/(N s)]
+};
+
 /// Everything physical about one trial, in SI units and radians. Fields a mechanism does not use
 /// stay at their defaults. Differentiable fields are of type T.
 template <class T>
@@ -49,9 +65,11 @@ struct Parameters {
   T torque_lag{0.0};                  // time constant of the hip torque [s]
   T rest_length_step{0.0};            // growth of l0 at greatest compression [m]
   bool has_rest_length_step = false;  // greatest compression is an event
+  LawTerms<T> law_terms;
   // Settings without derivatives.
   double torque_limit = std::numeric_limits<double>::infinity();  // T_max [N m]
   double fall_height = std::numeric_limits<double>::quiet_NaN();  // y_min [m]; NaN: the default
+  double time_origin = 0.0;  // time of the run's start since the trial's first row [s]
 };
 
 /// The differentiable fields of `Parameters`, in a fixed order.

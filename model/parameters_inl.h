@@ -17,6 +17,17 @@ Parameters<To> ConvertParameters(const Parameters<From>& from) {
   to.torque_lag = To(Value(from.torque_lag));
   to.rest_length_step = To(Value(from.rest_length_step));
   to.has_rest_length_step = from.has_rest_length_step;
+  const LawTerms<From>& terms = from.law_terms;
+  to.law_terms.active = terms.active;
+  to.law_terms.rolling_active = terms.rolling_active;
+  to.law_terms.hardening = To(Value(terms.hardening));
+  to.law_terms.rolling = To(Value(terms.rolling));
+  to.law_terms.tip = To(Value(terms.tip));
+  to.law_terms.torque_bending = To(Value(terms.torque_bending));
+  to.law_terms.stiffness_drift = To(Value(terms.stiffness_drift));
+  to.law_terms.ground_compliance = To(Value(terms.ground_compliance));
+  to.law_terms.foot_slip = To(Value(terms.foot_slip));
+  to.time_origin = from.time_origin;
   to.torque_limit = from.torque_limit;
   to.fall_height = from.fall_height;
   return to;

@@ -166,8 +166,10 @@ Linearisation Linearise(const FitProblem& problem, int first_tested,
     at += n;
   }
   out.length = out.length.cwiseSqrt();
+  out.fitted_basis.resize(rows, 0);
   if (!fitted.empty() && rows > 0) {
-    const Eigen::MatrixXd Q = BasisOf(S);
+    out.fitted_basis = BasisOf(S);
+    const Eigen::MatrixXd& Q = out.fitted_basis;
     out.fitted_rank += static_cast<int>(Q.cols());
     out.leverage += Q.rowwise().squaredNorm();
     out.r -= Q * (Q.transpose() * out.r);

@@ -30,6 +30,8 @@ struct Linearisation {
   Eigen::MatrixXd columns;  // M s_j, per own unit of value j, one a tested value
   Eigen::VectorXd length;   // |s_j| before the projection
   std::vector<RowLabel> labels;
+  /// Orthonormal basis of what the fitted shared values explain beyond the starts.
+  Eigen::MatrixXd fitted_basis;
   Eigen::VectorXd leverage;  // share of each row the fitted values can explain, 0..1
   int fitted_rank = 0;       // dimensions projected out
   int samples = 0;           // rows that come from data

@@ -34,6 +34,11 @@ class Search {
   }
 
   Naming Run() {
+    if (options_.max_effects < 1) {
+      naming_.best = null_;
+      Judge({});
+      return std::move(naming_);
+    }
     RefitAll(Singles());
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
       CandidateResult& c = naming_.candidates[i];
@@ -98,14 +103,15 @@ class Search {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (candidates[i].parameter_count() != 1 || !naming_.candidates[i].separable) continue;
       for (const std::string& recording : recordings) {
-        // M applied to the cut column: the projection of a projected column's part, to first order
-        // its part itself (the fitted values are shared by all trials).
+        // Cut to one trial it stays orthogonal to every start; the shared values are taken out again.
         Eigen::VectorXd s = null_at_.columns.col(hypotheses[i].first);
         for (int row = 0; row < null_at_.rows(); ++row) {
           if (train_[null_at_.labels[row].trial].recording != recording) s[row] = 0.0;
         }
+        const double whole = s.squaredNorm();
+        s -= null_at_.fitted_basis * (null_at_.fitted_basis.transpose() * s);
         const double V = s.squaredNorm();
-        if (!(V > 0.0)) continue;
+        if (!(V > kInseparable * whole)) continue;
         const double z = -s.dot(null_at_.r) / std::sqrt(V);
         if (hypotheses[i].lower[0] >= 0.0 && z < 0.0) continue;
         locals.push_back({i, recording, 0.5 * z * z});

@@ -21,6 +21,7 @@ struct ArcRoot {
 template <class T, bool kSecondOrder>
 class ElasticArc {
  public:
+  static constexpr Law kLaw = kSecondOrder ? Law::kLargeDeflection : Law::kConsistent;
   static constexpr bool kIsExpansion = kSecondOrder;
 
   explicit ElasticArc(const Parameters<T>& p) : r_(p.r), compliance_(p) {
@@ -78,6 +79,7 @@ class ElasticArc {
       load.elastic_force = F + e.F_phi * shift;
     }
     load.u = u0 + r_ * load.phi;
+    load.y = y;
     using std::sqrt;
     load.l = sqrt(load.u * load.u + y * y);
     load.damping_rate = (y * z[kVy] - load.u * z[kVx]) / load.l;  // w = v_hip . e, M12
@@ -90,6 +92,7 @@ class ElasticArc {
     using std::sqrt;
     LegLoad<T> load;
     load.u = z[kContact] - z[kX];
+    load.y = z[kY];
     load.l = sqrt(load.u * load.u + z[kY] * z[kY]);
     load.phi = T(std::numbers::pi);
     const T delta = 2.0 * r_ - load.l;

@@ -13,6 +13,7 @@ namespace hoplab {
 template <class T, bool kNoSlip>
 class HalfCircle {
  public:
+  static constexpr Law kLaw = kNoSlip ? Law::kNoSlip : Law::kThesis;
   static constexpr bool kIsExpansion = false;
 
   explicit HalfCircle(const Parameters<T>& p) : parameters_(p), r_(p.r) {}
@@ -31,6 +32,7 @@ class HalfCircle {
     LegLoad<T> load;
     const T& y = z[kY];
     load.u = z[kContact] - z[kX];
+    load.y = z[kY];
     const T& u = load.u;
     load.l = sqrt(u * u + y * y);
     const T cos_alpha = y / load.l;
@@ -50,6 +52,7 @@ class HalfCircle {
     using std::sqrt;
     LegLoad<T> load;
     load.u = z[kContact] - z[kX];
+    load.y = z[kY];
     load.l = sqrt(load.u * load.u + z[kY] * z[kY]);
     load.phi = T(std::numbers::pi);
     load.elastic_force = (2.0 * r_ - load.l) / Compliance(load.phi, 0.5 * load.l);

@@ -9,11 +9,22 @@ namespace hoplab {
 template <class T>
 struct LegLoad {
   T u;              // contact lead x_c - x [m]
+  T y;              // height of the hip over the contact [m]: y, unless the ground gives way
   T l;              // chord length [m]
   T phi;            // contact arc [rad]; pi in toe stance
   T elastic_force;  // F_el along the chord [N], positive pushes the hip away from the contact
   T damping_rate;   // rate the damper sees [m/s], positive while lengthening
   T contact_rate;   // rate of the contact coordinate (state 4) [m/s]
+  // Of a leg with active law terms only.
+  T slip_gain;  // d contact_rate/d slip, slip being the rate at which the foot creeps [-]
+  T tip_miss;   // toe stance: u/l less the right side of M10 at phi = pi [-]
+};
+
+/// What besides the state decides the load of a leg with active law terms.
+template <class T>
+struct LegConditions {
+  T time;    // since the start of the run [s]
+  T torque;  // of the hip [N m]
 };
 
 /// State of a legged body: hip position and velocity, and the contact coordinate. The contact

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/laws/extended_leg.h"
 #include "model/leg_compliance.h"
 #include "model/mechanisms/legged_body.h"
 
@@ -17,16 +18,18 @@ class CLeg {
   static constexpr double kFallArc = 0.2;  // rad
   static constexpr bool kIsExpansion = LawT<T>::kIsExpansion;
 
-  explicit CLeg(const Parameters<T>& p) : m_(Value(p.m)), r_(p.r), compliance_(p), law_(p) {}
+  explicit CLeg(const Parameters<T>& p)
+      : m_(Value(p.m)), r_(p.r), compliance_(p), law_(p), extended_(p, LawT<T>::kLaw) {}
 
   template <class Other>
   void CopyHidden(const Other& other) {
     law_.CopyRoot(other.law());
+    extended_.CopyRoot(other.extended());
   }
   /// The arc is searched from its unloaded geometry, y = r (1 - cos phi).
   void StartSearch(Mode mode, const double* z) {
-    if (mode == Mode::kRolling)
-      law_.StartRootAt(std::acos(std::clamp(1.0 - z[kY] / Value(r_), -1.0, 1.0)));
+    if (mode != Mode::kRolling) return StartRootAt(std::numbers::pi);
+    StartRootAt(std::acos(std::clamp(1.0 - z[kY] / Value(r_), -1.0, 1.0)));
   }
 
   T TouchdownHeight(const T& theta) const {
@@ -40,11 +43,12 @@ class CLeg {
     using std::sin;
     if (Value(theta) <= 0.0) {
       z[kContact] = z[kX] + 2.0 * r_ * sin(theta);
+      StartRootAt(std::numbers::pi);
       return Mode::kToe;
     }
     const T phi = std::numbers::pi - theta;
     z[kContact] = law_.ContactCoordinate(z[kX] + r_ * sin(theta), phi);
-    law_.StartRootAt(Value(phi));
+    StartRootAt(Value(phi));
     return Mode::kRolling;
   }
   LegLoad<T> Load(Mode mode, const T* z) const {
@@ -61,22 +65,26 @@ class CLeg {
     return {mode == Mode::kRolling ? EventKind::kRollingToToe : EventKind::kToeToRolling, 1.0};
   }
   void OwnGuards(Mode mode, const LegLoad<T>& load, T* g) const {
-    g[0] = mode == Mode::kRolling ? law_.RollingToToe(load) : law_.ToeToRolling(load);
+    if (mode == Mode::kRolling)
+      g[0] = law_.RollingToToe(load);
+    else
+      g[0] = extended_.active() ? T(-load.tip_miss) : law_.ToeToRolling(load);
     if (mode == Mode::kRolling) g[1] = load.phi - kFallArc;
   }
   Mode Pass(EventKind event, T* z) {
     if (event == EventKind::kRollingToToe) {
       z[kContact] = law_.ToePosition(z[kContact]);
+      StartRootAt(std::numbers::pi);
       return Mode::kToe;
     }
     z[kContact] = law_.ContactCoordinate(z[kContact], T(std::numbers::pi));
-    law_.StartRootAt(std::numbers::pi);
+    StartRootAt(std::numbers::pi);
     return Mode::kRolling;
   }
 
-  T ShownAngle(Mode mode, const LegLoad<T>& load, const T* z) const {
+  T ShownAngle(Mode mode, const LegLoad<T>& load) const {
     using std::atan2;
-    return mode == Mode::kRolling ? T(std::numbers::pi - load.phi) : T(atan2(load.u, z[kY]));
+    return mode == Mode::kRolling ? T(std::numbers::pi - load.phi) : T(atan2(load.u, load.y));
   }
   T ShownLength(const T& theta) const {
     using std::cos;
@@ -88,17 +96,25 @@ class CLeg {
   double Size() const { return Value(r_); }
   T LowestHip() const { return 0.5 * r_; }
   /// sqrt(m C) [s].
-  double TimeScale(Mode mode, const T* z) const {
-    return std::sqrt(m_ * Value(compliance_.Chord(Value(Load(mode, z).phi))));
+  double TimeScale(const LegLoad<T>& load) const {
+    return std::sqrt(m_ * Value(compliance_.Chord(Value(load.phi))));
   }
 
   const LawT<T>& law() const { return law_; }
+  /// The same leg with the terms that effects bring into its law.
+  const ExtendedLeg<T>& extended() const { return extended_; }
 
  private:
+  void StartRootAt(double phi) {
+    law_.StartRootAt(phi);
+    extended_.StartRootAt(phi);
+  }
+
   double m_;
   T r_;
   LegCompliance<T> compliance_;
   LawT<T> law_;
+  ExtendedLeg<T> extended_;
 };
 
 }  // namespace hoplab

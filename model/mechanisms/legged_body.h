@@ -26,8 +26,9 @@ inline constexpr double kFallCosine = 0.17364817766693041;
 ///   TouchdownHeight(theta)  height of the hip when a leg at that angle meets the ground [m]
 ///   ChordAngle(theta)       chord angle from the vertical at touch-down [rad]
 ///   Stiffness(load)         small-load chord stiffness there [N/m]
-///   ShownAngle(mode, load, z), ShownLength(theta)  leg angle in stance, leg length in flight
-///   StrainEnergy(load), Flexure(load), TimeScale(mode, z)
+///   ShownAngle(mode, load), ShownLength(theta)  leg angle in stance, leg length in flight
+///   StrainEnergy(load), Flexure(load), TimeScale(load)
+///   extended()              the same leg where an effect adds to its law: Load, StrainEnergy
 ///   Size(), LowestHip()     a length of it; the default y_min [m]
 ///   OwnGuardCount(mode), OwnGuard(mode, i), OwnGuards(mode, load, g), Pass(event, z)
 ///                           its own events between stance modes: guards, and their resets
@@ -52,6 +53,7 @@ class LeggedBody {
         // The touch-down angle moves in flight if it depends on a speed that does.
         flies_freely_(!has_body_force_ &&
                       (IsZero(parameters.slope) || !effects.HasTouchdownAngle())),
+        extended_(p_.law_terms.active),
         inertia_(p_),
         leg_(p_),
         controller_(p_),
@@ -70,11 +72,12 @@ class LeggedBody {
     T fx(0.0), fy(0.0);
     T contact_rate(0.0);
     if (mode != Mode::kFlight) {
-      const LegLoad<T> load = leg_.Load(mode, z);
-      const Vector2<T> force = HipForce(load, HipTorque(mode, load, t, z), z);
+      const LegLoad<T> load = Load(mode, t, z);
+      const Vector2<T> force = HipForce(load, HipTorque(mode, load, t, z));
       fx = force.x;
       fy = force.y;
       contact_rate = load.contact_rate;
+      if (extended_) contact_rate -= load.slip_gain * p_.law_terms.foot_slip * force.x;  // M29
     }
     if (has_body_force_) {
       const Vector2<T> force = BodyForce(mode, t, z);
@@ -118,19 +121,19 @@ class LeggedBody {
     }
   }
   /// Guard functions, all crossing zero downward; the table of section 4.
-  void Guards(Mode mode, const T&, const T* z, T* g) const {
+  void Guards(Mode mode, const T& t, const T* z, T* g) const {
     if (mode == Mode::kFlight) {
       g[0] = z[kY] - TouchdownHeight(z);
       g[1] = z[kVy];
       return;
     }
-    const LegLoad<T> load = leg_.Load(mode, z);
+    const LegLoad<T> load = Load(mode, t, z);
     g[0] =
         liftoff_ == LiftoffRule::kZeroForce ? ChordForce(load) : T(leg_.RestChord(load) - load.l);
     leg_.OwnGuards(mode, load, g + 1);
     g += 1 + leg_.OwnGuardCount(mode);
     g[0] = z[kY] - y_min_;
-    g[1] = z[kY] / load.l - kFallCosine;
+    g[1] = load.y / load.l - kFallCosine;
     if (controller_.limited()) g[2] = controller_.Guard(z[kVx]);
   }
 
@@ -177,7 +180,7 @@ class LeggedBody {
 
   /// First step of a mode [s]: in stance a tenth of a radian of the undamped oscillation.
   double FirstStep(Mode mode, const T* z) const {
-    return mode == Mode::kFlight ? 0.01 : 0.1 * leg_.TimeScale(mode, z);
+    return mode == Mode::kFlight ? 0.01 : 0.1 * leg_.TimeScale(Load(mode, T(0.0), z));
   }
 
   /// What the sensors see, before the observation effects.
@@ -196,10 +199,10 @@ class LeggedBody {
         seen[c] = T(0.0);
       return seen;
     }
-    const LegLoad<T> load = leg_.Load(mode, z);
+    const LegLoad<T> load = Load(mode, t, z);
     const T torque = HipTorque(mode, load, t, z);
-    const Vector2<T> force = HipForce(load, torque, z);
-    seen[Channel::kLegAngle] = leg_.ShownAngle(mode, load, z);
+    const Vector2<T> force = HipForce(load, torque);
+    seen[Channel::kLegAngle] = leg_.ShownAngle(mode, load);
     seen[Channel::kLegLength] = load.l;
     seen[Channel::kGroundForceX] = force.x;
     seen[Channel::kGroundForceY] = force.y;
@@ -208,22 +211,35 @@ class LeggedBody {
     return seen;
   }
 
-  /// Kinetic, potential and strain energy [J].
+  /// Kinetic, potential and strain energy [J]; the leg as stiff as at the start of the run.
   T Energy(Mode mode, const T* z) const {
-    T energy = inertia_.Energy(z);
-    if (mode != Mode::kFlight) energy += leg_.StrainEnergy(leg_.Load(mode, z));
-    return energy;
+    const T energy = inertia_.Energy(z);
+    if (mode == Mode::kFlight) return energy;
+    const LegLoad<T> load = Load(mode, T(0.0), z);
+    if (extended_) return energy + leg_.extended().StrainEnergy(mode, load, Conditions(mode, T(0.0), z));
+    return energy + leg_.StrainEnergy(load);
   }
   /// F C/l0 in stance, where the law is an expansion in it; else 0.
   double Flexure(Mode mode, const T* z) const {
     if constexpr (!LegT<T>::kIsExpansion) return 0.0;
-    return mode == Mode::kFlight ? 0.0 : leg_.Flexure(leg_.Load(mode, z));
+    return mode == Mode::kFlight ? 0.0 : leg_.Flexure(Load(mode, T(0.0), z));
   }
 
   const LegT<T>& leg() const { return leg_; }
   const SpeedController<T>& controller() const { return controller_; }
 
  private:
+  // What the leg's law must know beyond the state. The torque that bends the leg is taken at the
+  // load the law would give without it: only hip friction depends on that load.
+  LegConditions<T> Conditions(Mode mode, const T& t, const T* z) const {
+    T torque = MotorTorque(z);
+    if (has_hip_torque_) torque = WithTorqueEffects(torque, leg_.Load(mode, z), t, z);
+    return {t, torque};
+  }
+  LegLoad<T> Load(Mode mode, const T& t, const T* z) const {
+    if (extended_) return leg_.extended().Load(mode, z, Conditions(mode, t, z));
+    return leg_.Load(mode, z);
+  }
   T TouchdownAngle(const T* z) const {
     return effects_.TouchdownAngle(z[kVx], p_.theta_td) - p_.slope;
   }
@@ -242,21 +258,25 @@ class LeggedBody {
     }
     return force;
   }
+  // What the motor gives, M15, lagged by a state of its own if it lags.
+  T MotorTorque(const T* z) const {
+    if constexpr (kLagged) return z[kMotorTorque];
+    return controller_.Torque(z[kVx]);
+  }
   // Torque on the hip: the motor's, and what effects add.
   T HipTorque(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const {
-    if constexpr (kLagged) return WithTorqueEffects(z[kMotorTorque], load, t, z);
-    const T commanded = controller_.Torque(z[kVx]);
+    const T commanded = MotorTorque(z);
     if (!has_quick_lag_) return WithTorqueEffects(commanded, load, t, z);
     // A lag too short to integrate, to its first order: T_cmd - t_lag dT_cmd/dt.
-    T fx = HipForce(load, WithTorqueEffects(commanded, load, t, z), z).x;
+    T fx = HipForce(load, WithTorqueEffects(commanded, load, t, z)).x;
     if (has_body_force_) fx += BodyForce(mode, t, z).x;
     const T rate = controller_.TorqueRate(fx / inertia_.mx + inertia_.gravity_x);
     return WithTorqueEffects(commanded - p_.torque_lag * rate, load, t, z);
   }
   T WithTorqueEffects(T torque, const LegLoad<T>& load, const T& t, const T* z) const {
     if (!has_hip_torque_) return torque;
-    const T rate = -(z[kY] * z[kVx] + load.u * z[kVy]) / (load.l * load.l);
-    const HipMotion<T> hip{torque, rate, t, z[kVx]};
+    const T rate = -(load.y * z[kVx] + load.u * z[kVy]) / (load.l * load.l);
+    const HipMotion<T> hip{torque, rate, t, z[kVx], load.u / load.l};
     effects_.AddHipTorque(hip, torque);
     return torque;
   }
@@ -273,21 +293,21 @@ class LeggedBody {
   // What a lift-off does to it.
   void ApplyLiftoff(const LegLoad<T>& load, T* z) const {
     Vector2<T> velocity{z[kVx], z[kVy]};
-    effects_.ChangeLiftoffVelocity({{-load.u / load.l, z[kY] / load.l}}, velocity);
+    effects_.ChangeLiftoffVelocity({{-load.u / load.l, load.y / load.l}}, velocity);
     z[kVx] = velocity.x;
     z[kVy] = velocity.y;
   }
   // F e + (T/l) n, the bracket of M13 and M14; by reaction, the ground's force on the leg.
-  Vector2<T> HipForce(const LegLoad<T>& load, const T& torque, const T* z) const {
+  Vector2<T> HipForce(const LegLoad<T>& load, const T& torque) const {
     const T chord = ChordForce(load) / load.l;
     const T normal = torque / (load.l * load.l);
-    return {normal * z[kY] - chord * load.u, chord * z[kY] + normal * load.u};
+    return {normal * load.y - chord * load.u, chord * load.y + normal * load.u};
   }
 
   Parameters<T> p_;
   ActiveEffects<T> effects_;
   LiftoffRule liftoff_;
-  bool has_body_force_, has_chord_force_, has_hip_torque_, has_quick_lag_, flies_freely_;
+  bool has_body_force_, has_chord_force_, has_hip_torque_, has_quick_lag_, flies_freely_, extended_;
   Inertia<T> inertia_;
   LegT<T> leg_;
   SpeedController<T> controller_;

@@ -91,6 +91,8 @@ TEST(EffectOffNull, ChangesTheSamples) {
     SimulationRequest q = RequestOf(law);
     const std::vector<double> times = {0.05, law == Law::kStraightLeg ? 0.3 : 0.14};  // in stance
     q.row_times = times;
+    q.parameters.kp = 0.6;  // so that what needs a hip torque has one
+    q.parameters.v_des = 1.6;
     const Trajectory without = Simulate(q);
     for (const Effect* effect : AllEffects()) {
       if (!AppliesTo(*effect, law)) continue;

@@ -39,4 +39,26 @@ PressedArc SolvePressedArc(double arc, double radius, double EI, double F) {
   return {2.0 * radius * Middle(arc, load, end_angle)[0], end_angle};
 }
 
+PressedArc SolveHeldArc(double arc, double radius, double EI, double F, double N) {
+  namespace odeint = boost::numeric::odeint;
+  const double press = F * radius * radius / EI, across = N * radius * radius / EI;
+  // From the free end to the held one, which is to lie on the chord.
+  const auto end = [&](double end_angle) {
+    State s = {0.0, 0.0, end_angle};
+    const auto rate = [&](const State& at, State& d, double) {
+      d = {std::cos(at[2]), std::sin(at[2]), -(1.0 + press * at[1] + across * at[0])};
+    };
+    constexpr int kSteps = 120;
+    odeint::integrate_n_steps(odeint::runge_kutta_fehlberg78<State>(), rate, s, 0.0, arc / kSteps,
+                              kSteps);
+    return s;
+  };
+  std::uintmax_t rounds = 200;
+  const auto bracket = boost::math::tools::toms748_solve(
+      [&](double angle) { return end(angle)[1]; }, 0.5 * arc - 0.3, 0.5 * arc + 0.6,
+      boost::math::tools::eps_tolerance<double>(52), rounds);
+  const double end_angle = 0.5 * (bracket.first + bracket.second);
+  return {radius * end(end_angle)[0], end_angle};
+}
+
 }  // namespace hoplab::testing

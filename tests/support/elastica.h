@@ -13,4 +13,9 @@ struct PressedArc {
 /// pressing the ends together. Accurate to about 1e-13 of the length.
 PressedArc SolvePressedArc(double arc, double radius, double EI, double F);
 
+/// The same with one end held by a couple: besides `F` along the chord a force `N` [N] across it
+/// acts on the free-turning end, positive where it closes the arc further; the couple at the other
+/// end is N times the chord. `end_angle` is that at the free-turning end.
+PressedArc SolveHeldArc(double arc, double radius, double EI, double F, double N);
+
 }  // namespace hoplab::testing

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <limits>
+
+#include "model/hybrid/automaton.h"
+#include "model/laws/leg_load.h"
+#include "model/parameters.h"
+
+namespace hoplab {
+
+/// A solution of the statics of an extended leg, with its slopes in u0 = z[contact] - z[x] and y:
+/// where the next search starts. u0 is NaN when only phi (and nearly sink) is known.
+struct ExtendedRoot {
+  double phi = 0.0;
+  double sink = 0.0;  // of the ground under the foot [m]
+  double u0 = std::numeric_limits<double>::quiet_NaN(), y = 0.0;
+  double phi_u0 = 0.0, phi_y = 0.0, sink_u0 = 0.0, sink_y = 0.0;
+};
+
+/// Any leg law with the terms effects bring into it (`LawTerms`; M24-M29 and the table of effects).
+/// It knows all laws at once, so that what blends between two of them has one place, and it is
+/// slower than the plain ones in `half_circle.h`, `elastic_arc.h` and `straight_leg.h`, which it
+/// equals to rounding with all terms null.
+///
+/// Two unknowns, the contact arc phi and the height Y of the hip over the contact: the tangent at
+/// the contact stays on the ground (M10), and the ground sinks under the load (M28). Newton in
+/// doubles; derivatives by the implicit function theorem.
+template <class T>
+class ExtendedLeg {
+ public:
+  ExtendedLeg(const Parameters<T>& parameters, Law law)
+      : p_(parameters),
+        values_(active() ? ConvertParameters<double>(parameters) : Parameters<double>()),
+        law_(law) {}
+
+  /// Whether any term is there: else this class is not asked.
+  bool active() const { return p_.law_terms.active; }
+
+  void StartRootAt(double phi) { root_ = ExtendedRoot{.phi = phi, .sink = root_.sink}; }
+  template <class Other>
+  void CopyRoot(const Other& other) {
+    root_ = other.root();
+  }
+
+  /// What the leg carries. All fields NaN where no equilibrium is found.
+  LegLoad<T> Load(Mode mode, const T* z, const LegConditions<T>& at) const;
+
+  /// What leg and ground hold at a load that came from here [J]: with F^2 C/2 + 2 F^3 A2/3 of M24
+  /// (k delta^2/2 + k beta delta^3/(3 r) where the law is a spring), c_g F_y^2/2 of M28. What the
+  /// hip torque's own bending holds is not in it.
+  T StrainEnergy(Mode mode, const LegLoad<T>& load, const LegConditions<T>& at) const;
+
+  const ExtendedRoot& root() const { return root_; }
+
+ private:
+  Parameters<T> p_;
+  Parameters<double> values_;
+  Law law_;
+  mutable ExtendedRoot root_;
+};
+
+}  // namespace hoplab
