@@ -6,8 +6,34 @@
 namespace hoplab {
 namespace {
 
-// A delay reads rows beyond the last stamp; no effect shifts time by more.
-constexpr double kHorizonMargin = 0.11;  // s
+// A contact time may be simulated somewhat after the last stamp.
+constexpr double kContactMargin = 0.11;  // s
+// Beyond the last reading, so that it never lies on the horizon itself.
+constexpr double kReadingMargin = 0.01;  // s
+
+// The latest a row stamped `last` may be read, whatever values within their bounds the effects that
+// shift time (a delay, a clock) come to have.
+double LatestReading(std::span<const EffectSetting> settings, double last) {
+  std::vector<const Effect*> effects;
+  for (const EffectSetting& s : settings) {
+    if (s.effect->hooks0.change_observation_time) effects.push_back(s.effect);
+  }
+  if (effects.empty()) return last;
+  std::stable_sort(effects.begin(), effects.end(),
+                   [](const Effect* a, const Effect* b) { return a->info.order < b->info.order; });
+  for (const Effect* effect : effects) {
+    double at_lower = last, at_upper = last;
+    std::array<double, kMaxEffectParameters> lower{}, upper{};
+    for (std::size_t i = 0; i < effect->info.parameters.size(); ++i) {
+      lower[i] = effect->info.parameters[i].lower;
+      upper[i] = effect->info.parameters[i].upper;
+    }
+    effect->hooks0.change_observation_time(lower.data(), at_lower);
+    effect->hooks0.change_observation_time(upper.data(), at_upper);
+    last = std::max({last, at_lower, at_upper});
+  }
+  return last + kReadingMargin;
+}
 
 // Event times of one kind, with their place in the trajectory.
 struct EventTime {
@@ -63,10 +89,8 @@ TrialEvaluator::TrialEvaluator(const FitProblem& problem, const TrialProblem& tr
   for (const SharedParameter& s : problem.shared) directions_.push_back(s.direction);
   for (int i = 0; i < 4; ++i) directions_.push_back(SensitivityDirection::InitialState(i));
   horizon_ = trial.row_times.back();
-  const bool shifts_time = std::any_of(
-      problem.effects.begin(), problem.effects.end(),
-      [](const EffectSetting& e) { return e.effect->hooks0.change_observation_time != nullptr; });
-  if (shifts_time || problem.uses_contact) horizon_ += kHorizonMargin;
+  if (problem.uses_contact) horizon_ += kContactMargin;
+  horizon_ = std::max(horizon_, LatestReading(problem.effects, trial.row_times.back()));
   residual_count_ = static_cast<int>(trial.sample_count);
   for (double sigma : trial.prior_sigma) residual_count_ += std::isfinite(sigma) ? 1 : 0;
 }

@@ -36,6 +36,9 @@ struct EffectInfo {
   bool for_legs, for_ball;    // mechanisms it applies to
   bool dissipative;           // never creates energy
   int order = 0;              // effects on one hook act in this order, then as they were given
+  /// Its term turns over within a narrow band of speed. At null the state's steps do not see it, so
+  /// the sensitivities must steer the step too.
+  bool sharp = false;
   std::span<const EffectParameter> parameters;
   std::span<const Law> only_laws = {};  // of those mechanisms' laws; empty: all of them
 };
@@ -65,8 +68,8 @@ struct HipMotion {
   /// motion turns the leg with falling theta. Exact on the toe, on a straight leg and for an
   /// unloaded rolling leg; the power of a torque T on the body is -T rate under every law.
   T rate;
-  T t;     // time since the first row [s]
-  T vx;    // [m/s]
+  T t;   // time since the first row [s]
+  T vx;  // [m/s]
   T lead;  // sine of the chord angle, u/l [-]
 };
 

@@ -15,6 +15,7 @@ struct SensorDelay {
       .for_legs = true,
       .for_ball = true,
       .dissipative = false,
+      .order = 2,
       .parameters = kParameters};
 
   template <class T>

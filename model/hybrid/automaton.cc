@@ -30,6 +30,8 @@ std::string_view NameOf(EventKind kind) {
       return "apex";
     case EventKind::kBounce:
       return "bounce";
+    case EventKind::kMaxCompression:
+      return "max_compression";
     case EventKind::kTorqueLimit:
       return "torque_limit";
     case EventKind::kFallHeight:

@@ -11,17 +11,18 @@ std::string_view NameOf(Mode mode);
 
 /// What happened when a guard crossed zero.
 enum class EventKind {
-  kTouchdown,     // flight -> rolling, toe or stance
-  kLiftoff,       // stance -> flight
-  kRollingToToe,  // the contact has run to the toe
-  kToeToRolling,  // the toe's arc lies down again
-  kApex,          // vy = 0 on the way down, in flight
-  kBounce,        // a ball meets the ground
-  kTorqueLimit,   // the hip torque meets or leaves its limit
-  kFallHeight,    // hip below y_min
-  kFallAngle,     // chord more than 80 deg from the vertical
-  kFallArc,       // contact arc below 0.2 rad: the hip rolls onto the ground
-  kSwitch         // mode change of a piecewise-smooth system without a leg
+  kTouchdown,       // flight -> rolling, toe or stance
+  kLiftoff,         // stance -> flight
+  kRollingToToe,    // the contact has run to the toe
+  kToeToRolling,    // the toe's arc lies down again
+  kApex,            // vy = 0 on the way down, in flight
+  kBounce,          // a ball meets the ground
+  kMaxCompression,  // the chord is at its shortest, where a leg changes there
+  kTorqueLimit,     // the hip torque meets or leaves its limit
+  kFallHeight,      // hip below y_min
+  kFallAngle,       // chord more than 80 deg from the vertical
+  kFallArc,         // contact arc below 0.2 rad: the hip rolls onto the ground
+  kSwitch           // mode change of a piecewise-smooth system without a leg
 };
 std::string_view NameOf(EventKind kind);
 

@@ -14,6 +14,7 @@ class GroundFrame {
  public:
   /// `slope` of the ground [rad], uphill forward.
   explicit GroundFrame(const T& slope) : slope_(slope), level_(IsZero(slope)) {
+    if (level_) return;
     using std::cos;
     using std::sin;
     cos_ = cos(slope);
@@ -52,7 +53,7 @@ class GroundFrame {
     x = turned;
   }
 
-  T slope_, cos_, sin_;
+  T slope_, cos_{1.0}, sin_{0.0};
   bool level_;
 };
 

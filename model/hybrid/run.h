@@ -145,8 +145,10 @@ void RunChunk(const SimulationRequest& request, int first, int count, Trajectory
   RowSink<T> sink(request, seeds.effects, frame, first, count, out);
   const RunSettings settings{request.horizon, request.max_hops, request.row_times,
                              request.channels};
-  Engine<System, T, Stepper, RowSink<T>> engine(system, value_system, rate_system,
-                                                request.integrator, settings, sink, record);
+  IntegratorOptions integrator = request.integrator;
+  integrator.control_sensitivities = seeds.effects.IsSharp();
+  Engine<System, T, Stepper, RowSink<T>> engine(system, value_system, rate_system, integrator,
+                                                settings, sink, record);
   std::array<T, System<T>::kDim> z;
   std::fill(z.begin(), z.end(), T(0.0));
   std::copy(seeds.initial.begin(), seeds.initial.end(), z.begin());

@@ -11,8 +11,8 @@
 namespace hoplab {
 
 /// Explicit Runge-Kutta method of order 8 (DOP853) on a vector of kSize doubles of which the first
-/// kControlled steer the step (the rest are sensitivities and follow). No heap, sizes known to the
-/// compiler. `Rhs` is called as rhs(t, y, dy).
+/// kControlled steer the step (the rest are sensitivities and follow, unless the options say that
+/// they steer it as well). No heap, sizes known to the compiler. `Rhs` is called as rhs(t, y, dy).
 ///
 /// Stepper interface, shared with the SUNDIALS steppers:
 ///   Start(t, y, first_step)  begins (again) at t; a negative first step integrates backward
@@ -123,10 +123,18 @@ class Dop853 {
     Combine<dop853::kStages>(h, y1_.data(), std::make_index_sequence<dop853::kStages>{});
   }
 
-  // Hairer's combination of the embedded errors of order 5 and 3.
   double Error(double h) const {
+    const double error = ErrorOf<0, kControlled>(h);
+    if constexpr (kSize > kControlled) {
+      if (options_.control_sensitivities) return std::fmax(error, ErrorOf<kControlled, kSize>(h));
+    }
+    return error;
+  }
+  // Hairer's combination of the embedded errors of order 5 and 3.
+  template <int kBegin, int kEnd>
+  double ErrorOf(double h) const {
     double error5 = 0.0, error3 = 0.0;
-    for (int i = 0; i < kControlled; ++i) {
+    for (int i = kBegin; i < kEnd; ++i) {
       double e5 = 0.0, e3 = 0.0;
       for (int s = 0; s < dop853::kStages; ++s) {
         e5 += dop853::kE5[s] * k_[s][i];
@@ -140,7 +148,7 @@ class Dop853 {
     }
     if (error5 == 0.0 && error3 == 0.0) return 0.0;
     const double norm = error5 + 0.01 * error3;
-    return std::abs(h) * error5 / std::sqrt(norm * kControlled);
+    return std::abs(h) * error5 / std::sqrt(norm * (kEnd - kBegin));
   }
 
   void PrepareDense() {

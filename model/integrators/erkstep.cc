@@ -29,19 +29,19 @@ struct ErkStepSolver::Memory {
     self->system.derivative(self->system.context, t, N_VGetArrayPointer(y), out);
     return std::isfinite(out[self->system.controlled - 1]) ? 0 : 1;  // 1: try a smaller step
   }
-  // Error weights of the state alone; the mean in the norm runs over the whole vector, hence the
-  // factor. Sensitivities follow the steps of the state.
+  // Error weights, as a rule of the state alone, sensitivities following its steps; the mean in the
+  // norm runs over the whole vector, hence the factor.
   static int Weights(N_Vector y, N_Vector weights, void* user) {
     const auto* self = static_cast<const Memory*>(user);
-    const double factor =
-        std::sqrt(static_cast<double>(self->system.size) / self->system.controlled);
+    const int controlled =
+        self->options.control_sensitivities ? self->system.size : self->system.controlled;
+    const double factor = std::sqrt(static_cast<double>(self->system.size) / controlled);
     const double* value = N_VGetArrayPointer(y);
     double* w = N_VGetArrayPointer(weights);
     for (int i = 0; i < self->system.size; ++i) {
-      w[i] = i < self->system.controlled
-                 ? factor / (self->options.absolute_tolerance +
-                             self->options.relative_tolerance * std::abs(value[i]))
-                 : 1e-300;
+      w[i] = i < controlled ? factor / (self->options.absolute_tolerance +
+                                        self->options.relative_tolerance * std::abs(value[i]))
+                            : 1e-300;
     }
     return 0;
   }

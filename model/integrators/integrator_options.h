@@ -15,11 +15,13 @@ std::string_view NameOf(IntegratorKind kind);
 std::optional<IntegratorKind> FindIntegrator(std::string_view name);
 
 /// Tolerances of one step: |error| <= absolute + relative |state| per component, root mean square
-/// over the state (m and m/s). Sensitivities follow the steps of the state.
+/// over the state (m and m/s). Sensitivities follow the steps of the state, unless they are
+/// controlled too: to the same tolerances, in units of their parameters.
 struct IntegratorOptions {
   IntegratorKind kind = IntegratorKind::kDop853;
   double relative_tolerance = 1e-9;
   double absolute_tolerance = 1e-10;
+  bool control_sensitivities = false;
 };
 
 /// What a step did.

@@ -50,6 +50,12 @@ class ExtendedLeg {
   /// hip torque's own bending holds is not in it.
   T StrainEnergy(Mode mode, const LegLoad<T>& load, const LegConditions<T>& at) const;
 
+  /// Rest length of a straight leg from here on [m].
+  void SetRestLength(const T& l0) {
+    p_.l0 = l0;
+    values_.l0 = Value(l0);
+  }
+
   const ExtendedRoot& root() const { return root_; }
 
  private:

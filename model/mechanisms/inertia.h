@@ -19,7 +19,9 @@ struct Inertia {
       : mx(p.m * (1.0 + p.inertia_x)), my(p.m * (1.0 + p.inertia_y)) {
     using std::cos;
     using std::sin;
-    const T along = p.g * sin(p.slope), down = p.g * cos(p.slope);
+    const bool level = IsZero(p.slope);
+    const T along = level ? T(0.0) : T(p.g * sin(p.slope));
+    const T down = level ? p.g : T(p.g * cos(p.slope));
     gravity_x = -along / (1.0 + p.inertia_x);
     gravity_y = -down / (1.0 + p.inertia_y);
     weight_along = p.m * along;

@@ -138,7 +138,7 @@ class LeggedBody {
   }
 
   /// Reset map of guard `i`, applied to `z` in place.
-  ResetResult Reset(Mode mode, int i, const T&, T* z) {
+  ResetResult Reset(Mode mode, int i, const T& t, T* z) {
     const EventKind event = Guard(mode, i).event;
     switch (event) {
       case EventKind::kTouchdown: {
@@ -150,7 +150,7 @@ class LeggedBody {
         return {stance};
       }
       case EventKind::kLiftoff:
-        if (effects_.HasLiftoffVelocity()) ApplyLiftoff(leg_.Load(mode, z), z);
+        if (effects_.HasLiftoffVelocity()) ApplyLiftoff(Load(mode, t, z), z);
         z[kContact] = T(0.0);
         if (Value(z[kVy]) <= 0.0 && Value(z[kY] - TouchdownHeight(z)) < 0.0)
           return {Mode::kFlight, Outcome::kFellNoReturn};
@@ -178,9 +178,12 @@ class LeggedBody {
     return {inertia_.gravity_x, inertia_.gravity_y, TouchdownHeight(z)};
   }
 
-  /// First step of a mode [s]: in stance a tenth of a radian of the undamped oscillation.
+  /// First step of a mode [s]: in stance a tenth of a radian of the undamped oscillation, and no
+  /// more than a lag of the torque.
   double FirstStep(Mode mode, const T* z) const {
-    return mode == Mode::kFlight ? 0.01 : 0.1 * leg_.TimeScale(Load(mode, T(0.0), z));
+    if (mode == Mode::kFlight) return 0.01;
+    const double step = 0.1 * leg_.TimeScale(Load(mode, T(0.0), z));
+    return kLagged ? std::min(step, Value(p_.torque_lag)) : step;
   }
 
   /// What the sensors see, before the observation effects.
@@ -216,7 +219,7 @@ class LeggedBody {
     const T energy = inertia_.Energy(z);
     if (mode == Mode::kFlight) return energy;
     const LegLoad<T> load = Load(mode, T(0.0), z);
-    if (extended_) return energy + leg_.extended().StrainEnergy(mode, load, Conditions(mode, T(0.0), z));
+    if (extended_) return energy + leg_.extended().StrainEnergy(mode, load, Conditions(T(0.0), z));
     return energy + leg_.StrainEnergy(load);
   }
   /// F C/l0 in stance, where the law is an expansion in it; else 0.
@@ -229,16 +232,21 @@ class LeggedBody {
   const SpeedController<T>& controller() const { return controller_; }
 
  private:
-  // What the leg's law must know beyond the state. The torque that bends the leg is taken at the
-  // load the law would give without it: only hip friction depends on that load.
-  LegConditions<T> Conditions(Mode mode, const T& t, const T* z) const {
+  // The torque that bends the leg; friction at the hip, which would have to know the load first, is
+  // not in it.
+  LegConditions<T> Conditions(const T& t, const T* z) const {
     T torque = MotorTorque(z);
-    if (has_hip_torque_) torque = WithTorqueEffects(torque, leg_.Load(mode, z), t, z);
+    if (has_hip_torque_) effects_.AddHipTorque({torque, T(0.0), t, z[kVx]}, torque);
     return {t, torque};
   }
   LegLoad<T> Load(Mode mode, const T& t, const T* z) const {
-    if (extended_) return leg_.extended().Load(mode, z, Conditions(mode, t, z));
+    if (extended_) return leg_.extended().Load(mode, z, Conditions(t, z));
     return leg_.Load(mode, z);
+  }
+  // What the motor gives: its command, or with a lag long enough to integrate a state.
+  T MotorTorque(const T* z) const {
+    if constexpr (kLagged) return z[kMotorTorque];
+    return controller_.Torque(z[kVx]);
   }
   T TouchdownAngle(const T* z) const {
     return effects_.TouchdownAngle(z[kVx], p_.theta_td) - p_.slope;
@@ -258,20 +266,15 @@ class LeggedBody {
     }
     return force;
   }
-  // What the motor gives, M15, lagged by a state of its own if it lags.
-  T MotorTorque(const T* z) const {
-    if constexpr (kLagged) return z[kMotorTorque];
-    return controller_.Torque(z[kVx]);
-  }
   // Torque on the hip: the motor's, and what effects add.
   T HipTorque(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const {
-    const T commanded = MotorTorque(z);
-    if (!has_quick_lag_) return WithTorqueEffects(commanded, load, t, z);
+    const T motor = MotorTorque(z);
+    if (!has_quick_lag_) return WithTorqueEffects(motor, load, t, z);
     // A lag too short to integrate, to its first order: T_cmd - t_lag dT_cmd/dt.
-    T fx = HipForce(load, WithTorqueEffects(commanded, load, t, z)).x;
+    T fx = HipForce(load, WithTorqueEffects(motor, load, t, z)).x;
     if (has_body_force_) fx += BodyForce(mode, t, z).x;
     const T rate = controller_.TorqueRate(fx / inertia_.mx + inertia_.gravity_x);
-    return WithTorqueEffects(commanded - p_.torque_lag * rate, load, t, z);
+    return WithTorqueEffects(motor - p_.torque_lag * rate, load, t, z);
   }
   T WithTorqueEffects(T torque, const LegLoad<T>& load, const T& t, const T* z) const {
     if (!has_hip_torque_) return torque;

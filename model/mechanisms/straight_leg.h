@@ -8,20 +8,32 @@
 namespace hoplab {
 
 /// The straight spring leg (thesis 4.3): F = k (l0 - l) - d dl/dt with the toe fixed in stance.
-/// Mode: stance. The contact coordinate is x_c.
+/// Mode: stance. The contact coordinate is x_c. Where the leg pushes (`rest_length_step`) its rest
+/// length is longer from greatest compression to lift-off: a discrete state.
 template <class T>
 class StraightSpring {
  public:
   static constexpr bool kIsExpansion = false;
 
   explicit StraightSpring(const Parameters<T>& p)
-      : m_(Value(p.m)), k_(p.k), l0_(p.l0), extended_(p, Law::kStraightLeg) {}
+      : m_(Value(p.m)),
+        k_(p.k),
+        l0_(p.l0),
+        pushed_length_(p.l0 + p.rest_length_step),
+        pushes_(p.has_rest_length_step),
+        extended_(p, Law::kStraightLeg) {}
 
   template <class Other>
   void CopyHidden(const Other& other) {
     extended_.CopyRoot(other.extended());
+    SetPushed(other.pushed());
   }
-  void StartSearch(Mode, const double*) { extended_.StartRootAt(0.0); }
+  /// A stance in which the chord lengthens has had its greatest compression.
+  void StartSearch(Mode mode, const double* z) {
+    extended_.StartRootAt(0.0);
+    SetPushed(pushes_ && mode == Mode::kStance &&
+              z[kY] * z[kVy] - (z[kContact] - z[kX]) * z[kVx] > 0.0);
+  }
 
   T TouchdownHeight(const T& theta) const {
     using std::cos;
@@ -31,6 +43,7 @@ class StraightSpring {
   T Stiffness(const LegLoad<T>&) const { return k_; }
   Mode Land(const T& theta, T* z) {
     using std::sin;
+    SetPushed(false);
     z[kContact] = z[kX] + l0_ * sin(theta);
     extended_.StartRootAt(0.0);
     return Mode::kStance;
@@ -42,18 +55,23 @@ class StraightSpring {
     load.y = z[kY];
     load.l = sqrt(load.u * load.u + z[kY] * z[kY]);
     load.phi = T(0.0);
-    load.elastic_force = k_ * (l0_ - load.l);
+    load.elastic_force = k_ * (RestLength() - load.l);
     load.damping_rate = (z[kY] * z[kVy] - load.u * z[kVx]) / load.l;
     load.contact_rate = T(0.0);
     return load;
   }
-  T RestChord(const LegLoad<T>&) const { return l0_; }
+  T RestChord(const LegLoad<T>&) const { return RestLength(); }
 
-  // One stance mode: nothing of its own to pass through.
-  int OwnGuardCount(Mode) const { return 0; }
-  GuardSpec OwnGuard(Mode, int) const { return {}; }
-  void OwnGuards(Mode, const LegLoad<T>&, T*) const {}
-  Mode Pass(EventKind, T*) const { return Mode::kStance; }
+  // Greatest compression, -dl/dt; watched only where the leg changes there.
+  int OwnGuardCount(Mode) const { return pushes_ && !pushed_ ? 1 : 0; }
+  GuardSpec OwnGuard(Mode, int) const { return {EventKind::kMaxCompression, 1.0}; }
+  void OwnGuards(Mode, const LegLoad<T>& load, T* g) const {
+    if (pushes_ && !pushed_) g[0] = -load.damping_rate;
+  }
+  Mode Pass(EventKind, T*) {
+    SetPushed(true);
+    return Mode::kStance;
+  }
 
   T ShownAngle(Mode, const LegLoad<T>& load) const {
     using std::atan2;
@@ -61,7 +79,9 @@ class StraightSpring {
   }
   T ShownLength(const T&) const { return l0_; }
 
-  T StrainEnergy(const LegLoad<T>& load) const { return 0.5 * load.elastic_force * (l0_ - load.l); }
+  T StrainEnergy(const LegLoad<T>& load) const {
+    return 0.5 * load.elastic_force * (RestLength() - load.l);
+  }
   double Flexure(const LegLoad<T>&) const { return 0.0; }
   double Size() const { return Value(l0_); }
   T LowestHip() const { return 0.25 * l0_; }
@@ -71,9 +91,19 @@ class StraightSpring {
   /// The same leg with the terms that effects bring into its law.
   const ExtendedLeg<T>& extended() const { return extended_; }
 
+  bool pushed() const { return pushed_; }
+
  private:
+  const T& RestLength() const { return pushed_ ? pushed_length_ : l0_; }
+  void SetPushed(bool pushed) {
+    if (pushed_ == pushed) return;
+    pushed_ = pushed;
+    extended_.SetRestLength(RestLength());
+  }
+
   double m_;
-  T k_, l0_;
+  T k_, l0_, pushed_length_;
+  bool pushes_, pushed_ = false;
   ExtendedLeg<T> extended_;
 };
 

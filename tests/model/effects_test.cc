@@ -6,15 +6,13 @@
 
 #include "model/effects/effect.h"
 #include "model/leg_compliance.h"
-#include "tests/support/requests.h"
+#include "tests/support/effect_requests.h"
 
 namespace hoplab {
 namespace {
 
 using namespace testing;
 
-constexpr std::array kAllLaws = {Law::kThesis,          Law::kNoSlip,      Law::kConsistent,
-                                 Law::kLargeDeflection, Law::kStraightLeg, Law::kBall};
 constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx, Channel::kBodyVy};
 
 SimulationRequest RequestOf(Law law) {
@@ -61,9 +59,10 @@ TEST(EffectRegistry, HoldsForEveryParameterANullInsideItsBoundsAndATypicalSize) 
 
 TEST(EffectAtNull, ChangesNothingBitForBit) {
   for (Law law : kAllLaws) {
-    SimulationRequest q = RequestOf(law);
+    SimulationRequest q = ExcitedRequest(law);
     const auto times = EvenTimes(0.5, 100);
     q.row_times = times;
+    q.channels = ChannelsOf(law);
     const Trajectory without = Simulate(q);
     for (const Effect* effect : AllEffects()) {
       if (!AppliesTo(*effect, law)) continue;
@@ -88,11 +87,10 @@ TEST(EffectAtNull, ChangesNothingBitForBit) {
 
 TEST(EffectOffNull, ChangesTheSamples) {
   for (Law law : kAllLaws) {
-    SimulationRequest q = RequestOf(law);
-    const std::vector<double> times = {0.05, law == Law::kStraightLeg ? 0.3 : 0.14};  // in stance
+    SimulationRequest q = ExcitedRequest(law);
+    const auto times = EvenTimes(1.0, 40);
     q.row_times = times;
-    q.parameters.kp = 0.6;  // so that what needs a hip torque has one
-    q.parameters.v_des = 1.6;
+    q.channels = kBody;
     const Trajectory without = Simulate(q);
     for (const Effect* effect : AllEffects()) {
       if (!AppliesTo(*effect, law)) continue;

@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <array>
 
+#include "tests/support/effect_requests.h"
 #include "tests/support/gradient_check.h"
-#include "tests/support/requests.h"
 
 namespace hoplab {
 namespace {
 
 using namespace testing;
 using D = SensitivityDirection;
-
-constexpr std::array kChannels = {
-    Channel::kBodyX,        Channel::kBodyY,        Channel::kBodyVx,
-    Channel::kBodyVy,       Channel::kLegAngle,     Channel::kLegLength,
-    Channel::kGroundForceX, Channel::kGroundForceY, Channel::kHipTorque};
 
 // A law driven through a sequence of events.
 struct Case {
@@ -121,11 +116,6 @@ double WorstError(const std::vector<ColumnCheck>& checks) {
   return worst;
 }
 
-std::vector<Channel> ChannelsOf(Law law) {
-  const std::size_t count = law == Law::kBall ? 4 : kChannels.size();
-  return {kChannels.begin(), kChannels.begin() + count};
-}
-
 class Gradient : public ::testing::TestWithParam<Case> {
  protected:
   // With rows over the whole run but none so near an event that the differences straddle it, and
@@ -137,18 +127,12 @@ class Gradient : public ::testing::TestWithParam<Case> {
     if (!GetParam().events.empty()) {
       ASSERT_EQ(EventNames(run), GetParam().events);
     }
-    for (double t : EvenTimes(run.end_time, 60)) {
-      const bool clear = std::none_of(run.events.begin(), run.events.end(),
-                                      [&](const Event& e) { return std::abs(e.time - t) < 0.008; });
-      if (clear && t < run.end_time - 0.01) times_.push_back(t);
-    }
-    channels_ = ChannelsOf(request_.law);
+    times_ = TimesClearOfEvents(run);
     request_.row_times = times_;
-    request_.channels = channels_;
+    request_.channels = ChannelsOf(request_.law);
   }
   SimulationRequest request_;
   std::vector<double> times_;
-  std::vector<Channel> channels_;
 };
 
 TEST_P(Gradient, OfEveryParameterAndInitialStateMatchesDifferences) {
@@ -206,9 +190,8 @@ TEST(GradientEffects, OfAllEffectsTogetherMatchesDifferences) {
   }
   for (const D& d : AllDirections(q.law)) directions.push_back(d);
   const auto times = std::vector<double>{0.02, 0.05, 0.09, 0.3};
-  const auto channels = ChannelsOf(q.law);
   q.row_times = times;
-  q.channels = channels;
+  q.channels = ChannelsOf(q.law);
   q.effects = effects;
   q.directions = directions;
   ExpectAllPass(CheckGradient(q));

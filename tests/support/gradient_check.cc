@@ -32,6 +32,12 @@ double SizeOf(const SimulationRequest& q, const SensitivityDirection& d) {
   return d.of == Of::kParameter && d.parameter == ParameterId::kThetaTd ? 0.2 : 1.0;
 }
 
+// Below its bound a parameter may mean nothing.
+bool AtLowerBound(const SimulationRequest& q, const SensitivityDirection& d) {
+  return d.of == Of::kEffect &&
+         ValueOf(q, d) <= q.effects[d.index].effect->info.parameters[d.component].lower;
+}
+
 struct Run {
   std::vector<double> all;  // samples | final state | event times
   std::string sequence;
@@ -50,7 +56,9 @@ Run RunAt(SimulationRequest q, const SensitivityDirection& d, double value) {
       break;
   }
   q.effects = effects;
-  q.directions = {};
+  // An effect at its null acts only while it is differentiated; its events are wanted too.
+  const bool at_null = d.of == Of::kEffect && effects[d.index].IsNull();
+  q.directions = at_null ? std::span(&d, 1) : std::span<const SensitivityDirection>{};
   const Trajectory t = Simulate(q);
   Run run;
   run.all = t.samples;
@@ -79,7 +87,8 @@ std::string NameOf(const SimulationRequest& q, const SensitivityDirection& d) {
     case Of::kInitialState:
       return std::string(kStates[d.index]) + "(0)";
     case Of::kEffect:
-      return std::string(q.effects[d.index].effect->info.name);
+      return std::string(q.effects[d.index].effect->info.name) + "." +
+             std::string(q.effects[d.index].effect->info.parameters[d.component].name);
   }
   return "";
 }
@@ -124,7 +133,9 @@ std::vector<ColumnCheck> CheckGradient(const SimulationRequest& request,
     bool same_sequence = false;
     for (int attempt = 0; attempt < 5; ++attempt, h *= 0.25) {
       changed = false;
-      const DifferenceColumn found = RichardsonDerivative(f, ValueOf(request, d), h);
+      const DifferenceColumn found = AtLowerBound(request, d)
+                                         ? RichardsonForward(f, ValueOf(request, d), h)
+                                         : RichardsonDerivative(f, ValueOf(request, d), h);
       if (changed || found.value.empty()) continue;
       if (!same_sequence || found.error_norm < oracle.error_norm) oracle = found;
       same_sequence = true;

@@ -1,0 +1,32 @@
+#include <array>
+
+#include "model/effects/effect.h"
+
+namespace hoplab {
+namespace {
+
+struct TorqueBias {
+  static constexpr std::array kParameters = {
+      EffectParameter{"tau_0", "N m", 0.0, -1000.0, 1000.0, 0.02}};
+  static constexpr EffectInfo kInfo = {
+      .name = "torque_bias",
+      .kind = EffectKind::kForce,
+      .equation = "T + tau_0 in stance",
+      .sentence = "a torque is there that nobody asked for: an amplifier offset, a twisted cable",
+      .for_legs = true,
+      .for_ball = false,
+      .dissipative = false,
+      .parameters = kParameters};
+
+  template <class T>
+  static void AddHipTorque(const T* p, const HipMotion<T>&, T& torque) {
+    torque += p[0];
+  }
+};
+
+}  // namespace
+
+namespace effects {
+extern constexpr Effect torque_bias = MakeEffect<TorqueBias>();
+}
+}  // namespace hoplab
