@@ -108,8 +108,8 @@ std::string CauseTable(const Diagnosis& d, bool colours) {
   const bool between =
       u.misfit && !u.parameters.empty() && u.parameters.back().ci95_between_trials.has_value();
   TextTable table({kLeft, kRight, kLeft, kLeft, kLeft});
-  table.AddRow({"supported", "size", between ? "95 % between trials" : "95 % interval", "unit",
-                "log-likelihood"});
+  table.AddRow({d.verdict == Verdict::kUnexplained ? "best attempt" : "supported", "size",
+                between ? "95 % between trials" : "95 % interval", "unit", "log-likelihood"});
   for (std::size_t m = 0; m < d.naming.groups.size(); ++m) {
     for (std::size_t k = 0; k < d.naming.groups[m].size(); ++k) {
       const CandidateResult& c =
@@ -181,6 +181,17 @@ std::string HeldOutTable(const Diagnosis& d, bool colours) {
   feature("touch-down time", b.touchdown_time_rmse, a.touchdown_time_rmse, false);
   feature("stance duration", b.stance_time_rmse, a.stance_time_rmse, false);
   return WithHeader(table.Lines(), colours);
+}
+
+// Of the model as it was.
+std::string TestErrorLine(const Diagnosis& d) {
+  std::vector<std::string> parts;
+  for (std::size_t c = 0; c < d.problem.channels.size(); ++c) {
+    const std::string name(NameOf(d.problem.channels[c].channel));
+    parts.push_back(WithoutUnit(name) + " " +
+                    ErrorText(d.before.test.rmse[c], ChannelUnit(*ChannelFromName(name))));
+  }
+  return Join(parts);
 }
 
 std::string GainLine(const ExtensionReport& e) {
@@ -303,15 +314,23 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
 
 // ---- what next
 
-std::string ExperimentLine(const SeparatingExperiment& e) {
+std::string ExperimentLine(const Diagnosis& d) {
+  const SeparatingExperiment& e = *d.experiment;
   if (!e.Separates()) {
     return fmt::format(
         "none of {} designs like {} would settle it: the best promises {:.1f} nats, {:.0f} are "
         "needed",
         e.designs_tried, e.design.like, e.expected_nats, kIndistinguishable);
   }
-  return fmt::format("{}, otherwise like {}: expected to tell it from {} by {} nats",
-                     Describe(e.design), e.design.like, e.closest_rival,
+  // The first group that is one is what the search was for.
+  std::string cause = "the cause";
+  for (const std::vector<int>& group : d.naming.groups) {
+    if (group.size() < 2) continue;
+    cause = d.naming.candidates[static_cast<std::size_t>(group.front())].candidate.Name();
+    break;
+  }
+  return fmt::format("{}, otherwise like {}: expected to set {} apart from {} by {} nats",
+                     Describe(e.design), e.design.like, cause, e.closest_rival,
                      Significant(e.expected_nats, 2));
 }
 
@@ -381,10 +400,12 @@ std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, boo
     if (!run.energy.hops.empty()) text += EnergyTable(run.energy, colours) + "\n";
     text += Labelled("gain", GainLine(e), colours);
     text += Labelled("remainder", RemainderLine(e), colours);
+  } else if (d.before.test.trials > 0) {
+    text += Labelled("test error", TestErrorLine(d), colours);
   }
   if (d.free_forces) text += ForceLines(*d.free_forces, colours);
   text += ExclusionLines(d, colours);
-  if (d.experiment) text += Labelled("next trial", ExperimentLine(*d.experiment), colours);
+  if (d.experiment) text += Labelled("next trial", ExperimentLine(d), colours);
   for (const std::string& note : d.notes) text += Labelled("note", note, colours);
   return text;
 }

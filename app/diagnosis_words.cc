@@ -13,7 +13,11 @@ namespace hoplab {
 namespace {
 
 constexpr double kLeastChance = 1e-3;
-constexpr const char* kCaveat = "(or something outside the catalogue that moves the data like it)";
+// Said once, beside the names.
+std::string Caveat(bool several) {
+  return fmt::format("(or something outside the catalogue that moves the data like {})",
+                     several ? "them" : "it");
+}
 
 // "a", "a and b", "a, b and c".
 std::string Listed(const std::vector<std::string>& words) {
@@ -68,15 +72,17 @@ std::string HeldOutClause(const Diagnosis& d, const std::string& it) {
   const HeldOutGain& gain = d.extension->gain;
   if (d.extension->after.test.trials == 0) return "; there is no held-out trial to confirm it";
   if (!gain.IsClaim()) return "; the held-out trials do not confirm it, so no gain is claimed";
-  const std::optional<std::string> change = ErrorChange(d);
-  return change ? fmt::format("; adding {} takes {}", it, *change) : std::string();
+  if (const std::optional<std::string> change = ErrorChange(d))
+    return fmt::format("; adding {} takes {}", it, *change);
+  return fmt::format("; adding {} gains {:.3g} nats a sample on the held-out trials", it,
+                     gain.nats_per_sample);
 }
 
 std::string NamedSentence(const Diagnosis& d) {
   const std::vector<Candidate>& members = d.naming.best.members;
   std::vector<std::string> names;
   for (const Candidate& c : members) names.push_back(CauseText(c));
-  std::string text = "The simulation lacks " + Listed(names) + " " + kCaveat;
+  std::string text = "The simulation lacks " + Listed(names) + " " + Caveat(members.size() > 1);
   if (members.size() == 1) text += ": " + std::string(members[0].effect->info.sentence);
   return text + HeldOutClause(d, members.size() == 1 ? "it" : "them") + ".";
 }
@@ -85,7 +91,7 @@ std::string ConfoundedSentence(const Diagnosis& d) {
   const std::vector<std::vector<int>>& groups = d.naming.groups;
   if (groups.size() == 1) {
     return fmt::format("Cannot tell: {} explain these hops equally well, {} {}{}.",
-                       Listed(NamesOf(d, groups[0])), SpreadText(d, 0), kCaveat,
+                       Listed(NamesOf(d, groups[0])), SpreadText(d, 0), Caveat(true),
                        HeldOutClause(d, "the first"));
   }
   std::vector<std::string> certain, open;
@@ -98,7 +104,7 @@ std::string ConfoundedSentence(const Diagnosis& d) {
   }
   certain.insert(certain.end(), open.begin(), open.end());
   return fmt::format("The simulation lacks {}, which these hops cannot tell apart {}{}.",
-                     Join(certain, "; "), kCaveat, HeldOutClause(d, "the first of each"));
+                     Join(certain, "; "), Caveat(true), HeldOutClause(d, "the first of each"));
 }
 
 }  // namespace
