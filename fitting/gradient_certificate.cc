@@ -35,6 +35,15 @@ double Size(const SharedParameter& s, double value) {
   return std::clamp(std::abs(value), 0.01 * s.scale, s.scale);
 }
 
+// Times of the events that act on the motion.
+std::vector<double> CrossingTimes(const Trajectory& trajectory) {
+  std::vector<double> times;
+  for (const Event& e : trajectory.events) {
+    if (e.kind != EventKind::kApex) times.push_back(e.time);
+  }
+  return times;
+}
+
 struct TrialReport {
   std::vector<double> errors;  // per column; NaN: zero column
   std::vector<CertificateFlag> flags;
@@ -66,17 +75,22 @@ TrialReport CheckTrial(const FitProblem& problem, const TrialProblem& trial,
   report.errors.assign(width, std::numeric_limits<double>::quiet_NaN());
 
   Trajectory shifted;
+  const std::size_t crossings = CrossingTimes(analytic).size();
   const std::size_t columns = problem.channels.size();
   for (int k = 0; k < width; ++k) {
     if (k >= n && !trial.start_free[k - n]) continue;
     const double h = k < n ? kStep * Size(problem.shared[k], shared[k])
                            : std::max(kStep * trial.start_scale[k - n], kLeastStartStep);
+    // An event beyond the last row comes before it where a value is shifted.
+    double first_new = std::numeric_limits<double>::infinity();
     const auto simulate = [&](double offset, std::vector<double>& samples) {
       Eigen::VectorXd p = shared;
       std::array<double, 4> z = start;
       (k < n ? p[k] : z[k - n]) += offset;
       evaluator.Simulate({p, z, false}, tight, shifted);
       samples = shifted.samples;
+      const std::vector<double> met = CrossingTimes(shifted);
+      if (met.size() > crossings) first_new = std::min(first_new, met[crossings]);
     };
     std::vector<double> plus, minus, plus_half, minus_half;
     simulate(h, plus);
@@ -96,7 +110,7 @@ TrialReport CheckTrial(const FitProblem& problem, const TrialProblem& trial,
     };
     double difference = 0.0, norm = 0.0;
     for (std::size_t row = 0; row < trial.row_times.size(); ++row) {
-      if (near_event(trial.row_times[row])) continue;
+      if (trial.row_times[row] >= first_new || near_event(trial.row_times[row])) continue;
       for (std::size_t c = 0; c < columns; ++c) {
         const std::size_t cell = row * columns + c;
         const double wide = (plus[cell] - minus[cell]) / (2.0 * h);

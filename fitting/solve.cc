@@ -281,7 +281,9 @@ bool GoOn(const SolveRequest& request, const std::vector<int>& held, SolveResult
   SolveResult next = SolveOnce(again);
   if (!Usable(next.status)) return false;
   const bool gained = next.cost < best.cost * (1.0 - kGain);
-  if (!(next.cost <= best.cost)) return false;
+  // At the optimum the costs of two runs differ by rounding: the one that says it has converged
+  // counts, or a run cut short there would never be called converged.
+  if (!(next.cost <= best.cost * (1.0 + kGain))) return false;
   next.iterations += best.iterations;
   for (const auto& [reason, count] : best.rejected) next.rejected[reason] += count;
   best = std::move(next);
@@ -320,9 +322,8 @@ SolveResult Solve(const SolveRequest& request) {
     std::vector<int> on = OnBounds(request, best);
     if (!on.empty()) {
       const std::vector<int> inside = PulledInside(request, best, on);
-      std::erase_if(on, [&](int k) {
-        return std::find(inside.begin(), inside.end(), k) != inside.end();
-      });
+      std::erase_if(
+          on, [&](int k) { return std::find(inside.begin(), inside.end(), k) != inside.end(); });
     }
     const bool settled = best.status == SolveStatus::kConverged && on == held;
     if (settled || request.max_iterations <= kFirstIterations) break;

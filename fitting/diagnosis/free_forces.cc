@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -51,39 +52,31 @@ Estimate EstimateGroup(const Linearisation& at, const ProbeGroup& group) {
   return out;
 }
 
-// Weighted forward selection among the terms by BIC: which are kept, with their coefficients.
+// The best subset of the terms by BIC with its coefficients. All of them are tried: a forward step
+// kept a constant it had begun with where the force was linear.
 std::array<double, kTermNames.size()> Select(const Eigen::MatrixXd& terms,
                                              const Eigen::VectorXd& values,
                                              const Eigen::MatrixXd& whitener) {
   std::array<double, kTermNames.size()> kept{};
-  std::vector<int> chosen;
   const Eigen::VectorXd y = whitener * values;
+  const Eigen::MatrixXd X = whitener * terms;
   const double price = std::log(static_cast<double>(values.size()));
   double best = y.squaredNorm();
-  while (chosen.size() < kTermNames.size() &&
-         static_cast<Eigen::Index>(chosen.size()) + 1 < values.size()) {
-    int pick = -1;
-    Eigen::VectorXd coefficients;
-    for (int t = 0; t < static_cast<int>(kTermNames.size()); ++t) {
-      if (std::find(chosen.begin(), chosen.end(), t) != chosen.end()) continue;
-      std::vector<int> columns = chosen;
-      columns.push_back(t);
-      Eigen::MatrixXd X(values.size(), static_cast<Eigen::Index>(columns.size()));
-      for (std::size_t c = 0; c < columns.size(); ++c)
-        X.col(static_cast<Eigen::Index>(c)) = whitener * terms.col(columns[c]);
-      const Eigen::VectorXd b = X.colPivHouseholderQr().solve(y);
-      const double cost =
-          (y - X * b).squaredNorm() + price * static_cast<double>(columns.size());
-      if (cost < best) {
-        best = cost;
-        pick = t;
-        coefficients = b;
-      }
+  for (unsigned subset = 1; subset < 1u << kTermNames.size(); ++subset) {
+    const int count = std::popcount(subset);
+    if (count >= values.size()) continue;
+    Eigen::MatrixXd A(X.rows(), count);
+    for (unsigned t = 0, c = 0; t < kTermNames.size(); ++t) {
+      if (subset >> t & 1u) A.col(c++) = X.col(t);
     }
-    if (pick < 0) break;
-    chosen.push_back(pick);
-    for (std::size_t c = 0; c < chosen.size(); ++c)
-      kept[static_cast<std::size_t>(chosen[c])] = coefficients[static_cast<Eigen::Index>(c)];
+    const Eigen::VectorXd b = A.colPivHouseholderQr().solve(y);
+    const double cost = (y - A * b).squaredNorm() + price * count;
+    if (!(cost < best)) continue;
+    best = cost;
+    kept.fill(0.0);
+    for (unsigned t = 0, c = 0; t < kTermNames.size(); ++t) {
+      if (subset >> t & 1u) kept[t] = b[c++];
+    }
   }
   return kept;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "fitting/diagnosis/name.h"
@@ -14,6 +15,10 @@ namespace hoplab {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+// Designs whose worth is settled by a refit. The linear forecast promises most where it fails: a
+// steep drop far from the train trials was given 893 nats and brought 32.
+constexpr int kRefittedDesigns = 6;
+constexpr int kRefitIterations = 40;
 
 // What the recorded trials say about the shared values of a model, starts projected out, in units
 // of the values' scales.
@@ -48,18 +53,24 @@ TrialProblem TrialOf(const TrialDesign& design, const TrialProblem& like) {
   return trial;
 }
 
-// Log-likelihood by which `rival`, refitted to old and new data, misses what `truth` predicts in a
-// new trial; NaN if one of the two cannot be simulated through it.
-double ExpectedNats(const Extension& truth, const Extension& rival,
-                    const Eigen::MatrixXd& information, TrialProblem trial) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  const TrialEvaluator source(truth.problem, trial);
+// The trial filled with what `truth` predicts, without noise; false if it does not get through it.
+bool Record(const Extension& truth, TrialProblem& trial) {
   Trajectory predicted;
-  source.Simulate({truth.shared, trial.start, false}, truth.problem.integrator, predicted);
-  if (!IsComplete(predicted.outcome)) return kNaN;
+  TrialEvaluator(truth.problem, trial)
+      .Simulate({truth.shared, trial.start, false}, truth.problem.integrator, predicted);
+  if (!IsComplete(predicted.outcome)) return false;
   trial.data = predicted.samples;
   trial.sample_count =
       std::count_if(trial.data.begin(), trial.data.end(), [](double v) { return !std::isnan(v); });
+  return true;
+}
+
+// Log-likelihood by which `rival`, refitted to old and new data, misses what `truth` predicts in a
+// new trial, by the linear model; NaN if one of the two cannot be simulated through it.
+double LinearNats(const Extension& truth, const Extension& rival,
+                  const Eigen::MatrixXd& information, TrialProblem trial) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  if (!Record(truth, trial)) return kNaN;
   const TrialEvaluator evaluator(rival.problem, trial);
   TrialEvaluation e;
   evaluator.Evaluate({rival.shared, trial.start, true}, e);
@@ -76,6 +87,27 @@ double ExpectedNats(const Extension& truth, const Extension& rival,
   const Eigen::VectorXd b = J.transpose() * e.residuals;
   const Eigen::VectorXd step = H.completeOrthogonalDecomposition().solve(b);
   return std::max(0.5 * (e.residuals.squaredNorm() - b.dot(step)), 0.0);
+}
+
+// The same by a real refit.
+double RefittedNats(const Extension& truth, const Extension& rival,
+                    const std::vector<TrialProblem>& train, TrialProblem trial) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  if (!Record(truth, trial)) return kNaN;
+  std::vector<TrialProblem> trials = train;
+  trials.push_back(std::move(trial));
+  SolveRequest request;
+  request.problem = &rival.problem;
+  request.trials = &trials;
+  request.shared = rival.shared;
+  request.starts = rival.starts;
+  request.starts.push_back(trials.back().start);
+  request.max_iterations = kRefitIterations;
+  request.function_tolerance = 1e-6;
+  const SolveResult result = Solve(request);
+  const bool usable =
+      result.status == SolveStatus::kConverged || result.status == SolveStatus::kIterationLimit;
+  return usable ? std::max(result.cost - rival.cost, 0.0) : kNaN;
 }
 
 std::vector<TrialDesign> Designs(const TrialProblem& like) {
@@ -114,26 +146,40 @@ std::optional<SeparatingExperiment> ProposeExperiment(std::span<const Extension>
     double nats = -1.0;
     std::size_t rival = 0;
   };
+  // The least over the rivals of what `nats_of(design, rival)` gives; -1 if one of them is NaN.
+  const auto least = [&](const auto& nats_of) {
+    Value value{std::numeric_limits<double>::infinity(), 0};
+    for (std::size_t r = 1; r < rivals.size(); ++r) {
+      const double nats = nats_of(r);
+      if (std::isnan(nats)) return Value{};
+      if (nats < value.nats) value = {nats, r};
+    }
+    return value;
+  };
   std::vector<Value> values(designs.size());
   ParallelFor(static_cast<int>(designs.size()), jobs, [&](int i) {
     const TrialProblem trial = TrialOf(designs[i], like);
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t r = 1; r < rivals.size(); ++r) {
-      const double nats = ExpectedNats(rivals[0], rivals[r], information[r], trial);
-      if (std::isnan(nats)) return;
-      if (nats < least) {
-        least = nats;
-        values[i].rival = r;
-      }
-    }
-    values[i].nats = least;
+    values[i] = least(
+        [&](std::size_t r) { return LinearNats(rivals[0], rivals[r], information[r], trial); });
   });
-  const auto best = std::max_element(values.begin(), values.end(), [](const Value& a, const Value& b) {
-    return a.nats < b.nats;
+  std::vector<int> order(designs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return values[a].nats > values[b].nats; });
+  order.resize(std::min<std::size_t>(order.size(), kRefittedDesigns));
+  std::vector<Value> settled(order.size());
+  ParallelFor(static_cast<int>(order.size()), jobs, [&](int i) {
+    if (values[order[i]].nats < 0.0) return;
+    const TrialProblem trial = TrialOf(designs[order[i]], like);
+    settled[i] =
+        least([&](std::size_t r) { return RefittedNats(rivals[0], rivals[r], train, trial); });
   });
+  const auto best =
+      std::max_element(settled.begin(), settled.end(),
+                       [](const Value& a, const Value& b) { return a.nats < b.nats; });
   if (best->nats < 0.0) return std::nullopt;
   SeparatingExperiment out;
-  out.design = designs[static_cast<std::size_t>(best - values.begin())];
+  out.design = designs[order[static_cast<std::size_t>(best - settled.begin())]];
   out.expected_nats = best->nats;
   out.closest_rival = rivals[best->rival].members.empty()
                           ? "no effect at all"

@@ -22,7 +22,7 @@ struct TrialDesign {
 struct SeparatingExperiment {
   TrialDesign design;
   /// Expected log-likelihood ratio against the closest rival, after that one has been refitted to
-  /// old and new data together (linear) [nats].
+  /// old and new data together [nats].
   double expected_nats = 0.0;
   std::string closest_rival;  // name of what the best model is hardest to tell from
   int designs_tried = 0;
@@ -30,7 +30,8 @@ struct SeparatingExperiment {
   bool Separates() const;
 };
 
-/// Looks over a grid of designs around the train trials. `rivals[0]` is taken for the truth. Absent
+/// Looks over a grid of designs around the train trials by a linear forecast and settles the most
+/// promising by refits. `rivals[0]` is taken for the truth. Absent
 /// if there is no rival or no design can be simulated under all of them.
 std::optional<SeparatingExperiment> ProposeExperiment(std::span<const Extension> rivals,
                                                       const std::vector<TrialProblem>& train,

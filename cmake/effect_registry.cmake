@@ -1,0 +1,17 @@
+# hoplab_effect_registry(folder registry files): one file, one effect. Writes the list of every .cc in
+# `folder` but effect.cc to the file `registry`, and the files themselves to the variable `files`.
+function(hoplab_effect_registry folder registry files)
+  file(GLOB effect_files CONFIGURE_DEPENDS ${folder}/*.cc)
+  list(REMOVE_ITEM effect_files ${folder}/effect.cc)
+  list(SORT effect_files)
+  set(HOPLAB_EFFECT_DECLARATIONS "")
+  set(addresses "")
+  foreach(file IN LISTS effect_files)
+    get_filename_component(name ${file} NAME_WE)
+    string(APPEND HOPLAB_EFFECT_DECLARATIONS "extern const Effect ${name};\n")
+    list(APPEND addresses "&effects::${name}")
+  endforeach()
+  list(JOIN addresses ", " HOPLAB_EFFECT_ADDRESSES)
+  configure_file(${folder}/registry.cc.in ${registry} @ONLY)
+  set(${files} ${effect_files} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,135 @@
+#include "fitting/diagnosis/candidate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/diagnosed_hops.h"
+#include "tests/support/input_error_of.h"
+
+namespace hoplab {
+namespace {
+
+using testing::CandidateOf;
+using testing::DatasetOf;
+using testing::InputErrorOf;
+
+std::vector<std::string> NamesOf(const std::vector<Candidate>& candidates) {
+  std::vector<std::string> names;
+  for (const Candidate& c : candidates) names.push_back(c.Name());
+  return names;
+}
+
+FitProblem Problem() { return MakeProblem(DatasetOf({}), {}); }
+
+TEST(Candidates, AreEveryEffectThatAppliesInTheOrderOfTheCatalogue) {
+  std::vector<std::string> expected;
+  for (const Effect* effect : AllEffects()) {
+    if (AppliesTo(*effect, Law::kLargeDeflection)) expected.emplace_back(effect->info.name);
+  }
+  EXPECT_EQ(NamesOf(CandidatesOf(Problem(), {})), expected);
+}
+
+TEST(Candidates, DoNotDependOnTheOrderInWhichTheyAreNamed) {
+  const CandidateOptions options{.only = {"touchdown_loss", "air_drag"}};
+  EXPECT_EQ(NamesOf(CandidatesOf(Problem(), options)),
+            (std::vector<std::string>{"air_drag", "touchdown_loss"}));
+}
+
+TEST(Candidates, LeaveOutWhatIsNamedWithout) {
+  const std::vector<std::string> all = NamesOf(CandidatesOf(Problem(), {}));
+  const std::vector<std::string> fewer =
+      NamesOf(CandidatesOf(Problem(), {.without = {"air_drag"}}));
+  EXPECT_EQ(fewer.size() + 1, all.size());
+  EXPECT_EQ(std::count(fewer.begin(), fewer.end(), "air_drag"), 0);
+}
+
+TEST(Candidates, AreNotWhatIsSimulatedAlready) {
+  const FitProblem p = MakeProblem(DatasetOf({}), {.with_effects = {"air_drag"}});
+  const std::vector<std::string> names = NamesOf(CandidatesOf(p, {}));
+  EXPECT_EQ(std::count(names.begin(), names.end(), "air_drag"), 0);
+}
+
+TEST(Candidates, AnUnknownNameIsRefusedWithTheNearestOne) {
+  const std::string error = InputErrorOf([] { CandidatesOf(Problem(), {.only = {"air_dragg"}}); });
+  EXPECT_EQ(error.rfind("--effects", 0), 0u) << error;
+  EXPECT_NE(error.find("air_dragg"), std::string::npos) << error;
+  EXPECT_NE(error.find("air_drag?"), std::string::npos) << error;
+}
+
+TEST(Candidates, AnUnknownNameToLeaveOutSaysWhichOptionItWas) {
+  const std::string error = InputErrorOf([] { CandidatesOf(Problem(), {.without = {"wind"}}); });
+  EXPECT_EQ(error.rfind("--without", 0), 0u) << error;
+}
+
+TEST(Candidates, AnEffectOfAnotherMechanismIsRefusedWithARemedy) {
+  FitProblem ball;
+  ball.law = Law::kBall;
+  const std::string error =
+      InputErrorOf([&] { CandidatesOf(ball, {.only = {"leg_material_damping"}}); });
+  EXPECT_NE(error.find("does not apply to the law ball"), std::string::npos) << error;
+  EXPECT_NE(error.find("`hoplab effects`"), std::string::npos) << error;
+}
+
+TEST(Candidate, InOneRecordingSaysWhich) {
+  const Candidate c{FindEffect("air_drag"), "train-2.csv"};
+  EXPECT_EQ(c.Name(), "air_drag in train-2.csv");
+}
+
+TEST(Extend, AppendsTheParametersAtTheirNullWithBoundsAndUnit) {
+  const FitProblem before = Problem();
+  const Candidate c = CandidateOf("gravity_scale");
+  const FitProblem after = Extend(before, std::array{c});
+  ASSERT_EQ(after.shared_count(), before.shared_count() + 1);
+  const SharedParameter& s = after.shared.back();
+  const EffectParameter& p = c.effect->info.parameters[0];
+  EXPECT_EQ(s.name, "gravity_scale.gamma");
+  EXPECT_EQ(s.unit, p.unit);
+  EXPECT_EQ(s.initial, p.null);
+  EXPECT_EQ(s.lower, p.lower);
+  EXPECT_EQ(s.upper, p.upper);
+  EXPECT_EQ(s.scale, p.typical);
+  EXPECT_TRUE(after.effects.back().IsNull());
+}
+
+TEST(Extend, NullValuesAreThoseOfAllParametersInOrder) {
+  const std::vector<Candidate> two = {CandidateOf("air_drag"), CandidateOf("touchdown_loss")};
+  EXPECT_EQ(ParameterCount(two), 2);
+  EXPECT_EQ(NullValues(two), Eigen::Vector2d(two[0].effect->info.parameters[0].null,
+                                             two[1].effect->info.parameters[0].null));
+}
+
+TEST(Extend, ChangesNoBitOfTheResidualsAtNull) {
+  const FitProblem before = Problem();
+  const std::vector<Candidate> all = CandidatesOf(before, {.without = {"sensor_delay"}});
+  const FitProblem after = Extend(before, all);
+  Eigen::VectorXd shared(after.shared_count());
+  shared << InitialShared(before), NullValues(all);
+  TrialEvaluation plain, extended;
+  const TrialProblem& trial = before.trials[0];
+  TrialEvaluator(before, trial).Evaluate({InitialShared(before), trial.start, false}, plain);
+  TrialEvaluator(after, trial).Evaluate({shared, trial.start, false}, extended);
+  ASSERT_TRUE(plain.complete);
+  EXPECT_EQ(plain.residuals, extended.residuals);
+}
+
+TEST(Extend, AnEffectInOneRecordingActsOnlyThere) {
+  const FitProblem before = Problem();
+  const FitProblem after =
+      Extend(before, std::array{Candidate{FindEffect("air_drag"), "train-2.csv"}});
+  EXPECT_EQ(after.shared.back().name, "air_drag.c_drag@train-2.csv");
+  Eigen::VectorXd shared(after.shared_count());
+  shared << InitialShared(before), 0.1;
+  for (const TrialProblem& trial : after.trials) {
+    TrialEvaluation plain, with, columns;
+    TrialEvaluator(before, trial).Evaluate({InitialShared(before), trial.start, false}, plain);
+    TrialEvaluator(after, trial).Evaluate({shared, trial.start, false}, with);
+    TrialEvaluator(after, trial).Evaluate({shared, trial.start, true}, columns);
+    const bool there = trial.file == "train-2.csv";
+    EXPECT_EQ(plain.residuals != with.residuals, there) << trial.file;
+    EXPECT_EQ(columns.jacobian.col(after.shared_count() - 1).norm() > 0.0, there) << trial.file;
+  }
+}
+
+}  // namespace
+}  // namespace hoplab

@@ -1,0 +1,124 @@
+#include "fitting/diagnosis/extension.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/diagnosed_hops.h"
+
+namespace hoplab {
+namespace {
+
+using testing::CandidateOf;
+using testing::NullFit;
+
+// Refits agree on a log-likelihood to this: they end where it changes by less than 1e-8 of itself.
+constexpr double kSameCost = 0.01;  // nats
+
+constexpr double kDrag = 0.08;  // N s^2/m^2
+
+testing::World Draggy() { return {.effects = {testing::EffectOfSize("air_drag", kDrag)}}; }
+
+TEST(Refit, OfTheTrueEffectRecoversIt) {
+  const NullFit fit(Draggy());
+  const Extension e = fit.RefittedWith(CandidateOf("air_drag"));
+  ASSERT_TRUE(e.ok());
+  const Linearisation at = fit.Linearised(fit.null, {CandidateOf("air_drag")});
+  const double std_error = 1.0 / std::sqrt(Information(at, 0));
+  EXPECT_LT(std_error, 0.2 * kDrag);
+  EXPECT_NEAR(e.ValuesOf(0)[0], kDrag, 4.0 * std_error);
+}
+
+TEST(Refit, OfTheTrueEffectBringsTheFittedValuesBackToTheTruth) {
+  const NullFit fit(Draggy());
+  const Extension e = fit.RefittedWith(CandidateOf("air_drag"));
+  EXPECT_LT(std::abs(e.shared[1] - 3.0), std::abs(fit.null.shared[1] - 3.0));
+}
+
+TEST(Refit, NeverCostsLikelihood) {
+  const NullFit fit(Draggy());
+  for (const std::string& name : testing::kSixEffects) {
+    const Extension e = fit.RefittedWith(CandidateOf(name));
+    ASSERT_TRUE(e.ok()) << name;
+    EXPECT_LE(e.cost, fit.null.cost + kSameCost) << name;
+  }
+}
+
+TEST(Refit, FromAnUnknownSizeBeginsAtNull) {
+  const NullFit fit(Draggy());
+  const Extension known = fit.RefittedWith(CandidateOf("air_drag"));
+  const Extension unknown =
+      fit.RefittedWith(CandidateOf("air_drag"), Eigen::VectorXd::Constant(1, std::nan("")));
+  EXPECT_NEAR(unknown.cost, known.cost, kSameCost);
+}
+
+TEST(Refit, FromASizeThatCannotBeSimulatedComesCloserToNull) {
+  const NullFit fit(Draggy());
+  const Candidate loss = CandidateOf("touchdown_loss");
+  const Extension known = fit.RefittedWith(loss);
+  const Extension absurd = fit.RefittedWith(loss, Eigen::VectorXd::Constant(1, 1.0));
+  ASSERT_TRUE(absurd.ok());
+  EXPECT_NEAR(absurd.cost, known.cost, kSameCost);
+}
+
+TEST(Refit, OfASecondEffectKeepsTheFirst) {
+  const NullFit fit(Draggy());
+  const Extension one = fit.RefittedWith(CandidateOf("air_drag"));
+  const Candidate second = CandidateOf("touchdown_loss");
+  const Extension two = Refit(one, std::array{second}, Eigen::VectorXd::Zero(1), fit.Settings());
+  ASSERT_EQ(two.members.size(), 2u);
+  EXPECT_EQ(two.members[0], CandidateOf("air_drag"));
+  EXPECT_EQ(two.members[1], second);
+  EXPECT_EQ(two.ValuesOf(0)[0], two.shared[2]);
+  EXPECT_EQ(two.ValuesOf(1)[0], two.shared[3]);
+  EXPECT_LE(two.cost, one.cost + kSameCost);
+}
+
+TEST(Refit, WithoutAMemberIsTheModelBefore) {
+  const NullFit fit(Draggy());
+  const Extension one = fit.RefittedWith(CandidateOf("air_drag"));
+  const Candidate second = CandidateOf("gravity_scale");
+  const Extension two = Refit(one, std::array{second}, Eigen::VectorXd::Zero(1), fit.Settings());
+  const Extension without_second = RefitWithout(two, 1, fit.problem, fit.Settings());
+  EXPECT_EQ(without_second.members, one.members);
+  EXPECT_NEAR(without_second.cost, one.cost, kSameCost);
+  const Extension without_first = RefitWithout(two, 0, fit.problem, fit.Settings());
+  EXPECT_EQ(without_first.members, std::vector{second});
+  EXPECT_NEAR(without_first.cost, fit.RefittedWith(second).cost, kSameCost);
+}
+
+TEST(Refit, OfAnEffectInOneTrialLeavesTheOthersToTheSharedValues) {
+  const NullFit fit(Draggy());
+  const Extension e = fit.RefittedWith({FindEffect("air_drag"), "train-2.csv"},
+                                       Eigen::VectorXd::Constant(1, kDrag));
+  ASSERT_TRUE(e.ok());
+  EXPECT_EQ(e.problem.shared.back().only_recording, "train-2.csv");
+  EXPECT_GT(e.cost, fit.RefittedWith(CandidateOf("air_drag")).cost + 1.0);
+}
+
+// An extension with given values of one effect, not fitted.
+Extension Holding(const std::string& effect, double value) {
+  Extension e;
+  e.members = {CandidateOf(effect)};
+  e.problem = Extend(MakeProblem(testing::DatasetOf({.train = 1}), {}), e.members);
+  e.shared = Eigen::Vector3d(22e9, 3.0, value);
+  return e;
+}
+
+TEST(AtPhysicalBound, IsNotSaidOfANullThatLiesOnABound) {
+  ASSERT_EQ(FindEffect("air_drag")->info.parameters[0].lower, 0.0);
+  EXPECT_FALSE(Holding("air_drag", 0.0).AtPhysicalBound(0));
+}
+
+TEST(AtPhysicalBound, IsSaidOfEitherEndOfTheRange) {
+  const EffectParameter& p = FindEffect("gravity_scale")->info.parameters[0];
+  EXPECT_TRUE(Holding("gravity_scale", p.lower).AtPhysicalBound(0));
+  EXPECT_TRUE(Holding("gravity_scale", p.upper).AtPhysicalBound(0));
+  EXPECT_FALSE(Holding("gravity_scale", 0.5 * p.upper).AtPhysicalBound(0));
+  EXPECT_TRUE(
+      Holding("air_drag", FindEffect("air_drag")->info.parameters[0].upper).AtPhysicalBound(0));
+}
+
+}  // namespace
+}  // namespace hoplab

@@ -1,0 +1,163 @@
+#include "fitting/diagnosis/measure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/diagnosed_hops.h"
+
+namespace hoplab {
+namespace {
+
+using testing::CandidateOf;
+using testing::EffectOfSize;
+using testing::NullFit;
+
+constexpr double kBias = 0.02;  // rad
+
+// Three hops of two held-out trials.
+testing::World Biased(std::uint64_t seed = 5) {
+  return {
+      .effects = {EffectOfSize("touchdown_angle_bias", kBias)}, .test = 2, .hops = 3, .seed = seed};
+}
+
+struct Compared {
+  NullFit fit;
+  Extension after;
+  HeldOutErrors errors_before, errors_after;
+  HeldOutGain gain;
+  std::vector<std::string> left_out;
+
+  explicit Compared(const testing::World& world) : fit(world) {
+    after = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
+    Compare();
+  }
+  void Compare() {
+    errors_before = MeasureHeldOut(fit.null, 1);
+    errors_after = MeasureHeldOut(after, 1);
+    left_out.clear();
+    gain = CompareHeldOut(fit.null, errors_before, errors_after, 1, &left_out);
+  }
+};
+
+TEST(HeldOutGain, OfAModelOverItselfIsZero) {
+  const NullFit fit(Biased());
+  const HeldOutErrors errors = MeasureHeldOut(fit.null, 1);
+  const HeldOutGain gain = CompareHeldOut(fit.null, errors, errors, 1, nullptr);
+  EXPECT_EQ(gain.nats_per_sample, 0.0);
+  ASSERT_TRUE(gain.ci95);
+  EXPECT_EQ(gain.ci95->first, 0.0);
+  EXPECT_EQ(gain.ci95->second, 0.0);
+  EXPECT_FALSE(gain.IsClaim());
+}
+
+TEST(HeldOutGain, IsHalfTheChiSquareSavedASample) {
+  const Compared c(Biased());
+  double saved = 0.0;
+  long samples = 0;
+  for (std::size_t i = 0; i < c.fit.problem.trials.size(); ++i) {
+    if (c.fit.problem.trials[i].role != TrialRole::kTest) continue;
+    saved += 0.5 * (c.errors_before.trials[i].chi2 - c.errors_after.trials[i].chi2);
+    samples += c.fit.problem.trials[i].sample_count;
+  }
+  EXPECT_EQ(c.gain.samples, samples);
+  EXPECT_NEAR(c.gain.nats_per_sample, saved / static_cast<double>(samples), 1e-9);
+}
+
+TEST(HeldOutGain, OfTheTrueEffectMayBeClaimed) {
+  const Compared c(Biased());
+  EXPECT_TRUE(c.gain.IsClaim());
+  EXPECT_GE(c.gain.hops, 4);
+  EXPECT_TRUE(c.left_out.empty());
+}
+
+TEST(HeldOutGain, OfAnEffectThatIsNotThereIsSeldomClaimed) {
+  // The interval promises 2.5 %; three or more of ten would be a chance of 0.2 %.
+  int claims = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const NullFit fit({.test = 2, .hops = 3, .seed = seed});
+    const Extension after = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
+    const HeldOutGain gain =
+        CompareHeldOut(fit.null, MeasureHeldOut(fit.null, 1), MeasureHeldOut(after, 1), 1, nullptr);
+    claims += gain.IsClaim();
+    EXPECT_NEAR(gain.nats_per_sample, 0.0, 0.05);
+  }
+  EXPECT_LE(claims, 2);
+}
+
+TEST(HeldOutGain, IntervalHoldsWhatOtherRecordingsOfTheTrialsGain) {
+  double mean = 0.0;
+  constexpr int kRecordings = 8;
+  for (int i = 0; i < kRecordings; ++i)
+    mean +=
+        Compared(Biased(100 + static_cast<std::uint64_t>(i))).gain.nats_per_sample / kRecordings;
+  const Compared c(Biased());
+  ASSERT_TRUE(c.gain.ci95);
+  EXPECT_LT(c.gain.ci95->first, mean);
+  EXPECT_GT(c.gain.ci95->second, mean);
+}
+
+TEST(HeldOutGain, HasNoIntervalOfFewerThanFourHops) {
+  testing::World world = Biased();
+  world.test = 1;
+  world.hops = 2;
+  const Compared c(world);
+  EXPECT_LT(c.gain.hops, 4);
+  EXPECT_GT(c.gain.nats_per_sample, 0.0);
+  EXPECT_FALSE(c.gain.ci95);
+  EXPECT_FALSE(c.gain.IsClaim());
+}
+
+TEST(HeldOutGain, WithoutHeldOutTrialsIsNotComputed) {
+  testing::World world = Biased();
+  world.test = 0;
+  const Compared c(world);
+  EXPECT_TRUE(std::isnan(c.gain.nats_per_sample));
+  EXPECT_EQ(c.gain.samples, 0);
+  EXPECT_FALSE(c.gain.ci95);
+}
+
+TEST(HeldOutGain, ATrialThatCannotBeSimulatedIsLeftOutByName) {
+  Compared c(Biased());
+  const long samples = c.gain.samples;
+  for (Extension* e : {&c.fit.null, &c.after})
+    e->problem.trials.back().parameters.theta_td = 80.0 * std::numbers::pi / 180.0;
+  c.Compare();
+  EXPECT_EQ(c.left_out, std::vector<std::string>{c.fit.problem.trials.back().file});
+  EXPECT_LT(c.gain.samples, samples);
+  EXPECT_GT(c.gain.samples, 0);
+}
+
+TEST(HeldOutGain, IntervalRepeatsWithTheSameSeed) {
+  const Compared c(Biased());
+  const HeldOutGain again = CompareHeldOut(c.fit.null, c.errors_before, c.errors_after, 1, nullptr);
+  EXPECT_EQ(again.ci95, c.gain.ci95);
+}
+
+TEST(HeldOutErrors, OfTheTrueModelAreTheNoise) {
+  const Compared c(Biased());
+  for (double rmse : c.errors_after.test.rmse) EXPECT_NEAR(rmse, 0.001, 0.0003);
+  EXPECT_GT(c.errors_before.test.rmse[0], 1.1 * c.errors_after.test.rmse[0]);
+}
+
+TEST(HeldOutErrors, ApexHeightsOfTheTrueModelAreRight) {
+  const Compared c(Biased());
+  EXPECT_LT(c.errors_after.features.apex_height_rmse, 0.002);
+  EXPECT_LT(c.errors_after.features.apex_height_rmse, c.errors_before.features.apex_height_rmse);
+  EXPECT_LT(c.errors_after.features.apex_time_rmse, c.errors_before.features.apex_time_rmse);
+}
+
+TEST(HeldOutErrors, ContactTimesAreNotComputedWithoutAContactChannel) {
+  const Compared c(Biased());
+  EXPECT_TRUE(std::isnan(c.errors_after.features.touchdown_time_rmse));
+  EXPECT_TRUE(std::isnan(c.errors_after.features.stance_time_rmse));
+}
+
+TEST(HeldOutErrors, DoNotDependOnTheNumberOfJobs) {
+  const NullFit fit(Biased());
+  EXPECT_EQ(MeasureHeldOut(fit.null, 1).test.rmse, MeasureHeldOut(fit.null, 4).test.rmse);
+}
+
+}  // namespace
+}  // namespace hoplab

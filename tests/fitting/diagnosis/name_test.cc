@@ -1,0 +1,235 @@
+#include "fitting/diagnosis/name.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/diagnosed_hops.h"
+
+namespace hoplab {
+namespace {
+
+using testing::CandidateOf;
+using testing::EffectOfSize;
+using testing::GroupNames;
+using testing::NullFit;
+
+Naming NameIn(const NullFit& fit, const std::vector<Candidate>& candidates,
+              const NamingOptions& options = {}) {
+  return NameCauses(fit.null, candidates, fit.With(candidates), fit.train, options);
+}
+Naming NameSix(const NullFit& fit, const NamingOptions& options = {}) {
+  return NameIn(fit, testing::CandidatesOf(testing::kSixEffects), options);
+}
+
+std::vector<std::string> MembersOf(const Naming& n) {
+  std::vector<std::string> names;
+  for (const Candidate& c : n.best.members) names.push_back(c.Name());
+  return names;
+}
+const CandidateResult& ResultOf(const Naming& n, const std::string& name) {
+  for (const CandidateResult& c : n.candidates) {
+    if (c.candidate.Name() == name) return c;
+  }
+  throw std::logic_error("no candidate " + name);
+}
+bool Holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+TEST(NameCauses, NamesAClearEffectAndItsSize) {
+  const Naming n = NameSix(NullFit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}}));
+  EXPECT_EQ(GroupNames(n), std::vector<std::string>{"touchdown_angle_bias"});
+  ASSERT_EQ(n.best.members.size(), 1u);
+  EXPECT_NEAR(n.best.ValuesOf(0)[0], 0.03, 0.003);
+  EXPECT_EQ(ResultOf(n, "touchdown_angle_bias").status, CandidateStatus::kSupported);
+}
+
+TEST(NameCauses, FindsNothingInCleanData) {
+  const Naming n = NameSix(NullFit{testing::World{}});
+  EXPECT_TRUE(n.best.members.empty());
+  EXPECT_TRUE(n.groups.empty());
+  for (const CandidateResult& c : n.candidates) {
+    EXPECT_TRUE(c.status == CandidateStatus::kExcluded || c.status == CandidateStatus::kNotTested)
+        << c.candidate.Name();
+  }
+}
+
+TEST(NameCauses, FindsTwoEffectsAtOnce) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03),
+                                 EffectOfSize("sensor_delay", 0.006)}});
+  const Naming n = NameSix(fit);
+  ASSERT_EQ(n.groups.size(), 2u);
+  const std::vector<std::string> first = GroupNames(n, 0), second = GroupNames(n, 1);
+  EXPECT_TRUE(Holds(first, "touchdown_angle_bias") || Holds(second, "touchdown_angle_bias"));
+  EXPECT_TRUE(Holds(first, "sensor_delay") || Holds(second, "sensor_delay"));
+}
+
+TEST(NameCauses, KeepsNoMemberThatDoesNotPay) {
+  for (std::uint64_t seed : {1, 2, 3}) {
+    const NullFit fit(
+        {.effects = {EffectOfSize("touchdown_angle_bias", 0.02), EffectOfSize("air_drag", 0.05)},
+         .seed = seed});
+    const Naming n = NameSix(fit);
+    ASSERT_FALSE(n.best.members.empty());
+    for (int i = 0; i < static_cast<int>(n.best.members.size()); ++i) {
+      const Extension less = RefitWithout(n.best, i, fit.problem, fit.Settings());
+      EXPECT_GT(less.cost - n.best.cost, n.penalty - 0.01)
+          << n.best.members[i].Name() << ", seed " << seed;
+    }
+  }
+}
+
+// What touch-down bias and a delay do together, as one effect: it fits best alone where both act,
+// and is not needed once both are named.
+struct BiasAndDelay {
+  static constexpr std::array kParameters = {EffectParameter{"size", "-", 0.0, -10.0, 10.0, 0.5}};
+  static constexpr EffectInfo kInfo = {.name = "bias_and_delay",
+                                       .kind = EffectKind::kGuard,
+                                       .equation = "dtheta = 0.03 size, tau = 0.004 size",
+                                       .sentence = "a test's own",
+                                       .for_legs = true,
+                                       .for_ball = false,
+                                       .dissipative = false,
+                                       .parameters = kParameters};
+  template <class T>
+  static void ChangeTouchdownAngle(const T* p, const T&, T& theta_td) {
+    theta_td += 0.03 * p[0];
+  }
+  template <class T>
+  static void ChangeObservationTime(const T* p, T& t) {
+    t -= 0.004 * p[0];
+  }
+};
+const Effect kBiasAndDelay = MakeEffect<BiasAndDelay>();
+
+TEST(NameCauses, ASuperfluousThirdIsDroppedAgain) {
+  // Not in the proportion of the mixed effect, so that two are needed; any two of the three do.
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03),
+                                 EffectOfSize("sensor_delay", 0.008)}});
+  const Naming n = NameIn(
+      fit, {CandidateOf("touchdown_angle_bias"), CandidateOf("sensor_delay"), {&kBiasAndDelay}});
+  EXPECT_EQ(n.best.members.size(), 2u);
+}
+
+TEST(NameCauses, TwinsLandInOneGroup) {
+  const testing::Twin twin("touchdown_angle_bias", "twin_of_bias");
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}});
+  const Naming n =
+      NameIn(fit, {CandidateOf("air_drag"), CandidateOf("touchdown_angle_bias"), twin.candidate()});
+  EXPECT_EQ(GroupNames(n), (std::vector<std::string>{"touchdown_angle_bias", "twin_of_bias"}));
+  EXPECT_EQ(ResultOf(n, "touchdown_angle_bias").status, CandidateStatus::kIndistinguishable);
+  EXPECT_EQ(ResultOf(n, "twin_of_bias").status, CandidateStatus::kIndistinguishable);
+  ASSERT_EQ(n.rivals.size(), 1u);
+  ASSERT_EQ(n.rivals[0].size(), 2u);
+  EXPECT_NEAR(n.rivals[0][0].cost, n.rivals[0][1].cost, 1e-6);
+}
+
+TEST(NameCauses, AnEffectInOneTrialIsNamedAsSuch) {
+  Dataset d = testing::DatasetOf({});
+  d.trials[1] =
+      testing::DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}}).trials[1];
+  const Naming n = NameSix(NullFit(d));
+  ASSERT_FALSE(n.groups.empty());
+  EXPECT_EQ(MembersOf(n), std::vector<std::string>{"touchdown_angle_bias in train-2.csv"});
+  EXPECT_NEAR(n.best.ValuesOf(0)[0], 0.03, 0.005);
+}
+
+TEST(NameCauses, AnEffectInEveryTrialIsNotLaidToOne) {
+  const Naming n = NameSix(NullFit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}}));
+  for (const std::string& name : GroupNames(n))
+    EXPECT_EQ(name.find(" in "), std::string::npos) << name;
+}
+
+TEST(NameCauses, AddsNoMoreEffectsThanAllowed) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03),
+                                 EffectOfSize("sensor_delay", 0.006)}});
+  EXPECT_EQ(NameSix(fit, {.max_effects = 1}).best.members.size(), 1u);
+  const Naming none = NameSix(fit, {.max_effects = 0});
+  EXPECT_TRUE(none.best.members.empty());
+  EXPECT_EQ(none.refits, 0);
+  EXPECT_EQ(none.best.cost, fit.null.cost);
+}
+
+TEST(NameCauses, DoesNotDependOnTheNumberOfJobs) {
+  const NullFit fit({.effects = {EffectOfSize("air_drag", 0.08)}});
+  const Naming one = NameSix(fit, {.jobs = 1}), four = NameSix(fit, {.jobs = 4});
+  EXPECT_EQ(one.best.shared, four.best.shared);
+  EXPECT_EQ(one.best.cost, four.best.cost);
+  EXPECT_EQ(one.groups, four.groups);
+  EXPECT_EQ(one.refits, four.refits);
+  ASSERT_EQ(one.candidates.size(), four.candidates.size());
+  for (std::size_t i = 0; i < one.candidates.size(); ++i) {
+    EXPECT_EQ(one.candidates[i].gain, four.candidates[i].gain);
+    EXPECT_EQ(one.candidates[i].status, four.candidates[i].status);
+  }
+}
+
+TEST(NameCauses, DoesNotDependOnTheOrderOfTheCandidates) {
+  const NullFit fit({.effects = {EffectOfSize("air_drag", 0.08)}});
+  std::vector<std::string> turned = testing::kSixEffects;
+  std::reverse(turned.begin(), turned.end());
+  const Naming there = NameSix(fit), back = NameIn(fit, testing::CandidatesOf(turned));
+  EXPECT_EQ(GroupNames(there), GroupNames(back));
+  EXPECT_NEAR(there.best.cost, back.best.cost, 0.01);
+  for (const CandidateResult& c : there.candidates) {
+    EXPECT_EQ(c.status, ResultOf(back, c.candidate.Name()).status) << c.candidate.Name();
+    EXPECT_NEAR(c.gain, ResultOf(back, c.candidate.Name()).gain, 0.01) << c.candidate.Name();
+  }
+}
+
+TEST(NameCauses, CountsAndReportsEveryRefit) {
+  const NullFit fit({.effects = {EffectOfSize("air_drag", 0.08)}});
+  int calls = 0, last = 0;
+  NamingOptions options{.max_effects = 1};
+  options.progress = [&](int refits, std::string_view what) {
+    ++calls;
+    last = refits;
+    EXPECT_FALSE(what.empty());
+  };
+  const Naming n = NameSix(fit, options);
+  EXPECT_EQ(calls, n.refits);
+  EXPECT_EQ(last, n.refits);
+  EXPECT_GE(n.refits, 6);
+}
+
+TEST(NameCauses, PenaltyGrowsWithTheNumberOfCandidatesThatCanBeTested) {
+  const NullFit fit{testing::World{}};
+  EXPECT_NEAR(NameSix(fit).penalty, std::log(6 / 0.05), 1e-12);
+  const Naming one = NameIn(fit, {CandidateOf("air_drag")});
+  EXPECT_NEAR(one.penalty, std::log(1 / 0.05), 1e-12);
+  EXPECT_NEAR(one.local_penalty, std::log(3 / 0.05), 1e-12);
+}
+
+TEST(NameCauses, BoundsWhatItExcludes) {
+  const Naming n = NameSix(NullFit{testing::World{}});
+  for (const CandidateResult& c : n.candidates) {
+    if (!c.separable) continue;
+    EXPECT_GT(c.bound95[0], 0.0) << c.candidate.Name();
+    // Two standard deviations at least, whatever the estimate.
+    const double V = c.power / std::pow(c.candidate.effect->info.parameters[0].typical, 2);
+    EXPECT_GE(c.bound95[0], 1.96 / std::sqrt(V) * (1.0 - 1e-6)) << c.candidate.Name();
+  }
+}
+
+TEST(NameCauses, SaysOfAnEffectTooSmallToShowThatItWasNotTested) {
+  // Ten times the noise leaves typical sizes in the dark.
+  const Naming n = NameSix(NullFit({.sigma_m = 0.02}));
+  int not_tested = 0;
+  for (const CandidateResult& c : n.candidates) {
+    EXPECT_EQ(c.status == CandidateStatus::kNotTested, c.power < kTestable) << c.candidate.Name();
+    not_tested += c.status == CandidateStatus::kNotTested;
+  }
+  EXPECT_GT(not_tested, 0);
+}
+
+TEST(NameCauses, StopsWhenAsked) {
+  const NullFit fit({.effects = {EffectOfSize("air_drag", 0.08)}});
+  std::atomic<bool> stop{true};
+  const Naming n = NameSix(fit, {.stop = &stop});
+  EXPECT_TRUE(n.interrupted);
+}
+
+}  // namespace
+}  // namespace hoplab

@@ -1,0 +1,242 @@
+#include "tests/fitting/diagnosis/study.h"
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <map>
+#include <thread>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "datasets/read_dataset.h"
+#include "tests/support/temp_folder.h"
+
+namespace hoplab::testing {
+namespace {
+
+double ThreadSeconds() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Chance under noise of what is left of a planted effect beside the accepted extension.
+double LeftP(const Diagnosis& d, const std::string& name) {
+  const Extension& best = d.naming.best;
+  const Candidate planted{FindEffect(name)};
+  for (const Candidate& member : best.members) {
+    if (member.effect == planted.effect) return 1.0;
+  }
+  const std::array tested = {planted};
+  const FitProblem problem = Extend(best.problem, tested);
+  Eigen::VectorXd shared(problem.shared_count());
+  shared << best.shared, NullValues(tested);
+  const Linearisation at =
+      Linearise(problem, best.problem.shared_count(), TrialsOf(d.problem, TrialRole::kTrain),
+                shared, best.starts, 1);
+  return ScoreOf(at, HypothesesOf(tested).front()).p_value;
+}
+
+void ReadVerdict(const Diagnosis& d, Outcome& out) {
+  out.verdict = d.verdict;
+  out.global_p = d.detection.p_value;
+  if (d.verdict == Verdict::kNamed || d.verdict == Verdict::kConfounded) {
+    for (const std::vector<int>& group : d.naming.groups) {
+      std::vector<std::string>& names = out.groups.emplace_back();
+      for (int i : group)
+        names.push_back(d.naming.candidates[static_cast<std::size_t>(i)].candidate.Name());
+    }
+    if (const auto cause = d.Cause())
+      out.first = d.naming.candidates[static_cast<std::size_t>(*cause)].candidate.Name();
+  }
+  if (d.extension) {
+    const HeldOutGain& gain = d.extension->gain;
+    if (!std::isnan(gain.nats_per_sample)) out.gain = gain.nats_per_sample;
+    out.claims_gain = gain.IsClaim();
+  }
+}
+
+}  // namespace
+
+bool Outcome::Holds(std::string_view name) const {
+  return std::any_of(groups.begin(), groups.end(), [&](const std::vector<std::string>& group) {
+    return std::find(group.begin(), group.end(), name) != group.end();
+  });
+}
+
+bool Outcome::HoldsAll() const {
+  return std::all_of(truth.effects.begin(), truth.effects.end(), [&](const PlantedEffect& e) {
+    return Holds(truth.only_recording.empty() ? e.name : e.name + " in " + truth.only_recording);
+  });
+}
+
+bool Outcome::NamesWrongly() const {
+  if (verdict != Verdict::kNamed) return false;
+  return std::none_of(truth.effects.begin(), truth.effects.end(), [&](const PlantedEffect& e) {
+    return Holds(truth.only_recording.empty() ? e.name : e.name + " in " + truth.only_recording);
+  });
+}
+
+int Outcome::SetSize() const {
+  std::size_t size = 0;
+  for (const auto& group : groups) size += group.size();
+  return static_cast<int>(size);
+}
+
+Outcome RunSealed(const Truth& planted, std::vector<std::string> without) {
+  const TempFolder temp;
+  const SealedCase sealed(temp.path() / "case", planted);
+  const double begin = ThreadSeconds();
+  const Dataset dataset = ReadDataset(sealed.dataset());
+  DiagnosisOptions options;
+  options.problem.law = std::string(NameOf(planted.law));
+  options.candidates.without = std::move(without);
+  options.fit.jobs = 1;
+  const Diagnosis d = Diagnose(dataset, options);
+
+  Outcome out;
+  out.cpu_seconds = ThreadSeconds() - begin;
+  out.truth = sealed.Open();
+  out.refusal = d.refusal;
+  if (!d.refusal.empty()) return out;
+  ReadVerdict(d, out);
+  const double truth = TrueStiffness(out.truth.law);
+  out.error_before = std::abs(d.null.shared[0] - truth);
+  out.error_after = std::abs(d.naming.best.shared[0] - truth);
+  out.std_error = d.uncertainty.parameters[0].std_error.value_or(0.0);
+  for (const PlantedEffect& e : out.truth.effects) out.left_p.push_back(LeftP(d, e.name));
+  return out;
+}
+
+std::vector<Outcome> RunAll(const std::vector<Truth>& truths,
+                            const std::function<std::vector<std::string>(const Truth&)>& without) {
+  std::vector<Outcome> outcomes(truths.size());
+  ParallelFor(static_cast<int>(truths.size()),
+              static_cast<int>(std::thread::hardware_concurrency()), [&](int i) {
+                const Truth& truth = truths[static_cast<std::size_t>(i)];
+                outcomes[static_cast<std::size_t>(i)] =
+                    RunSealed(truth, without ? without(truth) : std::vector<std::string>{});
+              });
+  return outcomes;
+}
+
+std::uint64_t NoiseSeed(Table table, int number) {
+  return static_cast<std::uint64_t>(table) * 1'000'000 + static_cast<std::uint64_t>(number);
+}
+
+int SeedCount(int full) {
+  const char* wanted = std::getenv("HOPLAB_STATISTICS_SEEDS");
+  return wanted ? std::clamp(std::atoi(wanted), 1, full) : full;
+}
+
+std::vector<Truth> PlantEach(Table table, double size, int seeds) {
+  // Laws each effect can be planted under.
+  std::vector<Truth> truths;
+  int number = static_cast<int>(1000 * size);
+  for (const Effect* effect : AllEffects()) {
+    std::vector<const EffectCase*> laws;
+    for (const EffectCase& e : AllEffectCases()) {
+      if (e.effect == effect && !e.At(size).empty()) laws.push_back(&e);
+    }
+    // Streams by the effect's name: a new file in the catalogue leaves the others' draws alone.
+    std::uint64_t name = 0;
+    for (char c : effect->info.name) name = 131 * name + static_cast<unsigned char>(c);
+    for (int i = 0; i < seeds && !laws.empty(); ++i) {
+      RandomStream random(kSuiteSeed + static_cast<std::uint64_t>(table),
+                          name * 1000 + static_cast<std::uint64_t>(number + i));
+      // Every law comes up in turn, from one drawn for the effect.
+      const EffectCase& e = *laws[(name + static_cast<std::size_t>(i)) % laws.size()];
+      const auto directions = e.At(size);
+      const auto pick = static_cast<std::size_t>(random.Uniform(0.0, 1.0) *
+                                                 static_cast<double>(directions.size()));
+      truths.push_back(
+          {.law = e.law,
+           .effects = {{std::string(effect->info.name), directions[pick]->Values(*effect, size)}},
+           .size = size,
+           .seed = NoiseSeed(table, static_cast<int>(random.Uniform(0.0, 1e6)))});
+    }
+  }
+  return truths;
+}
+
+double PerCent(long part, long whole) {
+  return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole)
+                   : std::numeric_limits<double>::quiet_NaN();
+}
+
+bool IsAtLeast(long part, long whole, double rate) {
+  if (whole == 0) return true;
+  const bool reduced = std::getenv("HOPLAB_STATISTICS_SEEDS") != nullptr;
+  return reduced ? part >= Band99(static_cast<int>(whole), rate).first
+                 : static_cast<double>(part) >= rate * static_cast<double>(whole);
+}
+
+bool IsAtMost(long part, long whole, double rate) {
+  return IsAtLeast(whole - part, whole, 1.0 - rate);
+}
+
+std::pair<int, int> Band99(int trials, double probability) {
+  const boost::math::binomial counts(trials, probability);
+  int low = 0, high = trials;
+  while (boost::math::cdf(counts, low) <= 0.005) ++low;
+  while (high > 0 && boost::math::cdf(boost::math::complement(counts, high - 1)) <= 0.005) --high;
+  return {low, high};
+}
+
+// ---- the report
+
+Report::Report(std::string name, std::string title) : name_(std::move(name)) {
+  Write("## " + title);
+  Write("");
+}
+
+Report::~Report() {
+  const char* folder = std::getenv("HOPLAB_STATISTICS_DIR");
+  std::ofstream(std::filesystem::path(folder ? folder : ".") / (name_ + ".md")) << text_ << '\n';
+}
+
+void Report::Say(const char* format, ...) {
+  char text[1024];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  if (in_table_) Write("");
+  in_table_ = false;
+  Write(text);
+  Write("");
+}
+
+void Report::Head(const std::vector<std::string>& cells) {
+  Row(cells);
+  Row(std::vector<std::string>(cells.size(), "---"));
+}
+
+void Report::Row(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& cell : cells) line += " " + cell + " |";
+  in_table_ = true;
+  Write(line);
+}
+
+void Report::Write(const std::string& line) {
+  std::printf("%s\n", line.c_str());
+  std::fflush(stdout);
+  text_ += line + "\n";
+}
+
+std::string Cell(const char* format, ...) {
+  char text[256];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+}  // namespace hoplab::testing

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fitting/diagnosis/diagnosis.h"
+#include "tests/support/effect_cases.h"
+
+namespace hoplab::testing {
+
+/// One sealed case diagnosed, with what the seal said.
+struct Outcome {
+  Truth truth;
+  std::string refusal;  // the gate's; empty if there is a diagnosis
+  Verdict verdict = Verdict::kAdequate;
+  double global_p = 1.0;
+  /// One a found effect: names that explain it as well as each other ("air_drag", "air_drag in
+  /// train-2.csv"), the accepted one first. Of verdicts that name something; else empty.
+  std::vector<std::vector<std::string>> groups;
+  std::string first;  // the cause that gains most; empty where nothing is named
+  /// Score of each planted effect beside the accepted extension: chance of it under noise. 1 for
+  /// those in the extension.
+  std::vector<double> left_p;
+  bool claims_gain = false;    // the interval of the held-out gain lies above zero
+  std::optional<double> gain;  // nats a held-out sample
+  /// Distance of the leading stiffness from the truth without and with the extension, and its
+  /// standard error without.
+  double error_before = 0.0, error_after = 0.0, std_error = 0.0;
+  double cpu_seconds = 0.0;
+
+  bool Names() const { return !groups.empty(); }
+  bool Holds(std::string_view name) const;  // in some group
+  bool HoldsAll() const;                    // every planted effect is
+  /// Names causes that stand alone, none of them planted.
+  bool NamesWrongly() const;
+  /// Members over all groups.
+  int SetSize() const;
+};
+
+/// Writes the dataset and its seal into a folder of its own, diagnoses from the dataset folder
+/// alone, then opens the seal. `without`: effects taken out of the catalogue.
+Outcome RunSealed(const Truth& truth, std::vector<std::string> without = {});
+
+/// The same for many, spread over the cores, in order. What throws is rethrown.
+std::vector<Outcome> RunAll(
+    const std::vector<Truth>& truths,
+    const std::function<std::vector<std::string>(const Truth&)>& without = nullptr);
+
+/// Numbered draws of the suite: one stream a case.
+inline constexpr std::uint64_t kSuiteSeed = 20'240;
+/// Seeds of noise differ between tables.
+enum class Table : std::uint64_t {
+  kFalseAlarms = 1,
+  kPower,
+  kNaming,
+  kLeftOut,
+  kTwoEffects,
+  kRules,
+  kNoise
+};
+std::uint64_t NoiseSeed(Table table, int number);
+
+/// Number of seeds: `full`, or HOPLAB_STATISTICS_SEEDS if that is set and smaller.
+int SeedCount(int full);
+
+/// `seeds` cases of each effect of the catalogue at `size`, one effect after the other; law, sign
+/// (direction) and noise are drawn. Effects no law allows at that size are not among them.
+std::vector<Truth> PlantEach(Table table, double size, int seeds);
+
+/// Share in per cent.
+double PerCent(long part, long whole);
+
+/// Whether `part` of `whole` may pass for a rate of at least (at most) `rate`: exactly so for the
+/// full number of seeds, within the 99 % band of a binomial for fewer.
+bool IsAtLeast(long part, long whole, double rate);
+bool IsAtMost(long part, long whole, double rate);
+
+/// Central 99 % band of a binomial count.
+std::pair<int, int> Band99(int trials, double probability);
+
+/// A part of the report: printed, and written to NAME.md in HOPLAB_STATISTICS_DIR (else the
+/// current folder) when it ends.
+class Report {
+ public:
+  Report(std::string name, std::string title);
+  ~Report();
+  Report(const Report&) = delete;
+  Report& operator=(const Report&) = delete;
+  /// A paragraph, formatted as by printf.
+  [[gnu::format(printf, 2, 3)]] void Say(const char* format, ...);
+  void Head(const std::vector<std::string>& cells);
+  void Row(const std::vector<std::string>& cells);
+
+ private:
+  void Write(const std::string& line);
+  std::string name_, text_;
+  bool in_table_ = false;
+};
+[[gnu::format(printf, 1, 2)]] std::string Cell(const char* format, ...);
+
+}  // namespace hoplab::testing

@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/diagnosed_hops.h"
+#include "tests/support/input_error_of.h"
+
+// The whole pipeline, from a dataset to its verdict.
+
+namespace hoplab {
+namespace {
+
+using testing::DatasetOf;
+using testing::EffectOfSize;
+using testing::GroupNames;
+using testing::OptionsWith;
+
+TEST(Diagnose, CleanDataAreAdequatelySimulated) {
+  const Diagnosis d = Diagnose(DatasetOf({}), OptionsWith(testing::kSixEffects));
+  EXPECT_EQ(d.refusal, "");
+  EXPECT_EQ(NameOf(d.verdict), "adequate") << d.reason;
+  EXPECT_GT(d.detection.p_value, kDetectionLevel);
+  EXPECT_FALSE(d.extension);
+  EXPECT_FALSE(d.Cause());
+}
+
+TEST(Diagnose, CleanDataStillTellWhatTheyCouldHaveShown) {
+  const Diagnosis d = Diagnose(DatasetOf({}), OptionsWith(testing::kSixEffects));
+  ASSERT_EQ(d.naming.candidates.size(), testing::kSixEffects.size());
+  for (const CandidateResult& c : d.naming.candidates) {
+    EXPECT_EQ(c.status == CandidateStatus::kExcluded, c.power >= kTestable) << c.candidate.Name();
+    EXPECT_TRUE(std::isfinite(c.bound95[0])) << c.candidate.Name();
+  }
+}
+
+TEST(Diagnose, AClearEffectIsNamed) {
+  const Diagnosis d = Diagnose(
+      DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}, .test = 2, .hops = 3}),
+      OptionsWith(testing::kSixEffects));
+  EXPECT_EQ(NameOf(d.verdict), "named") << d.reason;
+  EXPECT_EQ(GroupNames(d.naming), std::vector<std::string>{"touchdown_angle_bias"});
+  ASSERT_TRUE(d.Cause());
+  EXPECT_EQ(d.naming.candidates[static_cast<std::size_t>(*d.Cause())].candidate.Name(),
+            "touchdown_angle_bias");
+  ASSERT_TRUE(d.extension);
+  EXPECT_TRUE(d.extension->gain.IsClaim());
+  EXPECT_GT(d.extension->explained, kExplained);
+}
+
+TEST(Diagnose, TheExtensionBringsTheFittedValuesBackToTheTruth) {
+  const Diagnosis d = Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}}),
+                               OptionsWith(testing::kSixEffects));
+  ASSERT_TRUE(d.extension);
+  const Movement& E = d.extension->movements.at(0);
+  EXPECT_EQ(E.name, "E");
+  EXPECT_LT(std::abs(E.after - 22e9), std::abs(E.before - 22e9));
+  EXPECT_NEAR(E.after, 22e9, 0.02 * 22e9);
+  ASSERT_TRUE(E.std_errors);
+  EXPECT_GT(std::abs(*E.std_errors), 3.0);
+}
+
+TEST(Diagnose, LookAlikesAreConfoundedAndATrialIsProposed) {
+  // Between this little loss of speed at touch-down and another angle there the cosine is 0.93.
+  const Diagnosis d =
+      Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_loss", 0.02)}, .seed = 7}),
+               OptionsWith({"touchdown_loss", "touchdown_angle_bias"}));
+  EXPECT_EQ(NameOf(d.verdict), "confounded") << d.reason;
+  const std::vector<std::string> group = GroupNames(d.naming);
+  EXPECT_EQ(group.size(), 2u);
+  EXPECT_NE(std::find(group.begin(), group.end(), "touchdown_loss"), group.end());
+  ASSERT_TRUE(d.experiment);
+  EXPECT_GT(d.experiment->expected_nats, 0.0);
+}
+
+TEST(Diagnose, AnEffectThatNothingResemblesIsUnexplained) {
+  const Diagnosis d = Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.05)}}),
+                               OptionsWith({"air_drag", "sensor_delay"}));
+  EXPECT_EQ(NameOf(d.verdict), "unexplained") << d.reason;
+  ASSERT_TRUE(d.free_forces);
+  EXPECT_LT(d.free_forces->forces.front().p_value, 1e-3);
+}
+
+TEST(Diagnose, AMisfitThatTheOnlyCandidateCannotExplainNamesNobody) {
+  Dataset d = DatasetOf({});
+  for (Trial& t : d.trials) {
+    for (double& x : t.trace.columns[0].values) x *= 1.3;  // a scale that no sensor_delay makes
+  }
+  const Diagnosis result = Diagnose(d, OptionsWith({"sensor_delay"}));
+  EXPECT_EQ(NameOf(result.verdict), "unexplained") << result.reason;
+}
+
+TEST(Diagnose, StatedNoiseThatIsTooSmallRaisesNoAlarm) {
+  Dataset d = DatasetOf({.rate_hz = 250.0});
+  for (ChannelSpec& c : d.channels) c.sigma = 0.0004;
+  const Diagnosis result = Diagnose(d, OptionsWith(testing::kSixEffects));
+  EXPECT_EQ(NameOf(result.verdict), "adequate") << result.reason;
+  EXPECT_TRUE(std::any_of(result.notes.begin(), result.notes.end(), [](const std::string& note) {
+    return note.find("the flights scatter by") != std::string::npos;
+  }));
+}
+
+TEST(Diagnose, ADatasetThatCannotBeFittedIsRefusedWithTheReason) {
+  DiagnosisOptions options = OptionsWith(testing::kSixEffects);
+  options.problem.fix = {{"E", 1e8}};  // a leg like rubber
+  options.span = FitSpan::kWhole;
+  const Diagnosis d = Diagnose(DatasetOf({.train = 1}), options);
+  EXPECT_NE(d.refusal, "");
+  EXPECT_TRUE(d.naming.candidates.empty());
+}
+
+TEST(Diagnose, AnUnknownEffectIsRefusedBeforeAnythingIsFitted) {
+  const std::string error =
+      testing::InputErrorOf([] { Diagnose(DatasetOf({.train = 1}), OptionsWith({"wind"})); });
+  EXPECT_EQ(error.rfind("--effects", 0), 0u) << error;
+}
+
+TEST(Diagnose, StopsWhenAsked) {
+  std::atomic<bool> stop{true};
+  DiagnosisOptions options = OptionsWith(testing::kSixEffects);
+  options.fit.stop = &stop;
+  EXPECT_TRUE(Diagnose(DatasetOf({.train = 1}), options).interrupted);
+}
+
+TEST(Diagnose, TellsItsStagesInOrder) {
+  std::vector<std::string> stages;
+  DiagnosisOptions options = OptionsWith({"air_drag", "touchdown_angle_bias"});
+  options.stage = [&](std::string_view s) { stages.emplace_back(s); };
+  Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}}), options);
+  ASSERT_GE(stages.size(), 5u);
+  EXPECT_EQ(stages.front(), "fitting the model as it is");
+  EXPECT_NE(std::find(stages.begin(), stages.end(), "measuring on held-out trials"), stages.end());
+}
+
+}  // namespace
+}  // namespace hoplab
