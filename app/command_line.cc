@@ -6,6 +6,7 @@
 #include "app/command.h"
 #include "app/commands/check.h"
 #include "app/commands/compare.h"
+#include "app/commands/diagnose.h"
 #include "app/commands/effects.h"
 #include "app/commands/fit.h"
 #include "app/commands/gait.h"
@@ -36,6 +37,7 @@ class CommandLine {
     app_.footer("hoplab COMMAND --help says more. Begin with: hoplab fit datasets/rig-drops");
     AddCheckCommand(app_, invocation_);
     AddFitCommand(app_, invocation_);
+    AddDiagnoseCommand(app_, invocation_);
     AddCompareCommand(app_, invocation_);
     AddGaitCommand(app_, invocation_);
     AddOptimizeCommand(app_, invocation_);

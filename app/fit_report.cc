@@ -7,6 +7,7 @@
 
 #include "app/console.h"
 #include "app/quantity.h"
+#include "app/report_text.h"
 #include "app/text_table.h"
 #include "base/text.h"
 
@@ -15,8 +16,6 @@ namespace {
 
 // A loading below this is not worth a reader's time.
 constexpr double kSmallLoading = 0.1;
-constexpr std::size_t kLabelWidth = 13;
-constexpr std::size_t kLineWidth = 98;
 
 struct Interval {
   double low, high;
@@ -31,10 +30,6 @@ std::string IntervalText(const std::optional<Interval>& interval, double factor,
   if (!interval) return "";
   return Fixed(interval->low * factor, decimals) + " .. " +
          Fixed(interval->high * factor, decimals);
-}
-
-std::string Plural(long count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 std::string Headline(const FitRun& run) {
@@ -82,29 +77,6 @@ std::vector<std::string> ParameterLines(const FitRun& run) {
          u.at_bound ? "at bound" : ""});
   }
   return table.Lines();
-}
-
-// "  label       text", the text wrapped at kLineWidth and indented.
-std::string Labelled(const std::string& label, const std::string& text, bool colours) {
-  const std::string padded = fmt::format("{:<{}}", label, kLabelWidth);
-  std::string out = "  " + Styled(padded, Emphasis::kFaint, colours);
-  const std::size_t indent = 2 + kLabelWidth;
-  std::size_t column = indent;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::size_t length = end - begin;
-    if (column > indent && column + 1 + length > kLineWidth) {
-      out += "\n" + std::string(indent, ' ');
-      column = indent;
-    } else if (column > indent) {
-      out += ' ';
-      ++column;
-    }
-    out += text.substr(begin, length);
-    column += length;
-    begin = end + 1;
-  }
-  return out + "\n";
 }
 
 std::string ErrorLine(const FitRun& run, const RoleErrors& errors) {
@@ -216,10 +188,7 @@ std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
   text += "\n" + Headline(run) + "\n";
   if (!run.has_result) return text + Labelled("no result", run.Failure(), colours);
   text += "\n";
-  const std::vector<std::string> lines = ParameterLines(run);
-  text += Styled(lines.front(), Emphasis::kFaint, colours) + "\n";
-  for (std::size_t i = 1; i < lines.size(); ++i) text += lines[i] + "\n";
-  text += "\n";
+  text += WithHeader(ParameterLines(run), colours) + "\n";
 
   const Uncertainty& u = *run.uncertainty;
   if (u.misfit) {

@@ -9,7 +9,7 @@
 
 namespace hoplab {
 
-/// Options of `fit` and `check` that say what of a dataset is fitted.
+/// Options of `fit`, `diagnose` and `check` that say what of a dataset is fitted.
 struct ProblemSettings {
   std::string dataset;
   std::string law;

@@ -8,7 +8,7 @@
 namespace hoplab {
 
 /// Says on standard error how far a long command is: one line written over on a terminal, a plain
-/// line now and then elsewhere, nothing if silenced. Not for several threads.
+/// line now and then elsewhere, nothing if silenced. Not for several threads at a time.
 class Progress {
  public:
   Progress(const Console& console, bool silent);

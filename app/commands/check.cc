@@ -7,11 +7,12 @@
 #include <limits>
 #include <ostream>
 
-#include "app/fit_record.h"
 #include "app/fit_report.h"
 #include "app/problem_settings.h"
 #include "app/progress.h"
 #include "app/quantity.h"
+#include "app/record_parts.h"
+#include "app/report_text.h"
 #include "app/run_folder.h"
 #include "app/text_table.h"
 #include "app/warnings.h"
@@ -70,11 +71,12 @@ Json RecordOf(const Dataset& dataset, const CheckSettings& settings, const FitPr
   header.command = "check";
   header.dataset = dataset.name;
   header.law = std::string(NameOf(problem.law));
-  FitRunOptions options;
-  options.problem = ProblemOptionsOf(settings.problem);
-  header.options = OptionsRecord(settings.problem.dataset, problem, options);
+  const ProblemOptions problem_options = ProblemOptionsOf(settings.problem);
+  const FitOptions no_search;
+  header.options =
+      OptionsRecord(problem, {settings.problem.dataset, &problem_options, &no_search, {}});
   for (const char* of_the_search :
-       {"starts", "seed", "strategy", "span", "loss", "loss_scale", "max_iterations", "profile"})
+       {"starts", "seed", "strategy", "span", "loss", "loss_scale", "max_iterations"})
     header.options.erase(of_the_search);
   Json record = NewRecord(header);
   record["warnings"] = check.warnings;
@@ -127,9 +129,7 @@ std::string Report(const Dataset& dataset, const FitProblem& problem, const Chec
   for (const TextTable& table : {trials, channels}) {
     const std::vector<std::string> lines = table.Lines();
     if (lines.size() < 2) continue;
-    text += Styled(lines.front(), Emphasis::kFaint, colours) + "\n";
-    for (std::size_t i = 1; i < lines.size(); ++i) text += lines[i] + "\n";
-    text += "\n";
+    text += WithHeader(lines, colours) + "\n";
   }
   text += "  determined  " +
           (check.uncertainty ? DeterminedLine(problem, *check.uncertainty, " at the nominal values")

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <ostream>
 
-#include "app/fit_record.h"
 #include "app/problem_settings.h"
 #include "app/progress.h"
 #include "app/quantity.h"

@@ -1,17 +1,54 @@
 #include "app/commands/effects.h"
 
+#include <algorithm>
 #include <ostream>
 
+#include "app/quantity.h"
+#include "app/report_text.h"
 #include "app/run_record.h"
+#include "app/text_table.h"
+#include "base/input_error.h"
 #include "base/text.h"
+#include "fitting/model_of_spec.h"
 #include "model/effects/effect.h"
 
 namespace hoplab {
 namespace {
 
+constexpr std::array kMechanisms = {MechanismKind::kCLeg, MechanismKind::kStraightLeg,
+                                    MechanismKind::kBall};
+constexpr std::array kKinds = {EffectKind::kForce, EffectKind::kParameter, EffectKind::kGuard,
+                               EffectKind::kObservation};
+
 struct EffectsSettings {
+  std::string name;  // empty: all
+  std::string law;   // likewise
   bool json = false;
 };
+
+std::string_view TitleOf(EffectKind kind) {
+  switch (kind) {
+    case EffectKind::kForce:
+      return "Forces, torques and impacts";
+    case EffectKind::kParameter:
+      return "The mechanism, its laws and its gravity";
+    case EffectKind::kGuard:
+      return "When contact begins";
+    case EffectKind::kObservation:
+      return "What the sensors report";
+  }
+  return "";
+}
+
+std::vector<Law> LawsWith(const Effect& effect) {
+  std::vector<Law> laws;
+  for (const MechanismKind mechanism : kMechanisms) {
+    for (const Law law : LawsOf(mechanism)) {
+      if (AppliesTo(effect, law)) laws.push_back(law);
+    }
+  }
+  return laws;
+}
 
 Json RecordOf(const Effect& effect) {
   Json parameters = Json::array();
@@ -23,13 +60,11 @@ Json RecordOf(const Effect& effect) {
                           {"typical", p.typical}});
   }
   Json mechanisms = Json::array(), laws = Json::array();
-  for (MechanismKind mechanism :
-       {MechanismKind::kCLeg, MechanismKind::kStraightLeg, MechanismKind::kBall}) {
-    const std::size_t before = laws.size();
-    for (Law law : LawsOf(mechanism)) {
-      if (AppliesTo(effect, law)) laws.push_back(NameOf(law));
-    }
-    if (laws.size() > before) mechanisms.push_back(NameOf(mechanism));
+  for (const Law law : LawsWith(effect)) {
+    laws.push_back(NameOf(law));
+    const Json mechanism = NameOf(MechanismOf(law));
+    if (std::find(mechanisms.begin(), mechanisms.end(), mechanism) == mechanisms.end())
+      mechanisms.push_back(mechanism);
   }
   return {{"name", effect.info.name},
           {"kind", NameOf(effect.info.kind)},
@@ -41,49 +76,129 @@ Json RecordOf(const Effect& effect) {
           {"parameters", parameters}};
 }
 
-void PrintEffect(const EffectInfo& info, Console& console) {
-  std::string whom = info.for_legs && info.for_ball ? "legs and ball"
-                     : info.for_legs                ? "legs"
-                                                    : "ball";
+// "ball only", "laws thesis, no_slip"; empty where it goes with everything.
+std::string RestrictionOf(const Effect& effect) {
+  const EffectInfo& info = effect.info;
   if (!info.only_laws.empty()) {
-    whom = "law";
-    const char* separator = " ";
-    for (Law law : info.only_laws) {
-      whom += separator + std::string(NameOf(law));
-      separator = ", ";
+    std::vector<std::string> names;
+    for (const Law law : info.only_laws) names.emplace_back(NameOf(law));
+    return (names.size() == 1 ? "law " : "laws ") + Join(names);
+  }
+  if (info.for_legs && info.for_ball) return "";
+  return info.for_legs ? "legs" : "ball only";
+}
+
+std::string Quantity(double value, const EffectParameter& p) {
+  const ReadableUnit unit = ReadableUnitOf(value, std::string(p.unit));
+  return FormatDouble(value * unit.factor) + (unit.unit.empty() ? "" : " " + unit.unit);
+}
+
+// Two lines an effect: name, parameters with their typical sizes, restriction; what it is.
+void PrintList(const std::vector<const Effect*>& effects, Console& console) {
+  using enum TextTable::Align;
+  for (const EffectKind kind : kKinds) {
+    TextTable table({kLeft, kLeft, kLeft});
+    table.AddRow({"effect", "parameter, typical size", "goes with"});
+    std::vector<const Effect*> rows;
+    for (const Effect* e : effects) {
+      if (e->info.kind != kind) continue;
+      std::vector<std::string> parameters;
+      for (const EffectParameter& p : e->info.parameters)
+        parameters.push_back(std::string(p.name) + " " + Quantity(p.typical, p));
+      table.AddRow({std::string(e->info.name), Join(parameters), RestrictionOf(*e)});
+      rows.push_back(e);
     }
+    if (rows.empty()) continue;
+    const std::vector<std::string> lines = table.Lines();
+    console.out << Styled(TitleOf(kind), Emphasis::kBold, console.out_colours) << '\n';
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      console.out << lines[i + 1] << "\n      "
+                  << Styled(Wrapped(std::string(rows[i]->info.sentence), 6), Emphasis::kFaint,
+                            console.out_colours)
+                  << '\n';
+    }
+    console.out << '\n';
   }
-  console.out << Styled(info.name, Emphasis::kBold, console.out_colours) << "  "
-              << NameOf(info.kind) << ", " << whom << ": " << info.sentence << "\n  "
-              << info.equation << '\n';
+  console.out << Plural(static_cast<long>(effects.size()), "effect")
+              << "; hoplab effects NAME says more of one\n";
+}
+
+void PrintOne(const Effect& effect, Console& console) {
+  const EffectInfo& info = effect.info;
+  const bool colours = console.out_colours;
+  console.out << Styled(info.name, Emphasis::kBold, colours) << "  " << NameOf(info.kind)
+              << "\n\n  " << Wrapped(std::string(info.sentence), 2) << "\n\n"
+              << Labelled("equation", std::string(info.equation), colours);
   for (const EffectParameter& p : info.parameters) {
-    console.out << "  " << p.name;
-    if (p.unit != "-") console.out << " [" << p.unit << ']';
-    console.out << ": null " << FormatDouble(p.null) << ", typical " << FormatDouble(p.typical)
-                << ", from " << FormatDouble(p.lower) << " to " << FormatDouble(p.upper) << '\n';
+    console.out << Labelled(std::string(p.name),
+                            (p.unit == "-" ? "" : "[" + std::string(p.unit) + "] ") +
+                                "no effect at " + FormatDouble(p.null) + ", typical " +
+                                FormatDouble(p.typical) + ", from " + FormatDouble(p.lower) +
+                                " to " + FormatDouble(p.upper),
+                            colours);
   }
+  std::vector<std::string> laws;
+  for (const Law law : LawsWith(effect)) laws.emplace_back(NameOf(law));
+  console.out << Labelled("laws", Join(laws), colours)
+              << Labelled("energy",
+                          info.dissipative ? "only ever taken away" : "may be put in or taken away",
+                          colours)
+              << Labelled("fit it", "hoplab fit DATASET --with " + std::string(info.name), colours);
+}
+
+std::vector<const Effect*> Chosen(const EffectsSettings& settings) {
+  if (!settings.name.empty()) return {&ResolveEffect(settings.name, "hoplab effects")};
+  std::vector<const Effect*> chosen;
+  for (const Effect* effect : AllEffects()) {
+    const std::vector<Law> laws = LawsWith(*effect);
+    const bool applies =
+        std::any_of(laws.begin(), laws.end(), [&](Law law) { return NameOf(law) == settings.law; });
+    if (settings.law.empty() || applies) chosen.push_back(effect);
+  }
+  return chosen;
+}
+
+void CheckLaw(const std::string& name) {
+  std::vector<std::string> known;
+  for (const MechanismKind mechanism : kMechanisms) {
+    for (const Law law : LawsOf(mechanism)) known.emplace_back(NameOf(law));
+  }
+  if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+  throw InputError({"--law", Printable(name), "is not a law", DidYouMean(name, known)});
 }
 
 ExitCode RunEffects(const EffectsSettings& settings, Console& console) {
+  CheckLaw(settings.law);
+  const std::vector<const Effect*> effects = Chosen(settings);
   if (settings.json) {
     RecordHeader header;
     header.command = "effects";
+    if (!settings.law.empty()) header.law = settings.law;
     Json record = NewRecord(header);
     record["effects"] = Json::array();
-    for (const Effect* effect : AllEffects()) record["effects"].push_back(RecordOf(*effect));
+    for (const Effect* effect : effects) record["effects"].push_back(RecordOf(*effect));
     console.out << TextOf(record);
-    return ExitCode::kDone;
+  } else if (settings.name.empty()) {
+    PrintList(effects, console);
+  } else {
+    PrintOne(*effects.front(), console);
   }
-  for (const Effect* effect : AllEffects()) PrintEffect(effect->info, console);
   return ExitCode::kDone;
 }
 
 }  // namespace
 
 void AddEffectsCommand(CLI::App& app, Invocation& invocation) {
+  auto settings = std::make_shared<EffectsSettings>();
   CLI::App& sub = *app.add_subcommand("effects", "Physical effects that can be added to a model");
-  sub.footer("Example:\n  hoplab effects --json");
-  OnParsed(sub, invocation, std::make_shared<EffectsSettings>(), RunEffects);
+  sub.add_option("NAME", settings->name, "One effect, in full");
+  sub.add_option("--law", settings->law, "Only those that go with this law")->option_text("LAW");
+  sub.footer(
+      "Examples:\n"
+      "  hoplab effects --law consistent\n"
+      "  hoplab effects air_drag\n"
+      "  hoplab effects --json");
+  OnParsed(sub, invocation, settings, RunEffects);
 }
 
 }  // namespace hoplab

@@ -1,0 +1,150 @@
+#include "app/commands/diagnose.h"
+
+#include <chrono>
+#include <cmath>
+#include <ostream>
+
+#include "app/diagnosis_record.h"
+#include "app/diagnosis_report.h"
+#include "app/diagnosis_tables.h"
+#include "app/interrupt.h"
+#include "app/problem_settings.h"
+#include "app/progress.h"
+#include "app/quantity.h"
+#include "app/run_folder.h"
+#include "datasets/read_dataset.h"
+
+namespace hoplab {
+namespace {
+
+struct DiagnoseSettings {
+  ProblemSettings problem;
+  std::vector<std::string> effects, without;
+  int max_effects = DiagnosisOptions().max_effects;
+  int starts = 1;
+  std::uint64_t seed = 1;
+  std::string span = "whole_else_hops";
+  std::string out;
+  bool force = false, json = false, quiet = false;
+};
+
+DiagnosisOptions OptionsOf(const DiagnoseSettings& settings) {
+  DiagnosisOptions options;
+  options.problem = ProblemOptionsOf(settings.problem);
+  options.fit.starts = settings.starts;
+  options.fit.seed = settings.seed;
+  options.fit.jobs = JobsOf(settings.problem.jobs);
+  options.span = *FindSpan(settings.span);
+  options.candidates = {settings.effects, settings.without};
+  options.max_effects = settings.max_effects;
+  return options;
+}
+
+void ShowProgress(DiagnosisOptions& options, Progress& progress) {
+  options.stage = [&](std::string_view stage) { progress.Stage(std::string(stage)); };
+  options.step = [&](const std::string& text) { progress.Step(text); };
+  const int starts = options.fit.starts;
+  options.fit.progress = [&progress, starts](int start, std::string_view stage, int iteration,
+                                             double cost) {
+    std::string text = "fitting the model as it is";
+    if (starts > 1)
+      text += ", start " + std::to_string(start + 1) + " of " + std::to_string(starts);
+    text += ": " + std::string(stage) + ", iteration " + std::to_string(iteration);
+    if (std::isfinite(cost)) text += ", cost " + Significant(cost, 5);
+    progress.Step(text);
+  };
+}
+
+ExitCode CodeOf(const DiagnosisRun& run) {
+  if (run.diagnosis.interrupted) return ExitCode::kInterrupted;
+  return run.Failure().empty() ? ExitCode::kDone : ExitCode::kNoResult;
+}
+
+ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
+  const auto begin = std::chrono::steady_clock::now();
+  DiagnosisOptions options = OptionsOf(settings);
+  const Dataset dataset = ReadDataset(settings.problem.dataset);
+  RunFolderOptions place{std::nullopt, settings.force};
+  if (!settings.out.empty()) place.out = settings.out;
+  const RunFolder folder(place, dataset.name, "diagnose");
+
+  const InterruptGuard interrupt;
+  Progress progress(console, settings.quiet);
+  options.fit.stop = interrupt.flag();
+  ShowProgress(options, progress);
+  DiagnosisRun run;
+  run.diagnosis = Diagnose(dataset, options);
+  if (!run.diagnosis.before.trials.empty()) {
+    const auto& extension = run.diagnosis.extension;
+    run.energy =
+        LedgerOf(run.diagnosis.null, run.diagnosis.before, extension ? &extension->after : nullptr);
+  }
+  progress.Clear();
+
+  Json record = DiagnosisRecord(dataset, settings.problem.dataset, options, run);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  record["seconds"] = took.count();
+  // Before the null fit is over there is nothing worth keeping of an interrupted run.
+  const bool keep = run.diagnosis.fit.ok || !run.diagnosis.interrupted;
+  std::string kept = "nothing was written";
+  if (keep) {
+    std::map<std::string, std::string> files = DiagnosisTables(run);
+    files["run.json"] = TextOf(record);
+    kept = folder.Write(files).string();
+  }
+  if (settings.json) {
+    console.out << TextOf(record);
+  } else {
+    console.out << DiagnosisReport(dataset, run, console.out_colours)
+                << Styled("  run folder   ", Emphasis::kFaint, console.out_colours) << kept << '\n';
+  }
+  if (!run.Failure().empty()) console.err << "hoplab diagnose: " << run.Failure() << '\n';
+  if (run.diagnosis.interrupted) console.err << "kept: " << (keep ? kept : "nothing") << '\n';
+  return CodeOf(run);
+}
+
+}  // namespace
+
+void AddDiagnoseCommand(CLI::App& app, Invocation& invocation) {
+  auto settings = std::make_shared<DiagnoseSettings>();
+  CLI::App& sub = *app.add_subcommand(
+      "diagnose", "Name what the simulation lacks, extend it and measure what that brings");
+  AddProblemOptions(sub, settings->problem);
+  CLI::Option* only = sub.add_option("--effects", settings->effects,
+                                     "Effects to try (default: all that apply); see hoplab effects")
+                          ->delimiter(',')
+                          ->option_text("EFFECT,...")
+                          ->allow_extra_args(false);
+  sub.add_option("--without", settings->without, "Effects not to try")
+      ->delimiter(',')
+      ->option_text("EFFECT,...")
+      ->allow_extra_args(false)
+      ->excludes(only);
+  sub.add_option("--max-effects", settings->max_effects,
+                 "Most effects to add to the model (default 3)")
+      ->check(CLI::Range(1, 10))
+      ->option_text("N");
+  sub.add_option("--starts", settings->starts,
+                 "Searches for the model as it is: from the nominal values, then scattered")
+      ->check(CLI::Range(1, 1000000))
+      ->option_text("N");
+  sub.add_option("--seed", settings->seed,
+                 "Of scattered starts, noise draws and bootstraps (default 1)")
+      ->option_text("N");
+  sub.add_option("--span", settings->span,
+                 "whole traces, else single hops where a law falls (default), whole or hops")
+      ->check(CLI::IsMember({"whole_else_hops", "whole", "hops"}))
+      ->option_text("NAME");
+  sub.add_option("--out", settings->out, "Run folder (default runs/<dataset>-diagnose-NNN)")
+      ->option_text("DIR");
+  sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
+  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
+  sub.footer(
+      "Examples:\n"
+      "  hoplab diagnose datasets/rig-drops --law thesis\n"
+      "  hoplab diagnose my-hops --without sensor_delay,clock_scale --jobs 4\n"
+      "  hoplab diagnose my-hops --with air_drag --effects guide_viscous_friction,ground_slope");
+  OnParsed(sub, invocation, settings, RunDiagnose);
+}
+
+}  // namespace hoplab

@@ -1,0 +1,413 @@
+#include "app/diagnosis_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/diagnosis_words.h"
+#include "app/quantity.h"
+#include "app/report_text.h"
+#include "app/text_table.h"
+#include "base/text.h"
+
+namespace hoplab {
+namespace {
+
+using enum TextTable::Align;
+
+// What is listed for a reader; the rest stands in the CSVs.
+constexpr std::size_t kMostPlaces = 4, kMostListed = 12, kMostHops = 4, kMostForces = 3;
+constexpr double kSmallShare = 0.05;
+// A term of a sparse regression worth a word: resampling keeps it this often.
+constexpr double kOftenKept = 0.5;
+
+std::string Percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
+
+std::string Headline(const Diagnosis& d) {
+  long train = 0, test = 0, samples = 0;
+  for (const TrialProblem& t : d.problem.trials) {
+    ++(t.role == TrialRole::kTrain ? train : test);
+    if (t.role == TrialRole::kTrain) samples += t.sample_count;
+  }
+  return fmt::format("  law {}, {} train and {}, {}, {} tried\n", NameOf(d.problem.law), train,
+                     Plural(test, d.by_hop ? "test hop" : "test trial"),
+                     Plural(samples, "train sample"),
+                     Plural(static_cast<long>(d.naming.candidates.size()), "cause"));
+}
+
+// ---- where
+
+std::string CellsLine(const Diagnosis& d) {
+  std::vector<std::string> places;
+  for (const MisfitCell& c : d.localisation.cells) {
+    if (places.size() == kMostPlaces || c.share < kSmallShare) break;
+    places.push_back(Percent(c.share) + " " + PlaceText(d.problem, c));
+  }
+  return Join(places);
+}
+
+std::string PartsLine(const Diagnosis& d) {
+  std::vector<MisfitPart> hops = d.localisation.hops, trials = d.localisation.trials;
+  const auto by_share = [](const MisfitPart& a, const MisfitPart& b) { return a.share > b.share; };
+  std::stable_sort(hops.begin(), hops.end(), by_share);
+  std::stable_sort(trials.begin(), trials.end(), by_share);
+  std::vector<std::string> words;
+  if (hops.size() > 1) {
+    std::vector<std::string> parts;
+    for (const MisfitPart& p : hops) {
+      if (parts.size() < 3 && p.share >= kSmallShare)
+        parts.push_back(fmt::format("{} hop {}", Percent(p.share), p.index + 1));
+    }
+    if (!parts.empty()) words.push_back(Join(parts));
+  }
+  if (trials.size() > 1 && trials[0].share >= kSmallShare) {
+    const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
+    words.push_back(fmt::format("most in {} ({})",
+                                train[static_cast<std::size_t>(trials[0].index)].file,
+                                Percent(trials[0].share)));
+  }
+  return Join(words, "; ");
+}
+
+// ---- cause
+
+struct Interval {
+  std::optional<std::pair<double, double>> ci;
+  bool at_bound = false;
+};
+
+void AddCauseRow(TextTable& table, const SharedParameter& s, double value, const Interval& interval,
+                 const std::string& remark) {
+  const ReadableUnit unit = ReadableUnitOf(value, s.unit);
+  std::string shown = Significant(value * unit.factor, 3), range;
+  if (interval.ci) {
+    const double half = 0.5 * (interval.ci->second - interval.ci->first) * unit.factor;
+    const int decimals = DecimalsFor(half);
+    shown = Fixed(value * unit.factor, decimals);
+    range = Fixed(interval.ci->first * unit.factor, decimals) + " .. " +
+            Fixed(interval.ci->second * unit.factor, decimals);
+  }
+  table.AddRow({s.name, shown, interval.at_bound ? "at its bound" : range, unit.unit, remark});
+}
+
+// Places of a candidate's values among the shared ones of a model that has it; -1: it has not.
+int PlaceIn(const Extension& model, const Candidate& candidate) {
+  int place = model.problem.shared_count() - model.parameter_count();
+  for (const Candidate& member : model.members) {
+    if (member == candidate) return place;
+    place += member.parameter_count();
+  }
+  return -1;
+}
+
+// Members with their sizes, each followed by what does as well in its place.
+std::string CauseTable(const Diagnosis& d, bool colours) {
+  const Extension& best = d.naming.best;
+  const Uncertainty& u = d.extension->uncertainty;
+  const bool between =
+      u.misfit && !u.parameters.empty() && u.parameters.back().ci95_between_trials.has_value();
+  TextTable table({kLeft, kRight, kLeft, kLeft, kLeft});
+  table.AddRow({d.verdict == Verdict::kUnexplained ? "best attempt" : "supported", "size",
+                between ? "95 % between trials" : "95 % interval", "unit", "log-likelihood"});
+  for (std::size_t m = 0; m < d.naming.groups.size(); ++m) {
+    for (std::size_t k = 0; k < d.naming.groups[m].size(); ++k) {
+      const CandidateResult& c =
+          d.naming.candidates[static_cast<std::size_t>(d.naming.groups[m][k])];
+      const bool rival = k > 0;
+      if (rival && (m >= d.naming.rivals.size() || k >= d.naming.rivals[m].size())) continue;
+      const Extension& model = rival ? d.naming.rivals[m][k] : best;
+      const int place = PlaceIn(model, c.candidate);
+      if (place < 0) continue;
+      std::string remark;
+      if (rival) {
+        remark = fmt::format("in its place, {:.1f} nats behind", model.cost - best.cost);
+      } else if (c.alone.ok()) {
+        remark = fmt::format("+{} nats alone", Significant(c.gain, 3));
+      }
+      for (int i = 0; i < c.candidate.parameter_count(); ++i) {
+        Interval interval;
+        if (!rival) {
+          const ParameterUncertainty& p = u.parameters[static_cast<std::size_t>(place + i)];
+          interval = {between ? p.ci95_between_trials : p.ci95, p.at_bound};
+        }
+        AddCauseRow(table, model.problem.shared[static_cast<std::size_t>(place + i)],
+                    model.shared[place + i], interval, i == 0 ? remark : "");
+      }
+    }
+  }
+  return WithHeader(table.Lines(), colours);
+}
+
+// What the names mean, where the verdict has not said it.
+std::string MeaningLines(const Diagnosis& d, bool colours) {
+  std::vector<const Effect*> effects;
+  for (const std::vector<int>& group : d.naming.groups) {
+    for (const int place : group) {
+      const Effect* e = d.naming.candidates[static_cast<std::size_t>(place)].candidate.effect;
+      if (std::find(effects.begin(), effects.end(), e) == effects.end()) effects.push_back(e);
+    }
+  }
+  if (effects.size() == 1 && d.verdict == Verdict::kNamed) return "";
+  std::string text;
+  for (const Effect* e : effects)
+    text += Labelled("", std::string(e->info.name) + ": " + std::string(e->info.sentence), colours);
+  return text;
+}
+
+// ---- held-out
+
+std::string HeldOutTable(const Diagnosis& d, bool colours) {
+  const HeldOutErrors& after = d.extension->after;
+  TextTable table({kLeft, kRight, kRight});
+  table.AddRow({"held-out error", "before", "after"});
+  for (std::size_t c = 0; c < d.problem.channels.size(); ++c) {
+    const std::string name(NameOf(d.problem.channels[c].channel));
+    const std::string unit = ChannelUnit(*ChannelFromName(name));
+    table.AddRow({WithoutUnit(name), ErrorText(d.before.test.rmse[c], unit),
+                  ErrorText(after.test.rmse[c], unit)});
+  }
+  const auto feature = [&](const char* name, double old, double now, bool length) {
+    if (!std::isfinite(old) && !std::isfinite(now)) return;
+    const auto text = [&](double v) {
+      if (std::isnan(v)) return std::string("-");
+      return length ? ErrorText(v, "m") : Significant(1e3 * v, 3) + " ms";
+    };
+    table.AddRow({name, text(old), text(now)});
+  };
+  const FeatureErrors &b = d.before.features, &a = after.features;
+  feature("apex height", b.apex_height_rmse, a.apex_height_rmse, true);
+  feature("apex time", b.apex_time_rmse, a.apex_time_rmse, false);
+  feature("touch-down time", b.touchdown_time_rmse, a.touchdown_time_rmse, false);
+  feature("stance duration", b.stance_time_rmse, a.stance_time_rmse, false);
+  return WithHeader(table.Lines(), colours);
+}
+
+// Of the model as it was.
+std::string TestErrorLine(const Diagnosis& d) {
+  std::vector<std::string> parts;
+  for (std::size_t c = 0; c < d.problem.channels.size(); ++c) {
+    const std::string name(NameOf(d.problem.channels[c].channel));
+    parts.push_back(WithoutUnit(name) + " " +
+                    ErrorText(d.before.test.rmse[c], ChannelUnit(*ChannelFromName(name))));
+  }
+  return Join(parts);
+}
+
+std::string GainLine(const ExtensionReport& e) {
+  const HeldOutGain& g = e.gain;
+  if (std::isnan(g.nats_per_sample)) return "not computed: no held-out trial to compare on";
+  std::string text = fmt::format("{:+.3g} nats a sample", g.nats_per_sample);
+  text += g.ci95 ? fmt::format(", 95 % interval {:.3g} .. {:.3g}", g.ci95->first, g.ci95->second)
+                 : std::string(", no interval from so few hops");
+  text += fmt::format(" ({}, {})", Plural(g.hops, "hop"), Plural(g.samples, "sample"));
+  if (!g.IsClaim()) text += ": no claim";
+  if (!e.left_out.empty()) text += "; left out, not simulated to its end: " + Join(e.left_out);
+  return text;
+}
+
+std::string MovedTable(const ExtensionReport& e, bool colours) {
+  TextTable table({kLeft, kRight, kRight, kLeft, kLeft});
+  table.AddRow({"fitted before", "before", "after", "unit", "moved by"});
+  for (const Movement& m : e.movements) {
+    const ReadableUnit unit = ReadableUnitOf(m.before, m.unit);
+    table.AddRow({m.name, Significant(m.before * unit.factor, 4),
+                  Significant(m.after * unit.factor, 4), unit.unit,
+                  m.std_errors ? fmt::format("{:+.{}f} standard errors", *m.std_errors,
+                                             std::abs(*m.std_errors) < 10.0 ? 1 : 0)
+                               : "not known: undetermined before"});
+  }
+  return e.movements.empty() ? "" : WithHeader(table.Lines(), colours);
+}
+
+std::string EnergyTable(const EnergyLedger& ledger, bool colours) {
+  TextTable table({kLeft, kRight, kRight, kRight, kRight});
+  table.AddRow({"energy lost", "from", "measured", "before", "after"});
+  const auto lost = [](const HopBalance& b) {
+    const double share = b.LossShare();
+    return std::isnan(share) ? std::string("-") : fmt::format("{:.2f} %", 100.0 * share);
+  };
+  for (std::size_t k = 0; k < std::min(ledger.hops.size(), kMostHops); ++k) {
+    const HopEnergy& h = ledger.hops[k];
+    const double begin = std::isnan(h.measured.begin) ? h.before.begin : h.measured.begin;
+    table.AddRow({fmt::format("hop {} of {}", k + 1, ledger.recording),
+                  Significant(begin, 4) + " J", lost(h.measured), lost(h.before),
+                  h.after ? lost(*h.after) : ""});
+  }
+  return WithHeader(table.Lines(), colours);
+}
+
+std::string RemainderLine(const ExtensionReport& e) {
+  const Detection& r = e.remainder;
+  if (r.p_value > kDetectionLevel)
+    return fmt::format("what is left looks like noise ({})", ChanceText(r.p_value));
+  std::string text = fmt::format("{} of the misfit is explained, not all of it ({})",
+                                 Percent(e.explained), ChanceText(r.p_value));
+  const auto most = std::max_element(
+      r.tests.begin(), r.tests.end(),
+      [](const DetectionTest& a, const DetectionTest& b) { return a.statistic < b.statistic; });
+  if (most != r.tests.end() && most->dof > 0)
+    text += fmt::format("; a free {} would take up most of the rest", most->name);
+  return text;
+}
+
+// ---- what is not it
+
+std::string Capped(std::vector<std::string> items) {
+  if (items.size() <= kMostListed) return Join(items);
+  const std::size_t more = items.size() - kMostListed;
+  items.resize(kMostListed);
+  return Join(items) + fmt::format(" and {} more (candidates.csv)", more);
+}
+
+// The bound of each parameter: "air_drag 0.012 N s^2/m^2"; empty where none could be told.
+std::string BoundText(const CandidateResult& c) {
+  std::vector<std::string> parts;
+  for (int k = 0;
+       k < std::min<int>(c.candidate.parameter_count(), static_cast<int>(c.bound95.size())); ++k) {
+    if (!std::isfinite(c.bound95[k])) return "";
+    parts.push_back(
+        SizeText(c.bound95[k], std::string(c.candidate.effect->info.parameters[k].unit)));
+  }
+  return parts.empty() ? "" : c.candidate.Name() + " " + Join(parts, " and ");
+}
+
+// The bound in typical sizes, the loosest of its parameters.
+double RelativeBound(const CandidateResult& c) {
+  double most = 0.0;
+  for (int k = 0; k < static_cast<int>(c.bound95.size()); ++k)
+    most = std::max(most, c.bound95[k] / c.candidate.effect->info.parameters[k].typical);
+  return most;
+}
+
+std::string ExclusionLines(const Diagnosis& d, bool colours) {
+  std::vector<const CandidateResult*> excluded;
+  std::vector<std::string> unneeded, unseen;
+  for (const CandidateResult& c : d.naming.candidates) {
+    if (!c.candidate.only_recording.empty()) continue;  // the same effect, more narrowly
+    if (c.status == CandidateStatus::kExcluded) {
+      if (BoundText(c).empty())
+        unneeded.push_back(c.candidate.Name());
+      else
+        excluded.push_back(&c);
+    } else if (c.status == CandidateStatus::kNotTested) {
+      std::vector<std::string> sizes;
+      for (const EffectParameter& p : c.candidate.effect->info.parameters)
+        sizes.push_back(SizeText(p.typical, std::string(p.unit)));
+      unseen.push_back(c.candidate.Name() + " " + Join(sizes, " and "));
+    }
+  }
+  std::stable_sort(excluded.begin(), excluded.end(), [](const auto* a, const auto* b) {
+    return RelativeBound(*a) < RelativeBound(*b);
+  });
+  std::vector<std::string> bounds;
+  for (const CandidateResult* c : excluded) bounds.push_back(BoundText(*c));
+  std::string text;
+  if (!bounds.empty()) text += Labelled("excluded", "beyond " + Capped(bounds), colours);
+  if (!unneeded.empty())
+    text +=
+        Labelled("not needed", Capped(unneeded) + ": without a bound beside the above", colours);
+  if (!unseen.empty())
+    text += Labelled("never shown", "at typical sizes: " + Capped(unseen), colours);
+  return text;
+}
+
+// ---- what next
+
+std::string ExperimentLine(const Diagnosis& d) {
+  const SeparatingExperiment& e = *d.experiment;
+  if (!e.Separates()) {
+    return fmt::format(
+        "none of {} designs like {} would settle it: the best promises {:.1f} nats, {:.0f} are "
+        "needed",
+        e.designs_tried, e.design.like, e.expected_nats, kIndistinguishable);
+  }
+  // The first group that is one is what the search was for.
+  std::string cause = "the cause";
+  for (const std::vector<int>& group : d.naming.groups) {
+    if (group.size() < 2) continue;
+    cause = d.naming.candidates[static_cast<std::size_t>(group.front())].candidate.Name();
+    break;
+  }
+  return fmt::format("{}, otherwise like {}: expected to set {} apart from {} by {} nats",
+                     Describe(e.design), e.design.like, cause, e.closest_rival,
+                     Significant(e.expected_nats, 2));
+}
+
+std::string ForceLine(const ReconstructedForce& f) {
+  const ForcePoint* largest = nullptr;
+  for (const ForcePoint& p : f.points) {
+    if (std::isnan(p.band95)) continue;
+    if (!largest || std::abs(p.value) / p.band95 > std::abs(largest->value) / largest->band95)
+      largest = &p;
+  }
+  std::string text = f.group.name;
+  if (largest) {
+    text += fmt::format(": {} +- {}", Significant(largest->value, 3),
+                        SizeText(largest->band95, f.group.unit));
+    if (!f.group.against.empty())
+      text += fmt::format(" at {} {}", f.group.against, Significant(largest->at, 2));
+  }
+  std::vector<std::string> terms;
+  for (const RegressionTerm& t : f.terms) {
+    if (t.inclusion >= kOftenKept)
+      terms.push_back(fmt::format("{:+.2g} {} ({})", t.coefficient, t.term, Percent(t.inclusion)));
+  }
+  if (!terms.empty()) text += "; shaped like " + Join(terms, " ");
+  return text;
+}
+
+std::string ForceLines(const FreeForces& free_forces, bool colours) {
+  std::string text;
+  std::size_t shown = 0;
+  for (const ReconstructedForce& f : free_forces.forces) {
+    if (shown == kMostForces || f.p_value > kDetectionLevel) break;
+    text += Labelled(shown++ == 0 ? "free forces" : "", ForceLine(f), colours);
+  }
+  if (shown > 0) text += Labelled("", "(a description of what is missing, no mechanism)", colours);
+  return text;
+}
+
+std::string NoVerdict(const Diagnosis& d, const std::string& failure, bool colours) {
+  std::string text = "\n" + Labelled("no verdict", failure, colours);
+  for (const GateCheck& c : d.gate.checks)
+    text += Labelled(c.passed ? "passed" : "failed", c.name + ": " + c.text, colours);
+  return text;
+}
+
+}  // namespace
+
+std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, bool colours) {
+  const Diagnosis& d = run.diagnosis;
+  std::string text = Styled(Printable(dataset.name, 100), Emphasis::kBold, colours);
+  if (!dataset.title.empty()) text += "  " + Printable(dataset.title, 100);
+  text += "\n" + Headline(d);
+  if (const std::string failure = run.Failure(); !failure.empty())
+    return text + NoVerdict(d, failure, colours);
+
+  text += "\n  " + Styled(Wrapped(VerdictSentence(d), 2), Emphasis::kBold, colours) + "\n\n";
+  if (d.verdict != Verdict::kAdequate) {
+    text += Labelled("misfit", CellsLine(d), colours);
+    if (const std::string parts = PartsLine(d); !parts.empty())
+      text += Labelled("", parts, colours);
+    text += "\n";
+  }
+  if (d.extension) {
+    const ExtensionReport& e = *d.extension;
+    text += CauseTable(d, colours) + MeaningLines(d, colours) + "\n";
+    if (e.after.test.trials > 0) text += HeldOutTable(d, colours) + "\n";
+    text += MovedTable(e, colours) + "\n";
+    if (!run.energy.hops.empty()) text += EnergyTable(run.energy, colours) + "\n";
+    text += Labelled("gain", GainLine(e), colours);
+    text += Labelled("remainder", RemainderLine(e), colours);
+  } else if (d.before.test.trials > 0) {
+    text += Labelled("test error", TestErrorLine(d), colours);
+  }
+  if (d.free_forces) text += ForceLines(*d.free_forces, colours);
+  text += ExclusionLines(d, colours);
+  if (d.experiment) text += Labelled("next trial", ExperimentLine(d), colours);
+  for (const std::string& note : d.notes) text += Labelled("note", note, colours);
+  return text;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "app/diagnosis_record.h"
+
+namespace hoplab {
+
+/// A diagnosis in words, for a terminal: the verdict, where the misfit sits, the cause and its
+/// size, what the extended model gains, what is excluded, what could not have shown, what to record
+/// next.
+std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, bool colours);
+
+}  // namespace hoplab

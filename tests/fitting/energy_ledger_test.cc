@@ -1,0 +1,70 @@
+#include "fitting/diagnosis/energy_ledger.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fitting/apex_segments.h"
+#include "tests/support/fit_cases.h"
+
+namespace hoplab {
+namespace {
+
+// The true model of generated hops.
+Extension TrueModel(FitProblem problem) {
+  Extension model;
+  model.problem = std::move(problem);
+  model.shared.resize(2);
+  model.shared << testing::HopTruth().E_Pa, testing::HopTruth().damping_N_s_per_m;
+  for (const TrialProblem& t : TrialsOf(model.problem, TrialRole::kTrain))
+    model.starts.push_back(t.start);
+  model.status = SolveStatus::kConverged;
+  return model;
+}
+
+// 1 mm of noise, averaged over a dozen rows of an arc, moves an energy by a few mJ.
+constexpr double kEnergyError_J = 0.03;
+
+TEST(EnergyLedger, TheTraceAndTheTrueModelLoseTheSameEnergy) {
+  const Extension model = TrueModel(MakeProblem(testing::SmallDataset(), {}));
+  const HeldOutErrors errors = MeasureHeldOut(model, 1);
+  const EnergyLedger ledger = LedgerOf(model, errors, nullptr);
+  EXPECT_EQ(ledger.recording, "test-7.csv") << "a held-out one where there is any";
+  ASSERT_GE(ledger.hops.size(), 1u);
+  for (const HopEnergy& hop : ledger.hops) {
+    EXPECT_NEAR(hop.measured.begin, hop.before.begin, kEnergyError_J);
+    EXPECT_NEAR(hop.measured.end, hop.before.end, kEnergyError_J);
+    EXPECT_GT(hop.before.LossShare(), 0.01) << "the damper takes energy";
+    EXPECT_FALSE(hop.after.has_value());
+  }
+}
+
+TEST(EnergyLedger, BodyEnergyIsWeightTimesHeightAndHalfTheSquareOfSpeed) {
+  const Extension model = TrueModel(MakeProblem(testing::SmallDataset(), {}));
+  const HeldOutErrors errors = MeasureHeldOut(model, 1);
+  const EnergyLedger ledger = LedgerOf(model, errors, &errors);
+  ASSERT_FALSE(ledger.hops.empty());
+  const TrialErrors& trial = errors.trials.back();
+  const auto [x, y, vx, vy] = trial.start;
+  EXPECT_NEAR(ledger.hops[0].before.begin, 9.81 * y + 0.5 * (vx * vx + vy * vy), 1e-9);
+  EXPECT_EQ(ledger.hops[0].after->begin, ledger.hops[0].before.begin);
+}
+
+TEST(EnergyLedger, SingleHopsBeginAtTheirOwnStarts) {
+  const Extension model = TrueModel(SplitIntoHops(MakeProblem(testing::SmallDataset(), {})));
+  const HeldOutErrors errors = MeasureHeldOut(model, 1);
+  const EnergyLedger ledger = LedgerOf(model, errors, nullptr);
+  ASSERT_FALSE(ledger.hops.empty());
+  EXPECT_TRUE(std::isnan(ledger.hops[0].measured.begin)) << "a nominal start is no measurement";
+  EXPECT_NEAR(ledger.hops[0].measured.end, ledger.hops[0].before.end, kEnergyError_J);
+}
+
+TEST(EnergyLedger, IsEmptyWithoutHeights) {
+  Dataset d = testing::SmallDataset();
+  d.channels.pop_back();  // body_y_m
+  const Extension model = TrueModel(MakeProblem(d, {}));
+  EXPECT_TRUE(LedgerOf(model, MeasureHeldOut(model, 1), nullptr).hops.empty());
+}
+
+}  // namespace
+}  // namespace hoplab
