@@ -71,6 +71,7 @@ std::optional<std::string> ErrorChange(const Diagnosis& d) {
 std::string HeldOutClause(const Diagnosis& d, const std::string& it) {
   const HeldOutGain& gain = d.extension->gain;
   if (d.extension->after.test.trials == 0) return "; there is no held-out trial to confirm it";
+  if (!gain.ci95) return "; the held-out hops are too few to claim a gain";
   if (!gain.IsClaim()) return "; the held-out trials do not confirm it, so no gain is claimed";
   if (const std::optional<std::string> change = ErrorChange(d))
     return fmt::format("; adding {} takes {}", it, *change);

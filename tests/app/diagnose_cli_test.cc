@@ -21,10 +21,13 @@ class DiagnoseCli : public ::testing::Test {
   }
   // A dataset of drops in `name`, with effects as the command line writes them.
   void Generate(const std::string& name, const std::vector<std::string>& with) {
-    std::vector<std::string> arguments = {
-        "generate", std::string(HOPLAB_SOURCE_DIR) + "/experiments/three-drops.yaml",
-        "--seed",   "7",
-        "--out",    name};
+    // A second held-out trial: an interval of the gain takes four hops.
+    const std::filesystem::path drops =
+        std::filesystem::path(HOPLAB_SOURCE_DIR) / "experiments/three-drops.yaml";
+    WriteText(
+        temp_.path() / "drops.yaml",
+        ReadText(drops) + "    - {role: test, touchdown_angle_deg: 27, initial: {y_m: 0.29}}\n");
+    std::vector<std::string> arguments = {"generate", "drops.yaml", "--seed", "7", "--out", name};
     for (const std::string& effect : with) {
       arguments.emplace_back("--with");
       arguments.push_back(effect);
