@@ -242,8 +242,9 @@ std::string RemainderLine(const ExtensionReport& e) {
   const Detection& r = e.remainder;
   if (r.p_value > kDetectionLevel)
     return fmt::format("what is left looks like noise ({})", ChanceText(r.p_value));
-  std::string text = fmt::format("{} of the misfit is explained, not all of it ({})",
-                                 Percent(e.explained), ChanceText(r.p_value));
+  // Not rounded up to all of it.
+  std::string text = fmt::format("{:.1f} % of the misfit is explained, not all of it ({})",
+                                 std::floor(1e3 * e.explained) / 10.0, ChanceText(r.p_value));
   const auto most = std::max_element(
       r.tests.begin(), r.tests.end(),
       [](const DetectionTest& a, const DetectionTest& b) { return a.statistic < b.statistic; });

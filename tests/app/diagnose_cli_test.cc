@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "tests/app/hoplab_process.h"
 
@@ -243,13 +244,13 @@ TEST(EffectsCli, ShowsTheCatalogueByKindAndOneInFull) {
   EXPECT_EQ(unknown.exit_code, 65);
   EXPECT_NE(unknown.err.find("air_drag"), std::string::npos);
   const auto names = [&](const std::vector<std::string>& arguments) {
+    const auto record = nlohmann::json::parse(RunHoplab(arguments, temp.path()).out);
     std::set<std::string> out;
-    for (const auto& e : nlohmann::json::parse(RunHoplab(arguments, temp.path()).out).at("effects"))
-      out.insert(e.at("name"));
+    for (const auto& e : record.at("effects")) out.insert(e.at("name"));
     return out;
   };
-  const auto every = names({"effects", "--json"}),
-             ball = names({"effects", "--law", "ball", "--json"});
+  const std::set<std::string> every = names({"effects", "--json"});
+  const std::set<std::string> ball = names({"effects", "--law", "ball", "--json"});
   EXPECT_TRUE(every.contains("leg_material_damping"));
   EXPECT_FALSE(ball.contains("leg_material_damping"));
   EXPECT_TRUE(ball.contains("air_drag"));
