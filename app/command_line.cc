@@ -9,9 +9,12 @@
 #include "app/commands/diagnose.h"
 #include "app/commands/effects.h"
 #include "app/commands/fit.h"
+#include "app/commands/gait.h"
 #include "app/commands/generate.h"
 #include "app/commands/laws.h"
+#include "app/commands/optimize.h"
 #include "app/commands/simulate.h"
+#include "app/commands/sweep.h"
 #include "app/commands/version.h"
 #include "app/run_record.h"
 #include "app/usage_error.h"
@@ -36,6 +39,9 @@ class CommandLine {
     AddFitCommand(app_, invocation_);
     AddDiagnoseCommand(app_, invocation_);
     AddCompareCommand(app_, invocation_);
+    AddGaitCommand(app_, invocation_);
+    AddOptimizeCommand(app_, invocation_);
+    AddSweepCommand(app_, invocation_);
     AddSimulateCommand(app_, invocation_);
     AddGenerateCommand(app_, invocation_);
     AddLawsCommand(app_, invocation_);

@@ -32,6 +32,13 @@ RunFolder::RunFolder(RunFolderOptions options, const std::string& name, const st
   if (options_.out) CheckFolderIsFree(*options_.out, {options_.force, kMarker});
 }
 
+fs::path RunFolder::Partial() const {
+  if (!options_.out) return fs::path(kParent) / (stem_ + ".partial");
+  fs::path out = *options_.out;
+  if (!out.has_filename()) out = out.parent_path();  // written with a slash at its end
+  return out += ".partial";
+}
+
 fs::path RunFolder::NextFree() const {
   int last = 0;
   std::error_code error;

@@ -22,6 +22,10 @@ class RunFolder {
   /// Writes files by name; returns where they are. Throws InputError if that is not possible.
   std::filesystem::path Write(const std::map<std::string, std::string>& files) const;
 
+  /// Where a command that can be interrupted and resumed keeps what it has so far: beside the
+  /// folder, `<out>.partial`, or `runs/<name>-<command>.partial`.
+  std::filesystem::path Partial() const;
+
  private:
   std::filesystem::path NextFree() const;
 

@@ -3,7 +3,6 @@
 #include "app/usage_error.h"
 #include "base/input_error.h"
 #include "base/text.h"
-#include "datasets/read_scenario.h"
 #include "fitting/model_of_spec.h"
 
 namespace hoplab {
@@ -48,7 +47,7 @@ void AddScenarioOptions(CLI::App& sub, ScenarioSettings& settings) {
       ->option_text("LAW");
 }
 
-Scenario ReadScenarioOf(const ScenarioSettings& settings) {
+ScenarioDocument ScenarioDocumentOf(const ScenarioSettings& settings) {
   for (const std::string& text : settings.set) {
     if (text.find('=') == text.npos || text.front() == '=')
       throw UsageError("--set: " + Printable(text) + "; must be key=value, as controller.kp_N_s=4");
@@ -57,7 +56,11 @@ Scenario ReadScenarioOf(const ScenarioSettings& settings) {
   for (const std::string& text : settings.set) document.SetFromOption(text);
   for (const std::string& text : settings.with) SetEffect(text, document);
   if (!settings.law.empty()) document.Set("law", settings.law);
-  return document.Read();
+  return document;
+}
+
+Scenario ReadScenarioOf(const ScenarioSettings& settings) {
+  return ScenarioDocumentOf(settings).Read();
 }
 
 }  // namespace hoplab

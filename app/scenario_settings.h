@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "datasets/scenario.h"
+#include "datasets/read_scenario.h"
 
 namespace hoplab {
 
-/// Options of `simulate` and `generate` that say what is simulated.
+/// Options of every command that reads a scenario, that say what is simulated.
 struct ScenarioSettings {
   std::string scenario;
   std::string law;
@@ -19,7 +19,10 @@ struct ScenarioSettings {
 void AddScenarioOptions(CLI::App& sub, ScenarioSettings& settings);
 
 /// The file with the options put over it. Throws UsageError for options that are not of the form
-/// above, InputError for a bad scenario or an effect that does not exist.
+/// above, InputError for a file that is no YAML or an effect that does not exist.
+ScenarioDocument ScenarioDocumentOf(const ScenarioSettings& settings);
+
+/// The same, read; throws InputError for a bad scenario, too.
 Scenario ReadScenarioOf(const ScenarioSettings& settings);
 
 }  // namespace hoplab

@@ -109,6 +109,14 @@ void SetNumber(YamlNode* root, const std::string& key, double value, const std::
   SetYaml(*root, key, std::move(node));
 }
 
+void AppendLeaves(const YamlNode& node, const std::string& key, std::string& text) {
+  for (const YamlEntry& entry : node.entries)
+    AppendLeaves(entry.value, key.empty() ? entry.key : key + "." + entry.key, text);
+  for (std::size_t i = 0; i < node.items.size(); ++i)
+    AppendLeaves(node.items[i], key + "." + std::to_string(i), text);
+  if (node.kind == Kind::kScalar) text += key + "=" + node.text + "\n";
+}
+
 // Tries values at the keys that a search or sweep varies.
 class KeyProbe {
  public:
@@ -324,6 +332,25 @@ Scenario ScenarioDocument::ReadAt(const Numbers& values, const std::string& plac
   Scenario scenario = ReadRun(root);
   scenario.origin.place = root_.place.substr(0, root_.place.rfind(':'));
   return scenario;
+}
+
+std::optional<double> ScenarioDocument::NumberAt(std::string_view key) const {
+  const YamlNode* node = &root_;
+  while (node && !key.empty()) {
+    const std::size_t dot = key.find('.');
+    node = node->Find(key.substr(0, dot));
+    key = dot == key.npos ? std::string_view() : key.substr(dot + 1);
+  }
+  if (!node || node->kind != Kind::kScalar) return std::nullopt;
+  return ParseDouble(node->text);
+}
+
+std::string ScenarioDocument::ResolvedText() const {
+  YamlNode copy = root_;
+  for (const std::string& block : kTaskBlocks) copy.Erase(block);
+  std::string text;
+  AppendLeaves(copy, "", text);
+  return text;
 }
 
 Scenario ReadScenario(const std::filesystem::path& file,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,6 +38,11 @@ class ScenarioDocument {
   /// of a sweep or search. Throws InputError with the place `place` if one does not fit.
   Scenario ReadAt(const std::vector<std::pair<std::string, double>>& values,
                   const std::string& place) const;
+  /// The number that stands at a dotted key, unchecked; nothing where there is none.
+  std::optional<double> NumberAt(std::string_view key) const;
+  /// What the file says of a single run, search, sweep and dataset blocks left out, one
+  /// `dotted.key=text` a line: equal for files that differ in layout and comments only.
+  std::string ResolvedText() const;
 
  private:
   explicit ScenarioDocument(YamlNode root) : root_(std::move(root)) {}

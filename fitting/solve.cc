@@ -313,7 +313,7 @@ SolveResult Solve(const SolveRequest& request) {
   // A trust region cut by a bound crawls: the step it would take is projected, and what is left of
   // it gains little. So the first run is short; what lies on a bound then, and is not pulled back
   // inside by the gradient, is held there while the rest is solved, until nothing changes.
-  constexpr int kFirstIterations = 15, kMaxRounds = 6;
+  constexpr int kFirstIterations = 6, kMaxRounds = 6;
   SolveRequest first = request;
   first.max_iterations = std::min(request.max_iterations, kFirstIterations);
   SolveResult best = SolveOnce(first);

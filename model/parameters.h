@@ -23,6 +23,7 @@ template <class T>
 struct LawTerms {
   bool active = false;
   bool rolling_active = false;
+  bool torque_active = false;
   T hardening{0.0};          // beta [-]
   T rolling{0.0};            // share of the other rolling law [-]
   T tip{0.0};                // share of the tip's rotation [-]

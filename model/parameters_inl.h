@@ -20,6 +20,7 @@ Parameters<To> ConvertParameters(const Parameters<From>& from) {
   const LawTerms<From>& terms = from.law_terms;
   to.law_terms.active = terms.active;
   to.law_terms.rolling_active = terms.rolling_active;
+  to.law_terms.torque_active = terms.torque_active;
   to.law_terms.hardening = To(Value(terms.hardening));
   to.law_terms.rolling = To(Value(terms.rolling));
   to.law_terms.tip = To(Value(terms.tip));

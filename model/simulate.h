@@ -54,7 +54,7 @@ void Simulate(const SimulationRequest& request, Trajectory& out);
 Trajectory Simulate(const SimulationRequest& request);
 
 /// Total energy [J] of a state (x, y, vx, vy, contact) in a mode, strain energy included; state as
-/// in Trajectory::final_state.
+/// in Trajectory::final_state, in world W.
 double Energy(const SimulationRequest& request, Mode mode, std::span<const double> state);
 
 }  // namespace hoplab

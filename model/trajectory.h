@@ -30,6 +30,7 @@ struct Segment {
 /// A simulated run: outcome, events, segments, and the samples asked for.
 /// `samples` is row-major [row][channel]; rows past the end of the run are NaN.
 /// `sensitivities` is row-major [row][channel][direction].
+/// Everything is in world W, but that the contact coordinate counts along a sloping ground.
 /// `final_state`, its derivatives `final_sensitivities` ([component][direction]) and its rate along
 /// the flow `final_rate` belong to the fixed time `end_time`. Of a run that ends at an event, the
 /// derivative along that event (on a Poincare section) is S + final_rate dt_event/dp.

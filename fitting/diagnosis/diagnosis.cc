@@ -14,14 +14,6 @@ namespace {
 constexpr std::uint64_t kDetectionStream = 11, kRemainderStream = 12, kBootstrapStream = 13,
                         kForcesStream = 14;
 
-Linearisation LineariseWith(const Extension& model, std::span<const Candidate> tested,
-                            const std::vector<TrialProblem>& train, int jobs) {
-  const FitProblem problem = Extend(model.problem, tested);
-  Eigen::VectorXd shared(problem.shared_count());
-  shared << model.shared, NullValues(tested);
-  return Linearise(problem, model.problem.shared_count(), train, shared, model.starts, jobs);
-}
-
 std::vector<Hypothesis> Shifted(std::vector<Hypothesis> hypotheses, int by) {
   for (Hypothesis& h : hypotheses) h.first += by;
   return hypotheses;
@@ -149,7 +141,7 @@ class Pipeline {
     basis_ = ProbesOf(d_.problem.law);
     std::vector<Candidate> all = candidates;
     all.insert(all.end(), basis_.probes.begin(), basis_.probes.end());
-    const Linearisation at = LineariseWith(d_.null, all, train_, options_.fit.jobs);
+    const Linearisation at = LineariseAt(d_.null, all, train_, options_.fit.jobs);
     d_.detection = Detect(at, candidates, basis_, Seed(kDetectionStream));
     d_.localisation = Localise(at);
     d_.null_at = CandidatesOnly(at, ParameterCount(candidates));
@@ -189,7 +181,7 @@ class Pipeline {
     report.gain = CompareHeldOut(d_.null, d_.before, report.after, Seed(kBootstrapStream),
                                  &report.left_out);
     report.movements = MovementsOf(d_.null, d_.uncertainty, best);
-    const Linearisation at = LineariseWith(best, basis_.probes, train_, options_.fit.jobs);
+    const Linearisation at = LineariseAt(best, basis_.probes, train_, options_.fit.jobs);
     report.remainder = Detect(at, {}, basis_, Seed(kRemainderStream));
     const double excess = d_.detection.chi2 - d_.detection.degrees_of_freedom;
     const double left = report.remainder.chi2 - report.remainder.degrees_of_freedom;
@@ -258,7 +250,7 @@ class Pipeline {
   }
 
   void DescribeFreely(const Extension& model) {
-    const Linearisation at = LineariseWith(model, basis_.probes, train_, options_.fit.jobs);
+    const Linearisation at = LineariseAt(model, basis_.probes, train_, options_.fit.jobs);
     d_.free_forces = Reconstruct(at, basis_, Seed(kForcesStream));
   }
 

@@ -1,13 +1,16 @@
 #include "fitting/diagnosis/extension.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "model/effects/active_effects.h"
 
 namespace hoplab {
 namespace {
 
-// Likelihoods are compared to a hundredth of a nat.
-constexpr double kCostTolerance = 1e-8;
+// Likelihoods are compared to well below a nat; where costs are large, so are their differences.
+constexpr double kCostTolerance = 1e-6;
 
 // Where in the shared values member i begins.
 int PlaceOf(const Extension& e, int i) {
@@ -96,6 +99,70 @@ Extension RefitWithout(const Extension& base, int i, const FitProblem& null_prob
   e.starts = base.starts;
   Run(e, Eigen::VectorXd(0), settings);
   return e;
+}
+
+namespace {
+
+// What a run with this effect costs decides which effects are differentiated together: one that
+// changes the leg's law, or is sharp, slows every column of its run.
+int CostClass(const Candidate& candidate) {
+  const Effect& effect = *candidate.effect;
+  if (effect.info.sharp) return 2;
+  if (!effect.hooks0.change_parameters) return 0;
+  Parameters<double> p;
+  const EffectSetting at_null = EffectSetting::Null(effect);
+  effect.hooks0.change_parameters(at_null.values.data(), p);
+  return p.law_terms.active ? 1 : 0;
+}
+
+}  // namespace
+
+Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tested,
+                          const std::vector<TrialProblem>& train, int jobs) {
+  std::array<std::vector<int>, 3> classes;  // places in `tested`
+  for (std::size_t i = 0; i < tested.size(); ++i)
+    classes[static_cast<std::size_t>(CostClass(tested[i]))].push_back(static_cast<int>(i));
+  if (tested.empty()) classes[0] = {};
+  std::vector<int> column_of;  // first column of each tested candidate
+  int columns = 0;
+  for (const Candidate& c : tested) {
+    column_of.push_back(columns);
+    columns += c.parameter_count();
+  }
+  // What one run can hold beside the effects the model has.
+  const std::size_t room = ActiveEffects<double>::kMax - model.problem.effects.size();
+  Linearisation all;
+  bool begun = false;
+  for (const std::vector<int>& places : classes) {
+    for (std::size_t first = 0; first < places.size() || (tested.empty() && !begun);
+         first += room) {
+      std::vector<Candidate> part;
+      for (std::size_t i = first; i < std::min(first + room, places.size()); ++i)
+        part.push_back(tested[static_cast<std::size_t>(places[i])]);
+      const FitProblem problem = Extend(model.problem, part);
+      Eigen::VectorXd shared(problem.shared_count());
+      shared << model.shared, NullValues(part);
+      Linearisation at =
+          Linearise(problem, model.problem.shared_count(), train, shared, model.starts, jobs);
+      const Eigen::MatrixXd found = at.columns;
+      const Eigen::VectorXd length = at.length;
+      if (!begun) {
+        all = std::move(at);
+        all.columns = Eigen::MatrixXd::Zero(all.r.size(), columns);
+        all.length = Eigen::VectorXd::Zero(columns);
+        begun = true;
+      }
+      int next = 0;
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        const int to = column_of[static_cast<std::size_t>(places[first + i])];
+        for (int k = 0; k < part[i].parameter_count(); ++k, ++next) {
+          all.columns.col(to + k) = found.col(next);
+          all.length[to + k] = length[next];
+        }
+      }
+    }
+  }
+  return all;
 }
 
 }  // namespace hoplab

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fitting/diagnosis/candidate.h"
+#include "fitting/diagnosis/linearisation.h"
 #include "fitting/solve.h"
 
 namespace hoplab {
@@ -48,5 +49,10 @@ Extension Refit(const Extension& base, std::span<const Candidate> added,
 /// The same model without member `i`.
 Extension RefitWithout(const Extension& base, int i, const FitProblem& null_problem,
                        const RefitSettings& settings);
+
+/// The model linearised with the columns of candidates it does not have, at their null; any number
+/// of them.
+Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tested,
+                          const std::vector<TrialProblem>& train, int jobs);
 
 }  // namespace hoplab

@@ -15,6 +15,8 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kResamples = 200;
 constexpr double kRankTolerance = 1e-6;
+// Subsets of terms whose BIC differs by less than rounding of their fits say the same.
+constexpr double kTie = 1e-4;
 constexpr std::array kTermNames = {"1", "s", "s^2", "s^3"};
 
 // Least-squares sizes of a group's columns and their covariance; columns the data do not determine
@@ -71,7 +73,8 @@ std::array<double, kTermNames.size()> Select(const Eigen::MatrixXd& terms,
     }
     const Eigen::VectorXd b = A.colPivHouseholderQr().solve(y);
     const double cost = (y - A * b).squaredNorm() + price * count;
-    if (!(cost < best)) continue;
+    // Low powers come first: on three bumps s and s^3 are the same, and the simpler one is meant.
+    if (!(cost < best - kTie)) continue;
     best = cost;
     kept.fill(0.0);
     for (unsigned t = 0, c = 0; t < kTermNames.size(); ++t) {

@@ -18,7 +18,7 @@ struct RowLabel {
   int channel = -1;    // place in FitProblem::channels; -1 for contact times and priors
   double time = 0.0;   // s since the trial's first row
   Mode mode = Mode::kFlight;
-  double phase = 0.0;  // share of its flight or stance gone by, 0..1
+  double phase = 0.0;  // share of its spell in that mode gone by, 0..1
   int hop = 0;         // hop number in the trial, from 0
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kAlpha = 0.05;
 // Models tried at each step of the search beyond the single ones.
-constexpr int kForwardWidth = 6;
+constexpr int kForwardWidth = 5;
 constexpr int kPairWidth = 8;
 constexpr int kLocalWidth = 4;
 
@@ -40,12 +40,6 @@ class Search {
       return std::move(naming_);
     }
     RefitAll(Singles());
-    for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
-      CandidateResult& c = naming_.candidates[i];
-      if (!c.separable) continue;
-      c.alone = models_.at({static_cast<int>(i)});
-      c.gain = c.alone.ok() ? c.alone.GainOver(null_) : 0.0;
-    }
     Model current = Better({}, Singles());
     current = Better(current, PairsFromNull());
     while (!current.empty() && static_cast<int>(current.size()) < options_.max_effects &&
@@ -56,6 +50,12 @@ class Search {
     }
     if (!current.empty()) current = Tidy(current);
     naming_.best = At(current);
+    for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
+      CandidateResult& c = naming_.candidates[i];
+      if (!c.separable) continue;
+      c.alone = models_.at({static_cast<int>(i)});
+      c.gain = c.alone.ok() ? c.alone.GainOver(null_) : 0.0;
+    }
     FindGroups(current);
     Judge(current);
     naming_.interrupted = Stopped();
@@ -209,13 +209,24 @@ class Search {
     if (part.empty() && added.size() == 1 && !IsLocal(added[0])) {
       sizes = naming_.candidates[added[0]].score.size;
     } else {
-      const Linearisation at = LineariseAt(At(part), candidates);
+      const Linearisation at = LineariseAt(At(part), candidates, train_, 1);
       const Eigen::Index n = sizes.size();
       const Hypothesis all{0, static_cast<int>(n), Eigen::VectorXd::Constant(n, -1.0),
                            Eigen::VectorXd::Constant(n, 1.0)};
       sizes = ScoreOf(at, all).size;
     }
     Extension e = Refit(At(part), candidates, sizes, refit_);
+    // Where the refit falls well short of the linear forecast, it went into the wrong valley: the
+    // forecast was too far out, or the effect too bent.
+    const double forecast = part.empty() && added.size() == 1
+                                ? naming_.candidates[added[0]].score.predicted_gain
+                                : 0.0;
+    if (forecast > naming_.penalty && (!e.ok() || At(part).cost - e.cost < 0.5 * forecast)) {
+      for (double share : {0.3, 0.1}) {
+        Extension again = Refit(At(part), candidates, share * sizes, refit_);
+        if (again.ok() && (!e.ok() || again.cost < e.cost)) e = std::move(again);
+      }
+    }
     return Ordered(std::move(e), part, added, model);
   }
 
@@ -239,13 +250,6 @@ class Search {
     return sorted;
   }
 
-  Linearisation LineariseAt(const Extension& e, std::span<const Candidate> tested) const {
-    const FitProblem problem = Extend(e.problem, tested);
-    Eigen::VectorXd shared(problem.shared_count());
-    shared << e.shared, NullValues(tested);
-    return Linearise(problem, e.problem.shared_count(), train_, shared, e.starts, 1);
-  }
-
   // ---- steps
   std::vector<Model> Singles() const {
     std::vector<Model> models;
@@ -265,7 +269,7 @@ class Search {
       rest.push_back(i);
       tested.push_back(naming_.candidates[i].candidate);
     }
-    const Linearisation at = LineariseAt(At(model), tested);
+    const Linearisation at = LineariseAt(At(model), tested, train_, options_.jobs);
     const std::vector<Hypothesis> hypotheses = HypothesesOf(tested);
     std::vector<std::pair<double, int>> ranked;
     for (std::size_t i = 0; i < rest.size(); ++i)
@@ -337,12 +341,27 @@ class Search {
   // Backward elimination and swaps, until neither helps.
   Model Tidy(Model model) {
     for (int round = 0; round < 3 && !Stopped(); ++round) {
+      RefineParts(model);
       Model best = Better(model, Eliminations(model));
       best = Better(best, Swaps(best, kForwardWidth));
       if (best == model) break;
       model = best;
     }
     return model;
+  }
+  // A part of a model cannot be worse than the whole with one value at its null: where the whole
+  // has found a better valley, its parts are refitted from there.
+  void RefineParts(const Model& model) {
+    const std::vector<Model> parts = Eliminations(model);
+    RefitAll(parts);
+    std::vector<Extension> refined(parts.size());
+    ParallelFor(static_cast<int>(parts.size()), options_.jobs, [&](int i) {
+      refined[i] = RefitWithout(At(model), i, null_.problem, refit_);
+    });
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      Extension& known = models_.at(parts[i]);
+      if (refined[i].ok() && (!known.ok() || refined[i].cost < known.cost)) known = refined[i];
+    }
   }
   static std::vector<Model> Eliminations(const Model& model) {
     std::vector<Model> models;
@@ -353,7 +372,8 @@ class Search {
     }
     return models;
   }
-  // Models in which one member gives its place to another candidate.
+  // Models in which one member gives its place to another candidate that promises, by the linear
+  // model, at least half of what that member gains.
   std::vector<Model> Swaps(const Model& model, int width) {
     if (model.size() < 2) return {};
     std::vector<Model> swaps;
@@ -361,8 +381,9 @@ class Search {
     for (const Model& less : Eliminations(model)) {
       if (!Usable(less)) continue;
       int taken = 0;
+      const double needed = 0.5 * std::max(At(less).cost - At(model).cost, naming_.penalty);
       for (const auto& [gain, i] : Ranked(less)) {
-        if (taken >= width || gain < 0.5 * naming_.penalty) break;
+        if (taken >= width || gain < needed) break;
         if (std::find(model.begin(), model.end(), i) != model.end()) continue;
         swaps.push_back(With(less, i));
         ++taken;
@@ -424,7 +445,7 @@ class Search {
   // What is left of a candidate once the accepted effects are in.
   void Bound(const Model& model, CandidateResult& c) const {
     const std::array one = {c.candidate};
-    const Linearisation at = LineariseAt(At(model), one);
+    const Linearisation at = LineariseAt(At(model), one, train_, options_.jobs);
     const Score score = ScoreOf(at, HypothesesOf(one).front());
     for (int k = 0; k < c.candidate.parameter_count(); ++k) {
       const double V = Information(at, k);

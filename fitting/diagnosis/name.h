@@ -37,7 +37,7 @@ struct CandidateResult {
   Score score;             // at the null fit
   double power = 0.0;      // noncentrality of a typical size, typical^2 V (least of its parameters)
   bool separable = false;  // some of it can be told from the fitted values
-  /// Added alone to the null model and refitted; status kNoStart if it was not.
+  /// Added alone to the null model and refitted; status kFailed if it was not.
   Extension alone;
   double gain = 0.0;       // nats over the null fit, of `alone`
   CandidateStatus status = CandidateStatus::kNotTested;

@@ -23,6 +23,7 @@ struct TorqueBending {
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
     parameters.law_terms.active = true;
+    parameters.law_terms.torque_active = true;
     parameters.law_terms.torque_bending += p[0];
   }
 };

@@ -124,15 +124,32 @@ class Dop853 {
   }
 
   double Error(double h) const {
-    const double error = ErrorOf<0, kControlled>(h);
+    const double error = ErrorOf<0, kControlled>(h, [this](int i) {
+      return options_.absolute_tolerance +
+             options_.relative_tolerance * std::max(std::abs(y0_[i]), std::abs(y1_[i]));
+    });
     if constexpr (kSize > kControlled) {
-      if (options_.control_sensitivities) return std::fmax(error, ErrorOf<kControlled, kSize>(h));
+      if (options_.control_sensitivities) return std::fmax(error, SensitivityError(h));
     }
     return error;
   }
-  // Hairer's combination of the embedded errors of order 5 and 3.
-  template <int kBegin, int kEnd>
-  double ErrorOf(double h) const {
+  // The same of the sensitivities, each relative to the largest of its direction.
+  double SensitivityError(double h) const requires(kSize > kControlled) {
+    constexpr int kWidth = (kSize - kControlled) / kControlled;
+    std::array<double, kWidth> scale;
+    scale.fill(1e-200);
+    for (int i = kControlled; i < kSize; ++i) {
+      double& s = scale[(i - kControlled) % kWidth];
+      s = std::max({s, std::abs(y0_[i]), std::abs(y1_[i])});
+    }
+    const double tolerance = options_.absolute_tolerance + options_.relative_tolerance;
+    for (double& s : scale) s *= tolerance;
+    return ErrorOf<kControlled, kSize>(
+        h, [&scale](int i) { return scale[(i - kControlled) % kWidth]; });
+  }
+  // Hairer's combination of the embedded errors of order 5 and 3, in units of `scale_of(i)`.
+  template <int kBegin, int kEnd, class Scale>
+  double ErrorOf(double h, const Scale& scale_of) const {
     double error5 = 0.0, error3 = 0.0;
     for (int i = kBegin; i < kEnd; ++i) {
       double e5 = 0.0, e3 = 0.0;
@@ -140,9 +157,7 @@ class Dop853 {
         e5 += dop853::kE5[s] * k_[s][i];
         e3 += dop853::kE3[s] * k_[s][i];
       }
-      const double scale =
-          options_.absolute_tolerance +
-          options_.relative_tolerance * std::max(std::abs(y0_[i]), std::abs(y1_[i]));
+      const double scale = scale_of(i);
       error5 += e5 / scale * (e5 / scale);
       error3 += e3 / scale * (e3 / scale);
     }

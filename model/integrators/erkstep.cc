@@ -3,6 +3,7 @@
 #include <arkode/arkode_erkstep.h>
 #include <nvector/nvector_serial.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sundials/sundials_context.hpp>
 
@@ -38,9 +39,18 @@ struct ErkStepSolver::Memory {
     const double factor = std::sqrt(static_cast<double>(self->system.size) / controlled);
     const double* value = N_VGetArrayPointer(y);
     double* w = N_VGetArrayPointer(weights);
+    const int states = self->system.controlled, width = self->system.size / states - 1;
+    // Of a direction, the largest sensitivity is what its errors are held against.
+    const auto size_of = [&](int i) {
+      if (i < states) return std::abs(value[i]);
+      double size = 1e-6;
+      for (int j = states + (i - states) % width; j < self->system.size; j += width)
+        size = std::max(size, std::abs(value[j]));
+      return size;
+    };
     for (int i = 0; i < self->system.size; ++i) {
       w[i] = i < controlled ? factor / (self->options.absolute_tolerance +
-                                        self->options.relative_tolerance * std::abs(value[i]))
+                                        self->options.relative_tolerance * size_of(i))
                             : 1e-300;
     }
     return 0;

@@ -40,17 +40,8 @@ struct Tangent {
     const T root = sqrt(a.value);
     return {root, 0.5 * a.rate / root};
   }
+  friend double Value(const Tangent& a) { return hoplab::Value(a.value); }
 };
-
-double ValueOf(double x) { return x; }
-template <int N>
-double ValueOf(const Jet<N>& x) {
-  return x.a;
-}
-template <class T>
-double ValueOf(const Tangent<T>& x) {
-  return Value(x.value);
-}
 
 // The k-th derivative of a function of one variable at x, given all of them at its value.
 double Lift(double, const double* derivatives, int k) { return derivatives[k]; }
@@ -87,6 +78,24 @@ struct ArcShapes {
     second_order = {g.value, g.d1, g.d2, 0.125 * g3};
   }
 };
+
+// The next terms of the elastica after M24 and M25, in F N and N^2 (M24b, M25b), as M2b is in F^2:
+// chord in units of r (r^2/(E I))^2, lead u/l in units of (r^2/(E I))^2.
+template <class S>
+struct SecondOrderAcross {
+  S chord_FN, chord_NN, lead_FN, lead_NN;
+};
+template <class S>
+SecondOrderAcross<S> SecondOrderAcrossAt(const S& phi, const S& sin, const S& cos) {
+  const S K2 = cos * cos, S2 = sin * sin, q = phi * phi, one = S2 + K2;
+  return {7.5 * (phi * sin * K2) - 12.0 * (S2 * cos) + q * cos * (0.75 * one - 1.5 * K2),
+          sin * (4.0 * one - 3.75 * K2) + phi * cos * (3.0 * K2 - 2.5 * one) +
+              q * (0.75 * (S2 * K2) - 0.3125 * one) / sin,
+          sin * (2.0 * one - 3.5 * K2) + phi * cos * (2.75 * K2 - 2.0 * one) +
+              q * sin * (0.75 * K2 - 0.125 * one),
+          cos * (0.75 * one - 0.875 * K2) + phi * (K2 * K2 - 1.25 * K2 + 0.375 * one) / sin -
+              q * cos * (0.375 * (K2 * K2) - 0.625 * K2 + 0.28125 * one) / S2};
+}
 
 bool IsElastic(Law law) { return law == Law::kConsistent || law == Law::kLargeDeflection; }
 
@@ -126,7 +135,7 @@ Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& 
     out.F = out.delta * (P(1.0) + terms.hardening / p.l0 * out.delta) / out.C;
     return out;
   }
-  const ArcShapes shapes(ValueOf(phi));
+  const ArcShapes shapes(Value(phi));
   const auto lift = [&](const auto& shape, int k) { return Lift(phi, shape.data(), k); };
   out.sin = lift(shapes.sin, 0);
   out.cos = lift(shapes.cos, 0);
@@ -141,11 +150,10 @@ Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& 
            radius * (slide * lift(shapes.shear, 0));
   };
   const S bending1 = at.softer * (r * r * flex * lift(shapes.bending, 1));
-  const S Cs =
-      bending1 + at.softer * (stretch * lift(shapes.axial, 1)) + slide * lift(shapes.shear, 1);
+  S Cs = bending1 + at.softer * (stretch * lift(shapes.axial, 1)) + slide * lift(shapes.shear, 1);
   // M24, M25: the normal force N bends the leg and turns its tip.
   const S N = terms.torque_bending * torque / l;
-  const S turn = N * (at.softer * (0.5 * r * r * flex * lift(shapes.bending, 2)));
+  S turn = N * (at.softer * (0.5 * r * r * flex * lift(shapes.bending, 2)));
   out.delta = 2.0 * (r * out.sin) - l - r * (N * bending1);
   if (IsElastic(law)) {
     out.C = chord(S(r));
@@ -159,7 +167,17 @@ Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& 
       out.A2 = out.A2 + softer2 * (r * second * lift(shapes.second_order, 0));
       A2s = A2s + softer2 * (second * lift(shapes.second_order, 1));
     }
-    out.F = 2.0 * out.delta / (out.C + sqrt(out.C * out.C + 4.0 * (out.A2 * out.delta)));
+    S C = out.C;
+    if (terms.torque_active && law == Law::kLargeDeflection) {
+      const SecondOrderAcross<S> next = SecondOrderAcrossAt(phi, out.sin, out.cos);
+      const P unit = 4.0 * r * r * r * r * flex * flex;
+      const S of_N = at.softer * at.softer * (unit * N);
+      out.delta = out.delta + r * (of_N * N * next.chord_NN);
+      C = C - r * (of_N * next.chord_FN);
+      Cs = Cs - 2.0 * (of_N * next.lead_FN);
+      turn = turn - of_N * N * next.lead_NN;
+    }
+    out.F = 2.0 * out.delta / (C + sqrt(C * C + 4.0 * (out.A2 * out.delta)));
     out.tip_miss = at.u / l - out.cos + out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + turn;
   } else {
     // M5, M6 with the share `tip` of M10.
@@ -237,6 +255,46 @@ Solution Solve(const Question& q, ExtendedRoot& root) {
     }
   }
   return s;
+}
+
+// Arc and contact lead of a leg that stands under torque alone (M30), with the inverse of the
+// matrix of slopes of M10 and of the deflection left for the chord force.
+struct Footing {
+  bool found = false;
+  double phi, u;
+  double inverse[2][2];
+};
+
+// From a guess of both; q.u0 is not used, and phi keeps its value unless q.rolling.
+Footing FindFooting(const Question& q, double phi, double u) {
+  constexpr int kMaxRounds = 30;
+  constexpr double kStepTolerance = 1e-11;
+  using Dual = Jet<4>;  // directions phi, u
+  Footing f;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const Dual angle = Seeded<Dual>(phi, 0, 1.0);
+    const Statics<Dual> leg = StaticsAt<Dual, double>(
+        q.p, q.law, q.torque, angle, {Seeded<Dual>(u, 1, 1.0), Dual(q.y), Dual(q.softer)});
+    const Dual tip = q.rolling ? leg.tip_miss : angle - phi;
+    const double determinant = tip.v[0] * leg.delta.v[1] - tip.v[1] * leg.delta.v[0];
+    f.inverse[0][0] = leg.delta.v[1] / determinant;
+    f.inverse[0][1] = -tip.v[1] / determinant;
+    f.inverse[1][0] = -leg.delta.v[0] / determinant;
+    f.inverse[1][1] = tip.v[0] / determinant;
+    const double turn = f.inverse[0][0] * tip.a + f.inverse[0][1] * leg.delta.a;
+    const double shift = f.inverse[1][0] * tip.a + f.inverse[1][1] * leg.delta.a;
+    if (!std::isfinite(turn) || !std::isfinite(shift)) return f;
+    phi -= turn;
+    u -= shift;
+    if (!(phi > 0.05 && phi < 2.0 * kPi - 0.05) || std::abs(u) > 2.0 * q.p.r) return f;
+    if (std::abs(turn) < kStepTolerance && std::abs(shift) < kStepTolerance * q.p.r) {
+      f.found = true;
+      f.phi = phi;
+      f.u = u;
+      return f;
+    }
+  }
+  return f;
 }
 
 // dphi/dt = along_u0 du0/dt + rest at an equilibrium, from the slopes of both residuals.
@@ -335,6 +393,38 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
     load.damping_rate = (1.0 - p_.law_terms.tip) * dl + p_.law_terms.tip * w;
   }
   return load;
+}
+
+template <class T>
+Mode ExtendedLeg<T>::Settle(Mode mode, T* z, const LegConditions<T>& at) {
+  if (!p_.law_terms.torque_active) return mode;
+  const T& y = z[kY];
+  const T softer = Softer(p_, at.time);
+  const bool elastic = IsElastic(law_);
+  double phi = root_.phi;
+  double u =
+      mode == Mode::kRolling ? Value(p_.r) * std::sin(phi) : Value(z[kContact]) - Value(z[kX]);
+  Footing footing = FindFooting(
+      {values_, law_, mode == Mode::kRolling, 0.0, Value(y), Value(at.torque), Value(softer)}, phi,
+      u);
+  if (footing.found && footing.phi > kPi) {  // past the toe
+    mode = Mode::kToe;
+    footing = FindFooting({values_, law_, false, 0.0, Value(y), Value(at.torque), Value(softer)},
+                          kPi, -0.5 * Value(p_.r));
+  }
+  if (!footing.found) return mode;
+  T arc(footing.phi), lead(footing.u);
+  if constexpr (kJetWidth < T >> 0) {
+    const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, arc, {lead, y, softer});
+    const T tip = mode == Mode::kRolling ? leg.tip_miss : T(0.0);
+    const auto& m = footing.inverse;
+    arc -= m[0][0] * tip + m[0][1] * leg.delta;
+    lead -= m[1][0] * tip + m[1][1] * leg.delta;
+  }
+  z[kContact] = z[kX] + lead;
+  if (elastic && mode == Mode::kRolling) z[kContact] -= p_.r * arc;
+  StartRootAt(footing.phi);
+  return mode;
 }
 
 template <class T>

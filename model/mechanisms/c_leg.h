@@ -51,6 +51,8 @@ class CLeg {
     StartRootAt(Value(phi));
     return Mode::kRolling;
   }
+  /// Touch-down under a hip torque; `mode` as Land gave it.
+  Mode Settle(Mode mode, T* z, const LegConditions<T>& at) { return extended_.Settle(mode, z, at); }
   LegLoad<T> Load(Mode mode, const T* z) const {
     return mode == Mode::kRolling ? law_.Rolling(z) : law_.Toe(z);
   }

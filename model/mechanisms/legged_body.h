@@ -21,6 +21,7 @@ inline constexpr double kFallCosine = 0.17364817766693041;
 /// lift-off, apex, falls, hip torque and body forces. What carries the body in stance is `Leg`:
 ///   Leg(parameters)
 ///   Land(theta, z)          touch-down at leg angle theta: sets the contact, gives the stance mode
+///   Settle(mode, z, conditions)  moves the contact of a landed leg that a torque bends
 ///   Load(mode, z)           LegLoad of a stance
 ///   RestChord(load)         chord length at which that leg carries nothing [m]
 ///   TouchdownHeight(theta)  height of the hip when a leg at that angle meets the ground [m]
@@ -54,6 +55,7 @@ class LeggedBody {
         flies_freely_(!has_body_force_ &&
                       (IsZero(parameters.slope) || !effects.HasTouchdownAngle())),
         extended_(p_.law_terms.active),
+        may_pull_(p_.law_terms.torque_active),
         inertia_(p_),
         leg_(p_),
         controller_(p_),
@@ -108,7 +110,7 @@ class LeggedBody {
       return i == 0 ? GuardSpec{EventKind::kTouchdown, length} : GuardSpec{EventKind::kApex, 1.0};
     if (i == 0)
       return {EventKind::kLiftoff, liftoff_ == LiftoffRule::kZeroForce ? weight : length,
-              Outcome::kNoSupport};
+              may_pull_ ? std::nullopt : std::optional(Outcome::kNoSupport)};
     const int own = leg_.OwnGuardCount(mode);
     if (i <= own) return leg_.OwnGuard(mode, i - 1);
     switch (i - own) {
@@ -147,7 +149,7 @@ class LeggedBody {
         ApplyLanding(theta, z);
         controller_.Enter(Value(z[kVx]));
         if constexpr (kLagged) z[kMotorTorque] = controller_.Torque(z[kVx]);
-        return {stance};
+        return {extended_ ? leg_.Settle(stance, z, Conditions(t, z)) : stance};
       }
       case EventKind::kLiftoff:
         if (effects_.HasLiftoffVelocity()) ApplyLiftoff(Load(mode, t, z), z);
@@ -311,6 +313,7 @@ class LeggedBody {
   ActiveEffects<T> effects_;
   LiftoffRule liftoff_;
   bool has_body_force_, has_chord_force_, has_hip_torque_, has_quick_lag_, flies_freely_, extended_;
+  bool may_pull_;  // for a moment after touch-down, bent by the hip torque
   Inertia<T> inertia_;
   LegT<T> leg_;
   SpeedController<T> controller_;

@@ -48,6 +48,7 @@ class StraightSpring {
     extended_.StartRootAt(0.0);
     return Mode::kStance;
   }
+  Mode Settle(Mode mode, T*, const LegConditions<T>&) const { return mode; }
   LegLoad<T> Load(Mode, const T* z) const {
     using std::sqrt;
     LegLoad<T> load;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 
 #include "fitting/diagnosis/score.h"
@@ -54,14 +55,26 @@ std::string WhyNot(Law law, const Effect& effect, const std::vector<double>& val
 }
 
 void SetLimit(Law law, const Effect& effect, EffectDirection& direction) {
-  for (double size : kSizes) {
-    const std::string why = WhyNot(law, effect, direction.Values(effect, size));
-    if (!why.empty()) {
-      direction.limit = Text("%g delta80: ", size, 0, 0) + why;
+  // What runs at a size runs at the smaller ones.
+  for (auto size = kSizes.rbegin(); size != kSizes.rend(); ++size) {
+    const std::string why = WhyNot(law, effect, direction.Values(effect, *size));
+    if (why.empty()) {
+      direction.largest = *size;
       return;
     }
-    direction.largest = size;
+    direction.limit = Text("%g delta80: ", *size, 0, 0) + why;
   }
+}
+
+Linearisation AtTheTruth(const FitProblem& problem, const std::vector<Candidate>& candidates,
+                         const std::vector<TrialProblem>& train) {
+  const FitProblem extended = Extend(problem, candidates);
+  Eigen::VectorXd shared(extended.shared_count());
+  for (int k = 0; k < shared.size(); ++k)
+    shared[k] = extended.shared[static_cast<std::size_t>(k)].initial;
+  std::vector<std::array<double, 4>> starts;
+  for (const TrialProblem& t : train) starts.push_back(t.start);
+  return Linearise(extended, problem.shared_count(), train, shared, starts, 1);
 }
 
 }  // namespace
@@ -86,14 +99,10 @@ std::vector<EffectCase> EffectCasesOf(Law law) {
   options.law = std::string(NameOf(law));
   const FitProblem problem = MakeProblem(MakeExactDataset(law), options);
   const std::vector<Candidate> candidates = CandidatesOf(problem, {});
-  const FitProblem extended = Extend(problem, candidates);
-  Eigen::VectorXd shared(extended.shared_count());
-  std::vector<std::array<double, 4>> starts;
-  for (int k = 0; k < shared.size(); ++k)
-    shared[k] = extended.shared[static_cast<std::size_t>(k)].initial;
-  const std::vector<TrialProblem> train = TrialsOf(problem, TrialRole::kTrain);
-  for (const TrialProblem& t : train) starts.push_back(t.start);
-  const Linearisation at = Linearise(extended, problem.shared_count(), train, shared, starts, 1);
+  std::vector<TrialProblem> train = TrialsOf(problem, TrialRole::kTrain);
+  const Linearisation at = AtTheTruth(problem, candidates, train);
+  for (TrialProblem& t : train) t.prior_sigma.fill(std::numeric_limits<double>::infinity());
+  const Linearisation free = AtTheTruth(problem, candidates, train);
 
   std::vector<EffectCase> cases;
   int first = 0;
@@ -102,7 +111,11 @@ std::vector<EffectCase> EffectCasesOf(Law law) {
     const int n = c.parameter_count();
     const Eigen::MatrixXd columns = at.columns.middleCols(first, n);
     bool seen = true;
-    for (int k = 0; k < n; ++k) seen = seen && Information(at, first + k) > 0.0;
+    for (int k = 0; k < n; ++k) {
+      seen = seen && Information(at, first + k) > 0.0;
+      e.through_starts =
+          e.through_starts || Information(free, first + k) < 0.05 * Information(at, first + k);
+    }
     first += n;
     if (!seen) {
       e.excluded = "cannot be told from the fitted values and starts";

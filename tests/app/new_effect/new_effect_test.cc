@@ -65,7 +65,8 @@ TEST_F(NewEffect, InAFileOfItsOwnIsListedAndNamedByADiagnosis) {
   const ProcessResult listed = Run("hoplab", {"effects", "--json"});
   ASSERT_EQ(listed.exit_code, 0) << listed.err;
   bool found = false, others = false;
-  for (const nlohmann::json& e : nlohmann::json::parse(listed.out).at("effects")) {
+  const nlohmann::json record = nlohmann::json::parse(listed.out);
+  for (const nlohmann::json& e : record.at("effects")) {
     found = found || e.at("name") == "steady_push";
     others = others || e.at("name") == "air_drag";
   }

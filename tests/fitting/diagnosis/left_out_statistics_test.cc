@@ -11,7 +11,8 @@ namespace hoplab::testing {
 namespace {
 
 struct LeftOutCounts {
-  int cases = 0, unexplained = 0, adequate = 0, confounded = 0, exclusive = 0, confident = 0;
+  int cases = 0, unexplained = 0, adequate = 0, confounded = 0, exclusive = 0, confident = 0,
+      unsaid = 0;
   std::map<std::string, int> names;
 
   void Add(const Outcome& o) {
@@ -21,7 +22,9 @@ struct LeftOutCounts {
     confounded += o.verdict == Verdict::kConfounded;
     exclusive += o.verdict == Verdict::kNamed;
     // The data could have refuted the name: the true effect is still seen beside it.
-    confident += o.verdict == Verdict::kNamed && o.left_p.front() < 0.01;
+    const bool refuted = o.verdict == Verdict::kNamed && o.left_p.front() < 0.01;
+    confident += refuted;
+    unsaid += refuted && !o.remains;
     if (o.Names()) {
       std::string name;
       for (const auto& group : o.groups) name += (name.empty() ? "" : " + ") + group.front();
@@ -40,6 +43,7 @@ struct LeftOutCounts {
             share(confounded),
             share(exclusive),
             share(confident),
+            share(unsaid),
             instead};
   }
 };
@@ -56,7 +60,7 @@ TEST(DiagnosisStatistics, AnEffectOutsideTheCatalogueIsNotGivenAConfidentWrongNa
       "score beside the accepted extension has p < 0.01.",
       seeds);
   report.Head({"planted", "cases", "unexplained", "adequate", "confounded", "one name",
-               "confident wrong name", "names instead"});
+               "confident wrong name", "of these no misfit told", "names instead"});
   std::map<std::string, LeftOutCounts> counts;
   LeftOutCounts all;
   for (const Outcome& o : outcomes) {

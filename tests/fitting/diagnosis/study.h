@@ -25,6 +25,7 @@ struct Outcome {
   /// Score of each planted effect beside the accepted extension: chance of it under noise. 1 for
   /// those in the extension.
   std::vector<double> left_p;
+  bool remains = false;        // some misfit is still seen beside the accepted extension
   bool claims_gain = false;    // the interval of the held-out gain lies above zero
   std::optional<double> gain;  // nats a held-out sample
   /// Distance of the leading stiffness from the truth without and with the extension, and its
@@ -45,7 +46,8 @@ struct Outcome {
 /// alone, then opens the seal. `without`: effects taken out of the catalogue.
 Outcome RunSealed(const Truth& truth, std::vector<std::string> without = {});
 
-/// The same for many, spread over the cores, in order. What throws is rethrown.
+/// The same for many, spread over the cores, in order. What throws fails the test, and its outcome
+/// is refused.
 std::vector<Outcome> RunAll(
     const std::vector<Truth>& truths,
     const std::function<std::vector<std::string>(const Truth&)>& without = nullptr);
@@ -66,6 +68,8 @@ std::uint64_t NoiseSeed(Table table, int number);
 
 /// Number of seeds: `full`, or HOPLAB_STATISTICS_SEEDS if that is set and smaller.
 int SeedCount(int full);
+/// HOPLAB_STATISTICS_EVERY = n: only every n-th effect is planted; else 1.
+int EveryNth();
 
 /// `seeds` cases of each effect of the catalogue at `size`, one effect after the other; law, sign
 /// (direction) and noise are drawn. Effects no law allows at that size are not among them.

@@ -1,0 +1,105 @@
+#include "app/commands/gait.h"
+
+#include <chrono>
+#include <ostream>
+
+#include "app/gait_run.h"
+#include "app/interrupt.h"
+#include "app/problem_settings.h"
+#include "app/progress.h"
+#include "app/run_folder.h"
+#include "app/scenario_settings.h"
+#include "experiments/scenario_hopper.h"
+
+namespace hoplab {
+namespace {
+
+struct GaitSettings {
+  ScenarioSettings scenario;
+  std::string along;
+  std::string integrator = "dop853";
+  double tolerance = 1e-12;
+  std::string out;
+  bool force = false, json = false, quiet = false;
+};
+
+Json NewGaitRecord(const GaitSettings& settings, const std::string& name, Law law) {
+  RecordHeader header;
+  header.command = "gait";
+  header.law = std::string(NameOf(law));
+  header.options = {{"scenario", settings.scenario.scenario},
+                    {"set", settings.scenario.set},
+                    {"with", settings.scenario.with},
+                    {"along", settings.along.empty() ? Json(nullptr) : Json(settings.along)},
+                    {"integrator", settings.integrator},
+                    {"relative_tolerance", settings.tolerance},
+                    {"absolute_tolerance", 0.1 * settings.tolerance}};
+  Json record = NewRecord(header);
+  record["scenario"] = name;
+  return record;
+}
+
+ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
+  const auto begin = std::chrono::steady_clock::now();
+  GaitOptions options;
+  if (!settings.along.empty()) options.along = ParseAlong(settings.along);
+  const Scenario scenario = ReadScenarioOf(settings.scenario);
+  RunFolderOptions place{std::nullopt, settings.force};
+  if (!settings.out.empty()) place.out = settings.out;
+  const RunFolder folder(place, scenario.name, "gait");
+  const Hopper hopper = LeggedHopperOfScenario(
+      scenario, IntegratorOptionsOf(settings.integrator, settings.tolerance));
+
+  const InterruptGuard interrupt;
+  Progress progress(console, settings.quiet);
+  options.stop = interrupt.flag();
+  options.stage = [&](const std::string& stage) { progress.Stage(stage); };
+  const GaitRun run = RunGait(hopper, options);
+  progress.Clear();
+
+  Json record = NewGaitRecord(settings, scenario.name, hopper.request.law);
+  AddGait(run, record);
+  const std::string failure =
+      run.interrupted ? "interrupted; the branch ends where it was stopped" : run.Failure();
+  if (!failure.empty()) SetFailed(record, failure);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  record["seconds"] = took.count();
+  std::map<std::string, std::string> files = {{"run.json", TextOf(record)}};
+  if (run.along && !run.branch.points.empty()) files["branch.csv"] = BranchTable(run);
+  const std::string written = folder.Write(files).string();
+  if (settings.json) {
+    console.out << TextOf(record);
+  } else {
+    console.out << GaitReport(scenario.name, run, console.out_colours) << "\n  run folder  "
+                << written << '\n';
+  }
+  if (!failure.empty()) console.err << "hoplab gait: " << failure << '\n';
+  if (run.interrupted) return ExitCode::kInterrupted;
+  return failure.empty() ? ExitCode::kDone : ExitCode::kNoResult;
+}
+
+}  // namespace
+
+void AddGaitCommand(CLI::App& app, Invocation& invocation) {
+  auto settings = std::make_shared<GaitSettings>();
+  CLI::App& sub =
+      *app.add_subcommand("gait", "Steady hop of a scenario, its stability and what changes it");
+  AddScenarioOptions(sub, settings->scenario);
+  sub.add_option("--along", settings->along,
+                 "Follow the steady hop along a parameter, SI units, as kp=0.5:12")
+      ->option_text("NAME=LOW:HIGH");
+  AddIntegratorOptions(sub, settings->integrator, settings->tolerance);
+  sub.get_option("--tolerance")->description("Relative tolerance of a step (default 1e-12)");
+  sub.add_option("--out", settings->out, "Run folder (default runs/<scenario>-gait-NNN)")
+      ->option_text("DIR");
+  sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
+  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
+  sub.footer(
+      "Examples:\n"
+      "  hoplab gait experiments/controlled-hopping.yaml\n"
+      "  hoplab gait experiments/controlled-hopping.yaml --along theta_td=0.5:0.9\n"
+      "  hoplab gait hopping.yaml --set controller.kp_N_s=2 --json");
+  OnParsed(sub, invocation, settings, RunGaitCommand);
+}
+
+}  // namespace hoplab

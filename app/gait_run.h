@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/run_record.h"
+#include "optimize/continuation.h"
+#include "optimize/convergence_time.h"
+
+namespace hoplab {
+
+/// A parameter to follow the fixed point along, and between which values [SI].
+struct AlongRange {
+  std::string name;
+  double low = 0.0, high = 0.0;
+};
+
+/// `name=low:high`; throws UsageError for anything else.
+AlongRange ParseAlong(const std::string& text);
+
+/// What `hoplab gait` computes.
+struct GaitRun {
+  Hopper hopper;
+  ApexState start;
+  FixedPoint point;
+  HopPrediction prediction;
+  std::vector<std::string> parameters;  // names of what the spectral radius is differentiated by
+  std::vector<SpectralRadiusRate> rates;
+  std::optional<ConvergenceTime> counted;  // in the scenario's own run, where it runs to its end
+  std::optional<AlongRange> along;
+  Branch branch;
+  bool interrupted = false;
+
+  /// Why there is no usable result; empty if there is one.
+  std::string Failure() const;
+};
+
+struct GaitOptions {
+  std::optional<AlongRange> along;
+  std::function<void(const std::string& stage)> stage = nullptr;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Throws InputError if `along` names nothing this hopper has.
+GaitRun RunGait(const Hopper& hopper, const GaitOptions& options);
+
+/// Keys of a gait in run.json.
+void AddGait(const GaitRun& run, Json& record);
+/// The branch as CSV.
+std::string BranchTable(const GaitRun& run);
+/// What the command prints.
+std::string GaitReport(const std::string& name, const GaitRun& run, bool colours);
+
+}  // namespace hoplab

@@ -1,0 +1,196 @@
+#include "app/mpi_job.h"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <optional>
+#include <thread>
+
+namespace hoplab {
+namespace {
+
+// A worker asks for rows with what it has finished; `kLast` brings the last of it.
+enum Tag { kAsk = 1, kLast = 2, kRows = 3 };
+
+constexpr int kLargestChunk = 256;
+
+struct Message {
+  int from = 0, tag = 0;
+  std::string text;
+};
+
+Message Receive(int from, int tag) {
+  MPI_Status status;
+  MPI_Probe(from, tag, MPI_COMM_WORLD, &status);
+  int bytes = 0;
+  MPI_Get_count(&status, MPI_CHAR, &bytes);
+  Message message{status.MPI_SOURCE, status.MPI_TAG,
+                  std::string(static_cast<std::size_t>(bytes), 0)};
+  MPI_Recv(message.text.data(), bytes, MPI_CHAR, message.from, message.tag, MPI_COMM_WORLD,
+           MPI_STATUS_IGNORE);
+  return message;
+}
+
+// A message if one has come. Its sender may die before it has all of it across: then `stop` ends
+// the wait. `buffer` has to outlive that.
+std::optional<Message> TryReceive(std::string& buffer, const std::atomic<bool>* stop) {
+  int waiting = 0;
+  MPI_Message handle = MPI_MESSAGE_NULL;
+  MPI_Status status;
+  MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &waiting, &handle, &status);
+  if (waiting == 0) return std::nullopt;
+  int bytes = 0;
+  MPI_Get_count(&status, MPI_CHAR, &bytes);
+  buffer.assign(static_cast<std::size_t>(bytes), 0);
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Imrecv(buffer.data(), bytes, MPI_CHAR, &handle, &request);
+  for (int done = 0; done == 0;) {
+    if (stop && *stop) return std::nullopt;
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+  }
+  return Message{status.MPI_SOURCE, status.MPI_TAG, buffer};
+}
+
+void Send(int to, int tag, const std::string& text) {
+  MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, to, tag, MPI_COMM_WORLD);
+}
+
+void SendRows(int to, const std::vector<int>& rows) {
+  MPI_Send(rows.data(), static_cast<int>(rows.size()), MPI_INT, to, kRows, MPI_COMM_WORLD);
+}
+
+// The same from rank 0 while others may die: false if `stop` ended the wait. `rows` has to outlive
+// that.
+bool TrySendRows(int to, const std::vector<int>& rows, const std::atomic<bool>* stop) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Isend(rows.data(), static_cast<int>(rows.size()), MPI_INT, to, kRows, MPI_COMM_WORLD,
+            &request);
+  for (int done = 0; done == 0;) {
+    if (stop && *stop) return false;
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+  }
+  return true;
+}
+
+std::vector<int> ReceiveRows() {
+  MPI_Status status;
+  MPI_Probe(0, kRows, MPI_COMM_WORLD, &status);
+  int count = 0;
+  MPI_Get_count(&status, MPI_INT, &count);
+  std::vector<int> rows(static_cast<std::size_t>(count));
+  MPI_Recv(rows.data(), count, MPI_INT, 0, kRows, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  return rows;
+}
+
+// "<row> <text>\n" for each row.
+template <class Visit>
+void ForEachRow(const std::string& text, const Visit& visit) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at), blank = text.find(' ', at);
+    int row = -1;
+    std::from_chars(text.data() + at, text.data() + blank, row);
+    visit(row, text.substr(blank + 1, end - blank - 1));
+    at = end + 1;
+  }
+}
+
+bool IsSet(const char* name) { return std::getenv(name) != nullptr; }
+
+}  // namespace
+
+bool MpiJob::Launched() { return IsSet("OMPI_COMM_WORLD_SIZE") || IsSet("PMI_SIZE"); }
+
+MpiJob::MpiJob() {
+  MPI_Init(nullptr, nullptr);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &size_);
+}
+
+MpiJob::~MpiJob() {
+  if (!took_part_) {
+    // Bad input, told by rank 0: nobody is left waiting for rows.
+    if (rank_ == 0)
+      Dismiss();
+    else
+      Send(0, kLast, "");
+  }
+  MPI_Finalize();
+}
+
+void MpiJob::Dismiss() {
+  for (int left = size_ - 1; left > 0;) {
+    const Message message = Receive(MPI_ANY_SOURCE, MPI_ANY_TAG);
+    if (message.tag == kLast)
+      --left;
+    else
+      SendRows(message.from, {});
+  }
+}
+
+MpiJob::Served MpiJob::Serve(const std::vector<int>& rows, const Compute& compute,
+                             const std::function<void(int row, const std::string& text)>& accept,
+                             const std::atomic<bool>* stop) {
+  took_part_ = true;
+  Served served;
+  std::size_t next = 0;
+  int working = size_ - 1;
+  const auto answer = [&](const Message& message) {
+    ForEachRow(message.text, [&](int row, const std::string& text) {
+      accept(row, text);
+      served.lost[message.from].erase(row);
+    });
+    if (message.tag == kLast) {
+      --working;
+      return;
+    }
+    // Large chunks first, single rows at the end, so that all ranks finish together.
+    const std::size_t left = rows.size() - next;
+    const std::size_t chunk = std::min<std::size_t>(
+        left,
+        std::clamp<std::size_t>(left / (4 * static_cast<std::size_t>(size_)), 1, kLargestChunk));
+    outgoing_.assign(rows.begin() + static_cast<std::ptrdiff_t>(next),
+                     rows.begin() + static_cast<std::ptrdiff_t>(next + chunk));
+    next += chunk;
+    served.lost[message.from].insert(outgoing_.begin(), outgoing_.end());
+    TrySendRows(message.from, outgoing_, stop);
+  };
+  while (working > 0 || next < rows.size()) {
+    if (stop && *stop) {
+      served.stopped = true;
+      return served;
+    }
+    while (const auto message = TryReceive(incoming_, stop)) answer(*message);
+    if (next < rows.size()) {
+      const int row = rows[next++];
+      accept(row, compute(row));
+    } else if (working > 0) {
+      // Waiting without spinning: the cores belong to the ranks that still compute.
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  }
+  served.lost.clear();
+  return served;
+}
+
+void MpiJob::Work(const Compute& compute) {
+  took_part_ = true;
+  Send(0, kAsk, "");
+  std::string finished;
+  for (std::vector<int> rows = ReceiveRows(); !rows.empty(); rows = ReceiveRows()) {
+    // The next rows are asked for before these are computed: no rank waits for an answer.
+    Send(0, kAsk, finished);
+    finished.clear();
+    for (const int row : rows) finished += std::to_string(row) + " " + compute(row) + "\n";
+  }
+  Send(0, kLast, finished);
+}
+
+void MpiJob::Abort(int code) {
+  MPI_Abort(MPI_COMM_WORLD, code);
+  std::_Exit(code);
+}
+
+}  // namespace hoplab

@@ -1,0 +1,35 @@
+#include "experiments/scenario_hopper.h"
+
+#include "base/input_error.h"
+#include "fitting/generate.h"
+#include "fitting/model_of_spec.h"
+
+namespace hoplab {
+
+Hopper HopperOfScenario(const Scenario& scenario, const IntegratorOptions& integrator) {
+  constexpr double kUsualHorizon = 60.0;  // s
+  Scenario stopping = scenario;
+  if (!stopping.stop.time_s && !stopping.stop.hops) stopping.stop.time_s = kUsualHorizon;
+  Hopper hopper;
+  hopper.effects = ResolveEffects(scenario.effects, MechanismOfSpec(scenario.mechanism));
+  hopper.request = RequestOfScenario(stopping, hopper.effects);
+  hopper.request.effects = {};  // the hopper's own are put in place where it runs
+  hopper.request.integrator = integrator;
+  return hopper;
+}
+
+Hopper LeggedHopperOfScenario(const Scenario& scenario, const IntegratorOptions& integrator) {
+  if (scenario.mechanism.type == MechanismType::kBall) {
+    throw InputError({scenario.origin.place, "mechanism.type = ball",
+                      "has no gait: what bounces has no steady hop to come back to",
+                      "Use c_leg or straight_leg."});
+  }
+  return HopperOfScenario(scenario, integrator);
+}
+
+ApexState StartApex(const Hopper& hopper) {
+  const std::array<double, 4>& s = hopper.request.initial;
+  return {s[2], s[1] + s[3] * s[3] / (2.0 * hopper.request.parameters.g)};
+}
+
+}  // namespace hoplab

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "datasets/scenario.h"
+#include "optimize/return_map.h"
+
+namespace hoplab {
+
+/// The scenario's run as a hopper: law, parameters, effects, start, horizon. A scenario that does
+/// not say when it stops runs for 60 s. Throws InputError for laws and effects that do not exist.
+Hopper HopperOfScenario(const Scenario& scenario, const IntegratorOptions& integrator);
+
+/// The same for a hopper on legs; throws InputError for a ball, which has no gait.
+Hopper LeggedHopperOfScenario(const Scenario& scenario, const IntegratorOptions& integrator);
+
+/// The apex of the flight that the run starts in (before or after its start), without drag.
+ApexState StartApex(const Hopper& hopper);
+
+}  // namespace hoplab

@@ -1,0 +1,116 @@
+#include "experiments/scenario_search.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "base/input_error.h"
+#include "base/text.h"
+#include "experiments/scenario_hopper.h"
+
+namespace hoplab {
+namespace {
+
+struct Alias {
+  const char* name;
+  const char* key;
+};
+constexpr std::array<Alias, 7> kAliases = {{{"theta_td", "touchdown_angle_deg"},
+                                            {"kp", "controller.kp_N_s"},
+                                            {"v_des", "controller.v_des_m_per_s"},
+                                            {"E", "mechanism.leg.E_Pa"},
+                                            {"d", "mechanism.leg.damping_N_s_per_m"},
+                                            {"k", "mechanism.leg.stiffness_N_per_m"},
+                                            {"m", "mechanism.body_mass_kg"}}};
+
+std::string KeyOf(const std::string& name) {
+  for (const Alias& alias : kAliases) {
+    if (name == alias.name) return alias.key;
+  }
+  return name;
+}
+
+SearchVariable VariableOf(const OverOption& option, const ScenarioDocument& document,
+                          const std::vector<KeyRange>& ranges) {
+  const std::string key = KeyOf(option.name);
+  if (option.low) {
+    document.ReadAt({{key, *option.low}}, "--over");
+    document.ReadAt({{key, *option.high}}, "--over");
+    return {key, *option.low, *option.high};
+  }
+  std::vector<std::string> known;
+  for (const KeyRange& range : ranges) {
+    if (range.key == key) return {key, range.low, range.high};
+    known.push_back(range.key);
+  }
+  throw InputError({"--over", Printable(option.name), "has no range in search.over",
+                    DidYouMean(key, known) + " Or give one, as " + option.name + "=0.5:12."});
+}
+
+SearchConstraints ConstraintsOf(const std::vector<NamedNumber>& numbers) {
+  SearchConstraints constraints;
+  for (const NamedNumber& number : numbers) {
+    if (number.name == "min_speed_m_per_s") {
+      constraints.min_speed = number.value;
+    } else if (number.name == "max_torque_N_m") {
+      constraints.max_torque = number.value;
+    } else if (number.name == "min_clearance_m") {
+      constraints.min_clearance = number.value;
+    } else if (number.name == "max_flexure") {
+      constraints.max_flexure = number.value;
+    } else {
+      throw InputError(
+          {number.origin.place, "search.constraints." + Printable(number.name), "is no constraint",
+           DidYouMean(number.name,
+                      {"min_speed_m_per_s", "max_torque_N_m", "min_clearance_m", "max_flexure"})});
+    }
+  }
+  return constraints;
+}
+
+Objective ObjectiveOf(ObjectiveKind kind) {
+  switch (kind) {
+    case ObjectiveKind::kConvergenceTime:
+      return Objective::kConvergenceTime;
+    case ObjectiveKind::kSpectralRadius:
+      return Objective::kSpectralRadius;
+    case ObjectiveKind::kWeighted:
+      return Objective::kWeighted;
+  }
+  return Objective::kConvergenceTime;
+}
+
+}  // namespace
+
+SearchProblem SearchProblemOfScenario(const ScenarioDocument& document, const Scenario& scenario,
+                                      const std::vector<OverOption>& over,
+                                      const IntegratorOptions& integrator) {
+  if (!scenario.search) {
+    throw InputError({scenario.origin.place, "search", "is absent: what is to be searched?",
+                      "Add search: {over: {controller.kp_N_s: [0.5, 12]}, objective: "
+                      "convergence_time}."});
+  }
+  SearchProblem problem;
+  problem.objective = ObjectiveOf(scenario.search->objective);
+  problem.constraints = ConstraintsOf(scenario.search->constraints);
+  std::vector<OverOption> wanted = over;
+  if (wanted.empty()) {
+    for (const KeyRange& range : scenario.search->over) wanted.push_back({range.key, {}, {}});
+  }
+  for (const OverOption& option : wanted) {
+    problem.variables.push_back(VariableOf(option, document, scenario.search->over));
+    const std::string& key = problem.variables.back().name;
+    const auto same = [&](const SearchVariable& v) { return v.name == key; };
+    if (std::count_if(problem.variables.begin(), problem.variables.end(), same) > 1)
+      throw InputError({"--over", Printable(key), "is given twice", "Remove one of the two."});
+  }
+  problem.hopper_at = [document = std::make_shared<ScenarioDocument>(document), integrator,
+                       variables = problem.variables](std::span<const double> x) {
+    std::vector<std::pair<std::string, double>> values;
+    for (std::size_t i = 0; i < variables.size(); ++i) values.emplace_back(variables[i].name, x[i]);
+    return LeggedHopperOfScenario(document->ReadAt(values, "search"), integrator);
+  };
+  return problem;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,149 @@
+#include "experiments/sweep.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+#include "base/input_error.h"
+#include "base/random.h"
+#include "base/text.h"
+#include "experiments/scenario_hopper.h"
+
+namespace hoplab {
+namespace {
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kMaxRows = 10'000'000;
+
+// FNV-1a, 64 bits: no more than telling one set of settings from another is asked of it.
+class Hash {
+ public:
+  void Add(std::string_view text) {
+    for (const char c : text) Byte(static_cast<unsigned char>(c));
+    Byte(0);
+  }
+  void Add(double value) { Add(FormatDouble(value)); }
+  std::string Text() const {
+    char text[20];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(state_));
+    return text;
+  }
+
+ private:
+  void Byte(unsigned char byte) { state_ = (state_ ^ byte) * 0x100000001b3ULL; }
+  std::uint64_t state_ = 0xcbf29ce484222325ULL;
+};
+
+// One value per row in each of `samples` equal slices of the range, in random order.
+std::vector<double> HypercubeColumn(const KeyRange& range, int samples, RandomStream& random) {
+  std::vector<int> slices(static_cast<std::size_t>(samples));
+  std::iota(slices.begin(), slices.end(), 0);
+  for (int i = samples - 1; i > 0; --i)
+    std::swap(slices[i], slices[static_cast<int>(random.Uniform(0.0, i + 1.0))]);
+  std::vector<double> values;
+  for (const int slice : slices) {
+    const double place = (slice + random.Uniform(0.0, 1.0)) / samples;
+    values.push_back(range.low + place * (range.high - range.low));
+  }
+  return values;
+}
+
+}  // namespace
+
+SweepPlan::SweepPlan(const ScenarioDocument& document, const IntegratorOptions& integrator,
+                     std::uint64_t seed)
+    : document_(document), integrator_(integrator) {
+  const Scenario scenario = document.Read();
+  name_ = scenario.name;
+  if (!scenario.sweep) {
+    throw InputError({scenario.origin.place, "sweep", "is absent: what is to be varied?",
+                      "Add sweep: {grid: {initial.y_m: [0.2, 0.3]}, outputs: [hops]}."});
+  }
+  for (const OutputName& output : scenario.sweep->outputs)
+    outputs_.push_back(&ResolveSweepOutput(output.name, output.origin.place));
+  const bool ball = scenario.mechanism.type == MechanismType::kBall;
+  const auto gait = std::find_if(outputs_.begin(), outputs_.end(),
+                                 [](const SweepOutput* o) { return o->needs_fixed_point; });
+  if (ball && gait != outputs_.end())
+    throw InputError({scenario.sweep->origin.place, std::string((*gait)->name),
+                      "does not exist for a ball", "Remove it from sweep.outputs."});
+  law_ = HopperOfScenario(scenario, integrator).request.law;
+  Layout(*scenario.sweep, seed);
+  Fingerprint(integrator);
+}
+
+void SweepPlan::Layout(const SweepSpec& spec, std::uint64_t seed) {
+  switch (spec.kind) {
+    case SweepKind::kGrid: {
+      grid_ = true;
+      std::size_t rows = 1;
+      for (const SweepAxis& axis : spec.grid) {
+        keys_.push_back(axis.key);
+        columns_.push_back(axis.values);
+        rows *= axis.values.size();
+        if (rows > kMaxRows)
+          throw InputError({axis.origin.place, "sweep.grid", "has more than ten million rows",
+                            "Leave values out, or use latin_hypercube."});
+      }
+      size_ = static_cast<int>(rows);
+      return;
+    }
+    case SweepKind::kList:
+      for (const NamedNumber& number : spec.list.front()) keys_.push_back(number.name);
+      columns_.resize(keys_.size());
+      for (const auto& row : spec.list) {
+        for (std::size_t k = 0; k < keys_.size(); ++k) columns_[k].push_back(row[k].value);
+      }
+      size_ = static_cast<int>(spec.list.size());
+      return;
+    case SweepKind::kLatinHypercube:
+      for (std::size_t k = 0; k < spec.ranges.size(); ++k) {
+        RandomStream random(seed, 9000 + k);
+        keys_.push_back(spec.ranges[k].key);
+        columns_.push_back(HypercubeColumn(spec.ranges[k], spec.samples, random));
+      }
+      size_ = spec.samples;
+      return;
+  }
+}
+
+std::vector<double> SweepPlan::Point(int i) const {
+  std::vector<double> point(keys_.size());
+  auto place = static_cast<std::size_t>(i);
+  for (std::size_t k = keys_.size(); k-- > 0;) {
+    const std::size_t count = columns_[k].size();
+    point[k] = columns_[k][grid_ ? place % count : static_cast<std::size_t>(i)];
+    if (grid_) place /= count;
+  }
+  return point;
+}
+
+SweepRow SweepPlan::Compute(int i) const {
+  const std::vector<double> point = Point(i);
+  std::vector<std::pair<std::string, double>> values;
+  for (std::size_t k = 0; k < keys_.size(); ++k) values.emplace_back(keys_[k], point[k]);
+  try {
+    const Scenario scenario = document_.ReadAt(values, "sweep");
+    return ComputeSweepRow(HopperOfScenario(scenario, integrator_), outputs_);
+  } catch (const InputError& error) {
+    // Each value was held against its range before; together they may still not fit.
+    return {std::vector<double>(outputs_.size(), kMissing), "bad_input", error.what()};
+  }
+}
+
+void SweepPlan::Fingerprint(const IntegratorOptions& integrator) {
+  Hash hash;
+  hash.Add(document_.ResolvedText());
+  for (const std::string& key : keys_) hash.Add(key);
+  for (int i = 0; i < size_; ++i) {
+    for (const double value : Point(i)) hash.Add(value);
+  }
+  for (const SweepOutput* output : outputs_) hash.Add(output->name);
+  hash.Add(NameOf(integrator.kind));
+  hash.Add(integrator.relative_tolerance);
+  hash.Add(integrator.absolute_tolerance);
+  fingerprint_ = hash.Text();
+}
+
+}  // namespace hoplab

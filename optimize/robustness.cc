@@ -1,0 +1,108 @@
+#include "optimize/robustness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/random.h"
+
+namespace hoplab {
+namespace {
+
+// Evenly from -1 to 1.
+double Spread(int i, int count) { return count > 1 ? 2.0 * i / (count - 1) - 1.0 : 0.0; }
+
+WorstCase TryAll(const std::vector<Hopper>& hoppers, int jobs) {
+  std::vector<ConvergenceTime> times(hoppers.size());
+  std::vector<char> ended(hoppers.size(), 0);
+  ParallelFor(static_cast<int>(hoppers.size()), jobs, [&](int i) {
+    const Trajectory run = Simulate(RequestOf(hoppers[i]));
+    ended[i] = !IsComplete(run.outcome);
+    if (!ended[i]) times[i] = ConvergenceTimeOf(ApexSpeeds(run));
+  });
+  WorstCase worst;
+  worst.runs = static_cast<int>(hoppers.size());
+  for (std::size_t i = 0; i < hoppers.size(); ++i) {
+    worst.ended += ended[i];
+    worst.converged += times[i].converged();
+    worst.worst_time = std::fmax(worst.worst_time, times[i].time);
+  }
+  return worst;
+}
+
+std::vector<Hopper> OverStiffness(const Hopper& hopper, const RobustnessOptions& options) {
+  const bool straight = MechanismOf(hopper.request.law) == MechanismKind::kStraightLeg;
+  const ParameterId id = straight ? ParameterId::kStiffness : ParameterId::kE;
+  std::vector<Hopper> hoppers(static_cast<std::size_t>(options.stiffness_points), hopper);
+  for (int i = 0; i < options.stiffness_points; ++i) {
+    Field(hoppers[i].request.parameters, id) *=
+        1.0 + options.stiffness_range * Spread(i, options.stiffness_points);
+  }
+  return hoppers;
+}
+
+std::vector<Hopper> OverStarts(const Hopper& hopper, const RobustnessOptions& options) {
+  std::vector<Hopper> hoppers;
+  for (int i = 0; i < options.start_points; ++i) {
+    for (int j = 0; j < options.start_points; ++j) {
+      Hopper moved = hopper;
+      moved.request.initial[2] *= 1.0 + options.speed_range * Spread(i, options.start_points);
+      moved.request.initial[1] *= 1.0 + options.height_range * Spread(j, options.start_points);
+      hoppers.push_back(std::move(moved));
+    }
+  }
+  return hoppers;
+}
+
+// Apex speeds of a hopper that lands at another angle every time; shorter than asked for if it
+// falls.
+std::vector<double> HopNoisily(const Hopper& hopper, const RobustnessOptions& options, int run,
+                               int hops) {
+  RandomStream random(options.seed, 7000 + static_cast<std::uint64_t>(run));
+  ReturnMap map(hopper);
+  const double angle = hopper.request.parameters.theta_td;
+  const auto& s = hopper.request.initial;
+  ApexState z(s[2], s[1] + s[3] * s[3] / (2.0 * hopper.request.parameters.g));
+  std::vector<double> speeds;
+  for (int hop = 0; hop < hops; ++hop) {
+    map.hopper().request.parameters.theta_td = angle + options.touchdown_noise * random.Normal();
+    const Hop next = map.Apply(z);
+    if (!next.ok()) break;
+    z = next.next;
+    speeds.push_back(z[0]);
+  }
+  return speeds;
+}
+
+NoisyHops WithNoise(const Hopper& hopper, const RobustnessOptions& options) {
+  constexpr int kHops = 60;
+  std::vector<std::vector<double>> speeds(static_cast<std::size_t>(options.noise_runs));
+  ParallelFor(options.noise_runs, options.jobs,
+              [&](int i) { speeds[i] = HopNoisily(hopper, options, i, kHops); });
+  NoisyHops noise;
+  noise.runs = options.noise_runs;
+  double sum = 0.0, squares = 0.0;
+  int count = 0;
+  for (const std::vector<double>& run : speeds) {
+    noise.fell += static_cast<int>(run.size()) < kHops;
+    for (std::size_t i = kHops / 2; i < run.size(); ++i, ++count) {
+      sum += run[i];
+      squares += run[i] * run[i];
+    }
+  }
+  if (count > 1) {
+    const double mean = sum / count;
+    noise.speed_deviation =
+        std::sqrt(std::max(squares / count - mean * mean, 0.0)) / std::abs(mean);
+  }
+  return noise;
+}
+
+}  // namespace
+
+Robustness AssessRobustness(const Hopper& hopper, const RobustnessOptions& options) {
+  return {TryAll(OverStiffness(hopper, options), options.jobs),
+          TryAll(OverStarts(hopper, options), options.jobs), WithNoise(hopper, options)};
+}
+
+}  // namespace hoplab

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "optimize/convergence_time.h"
+#include "optimize/fixed_point.h"
+
+namespace hoplab {
+
+enum class Objective {
+  kConvergenceTime,  // M23 [s]: a staircase
+  kSpectralRadius,   // of the fixed point that hopping leads to: smooth but for kinks
+  kWeighted          // (1 - weight) time/horizon + weight rho
+};
+std::string_view NameOf(Objective objective);
+
+/// A quantity that is searched over, in the unit of its name.
+struct SearchVariable {
+  std::string name;
+  double low = 0.0, high = 1.0;
+};
+
+/// Bounds on a run; absent: none. Speeds and forces over the whole run, or over the steady hop
+/// where the objective is the spectral radius.
+struct SearchConstraints {
+  std::optional<double> min_speed;      // of the steady vx [m/s]
+  std::optional<double> max_torque;     // largest |T| [N m]
+  std::optional<double> min_clearance;  // least apex height above touch-down height [m]
+  double max_flexure = kMaxFlexure;     // F C/l0, `large_deflection` only
+};
+
+/// What is searched. `hopper_at` is called from several threads.
+struct SearchProblem {
+  std::vector<SearchVariable> variables;
+  std::function<Hopper(std::span<const double> x)> hopper_at;
+  Objective objective = Objective::kConvergenceTime;
+  double weight = 0.5;
+  SearchConstraints constraints;
+};
+
+/// What a point is worth, the best first. A failed simulation is no number but one of these.
+enum class PointVerdict {
+  kGood,           // converged, within the constraints
+  kWideBand,       // converged into the 2 % band only
+  kConstraint,     // converged, but breaks a constraint
+  kNoConvergence,  // hops to the end without settling, or settles on nothing stable
+  kRunEnded        // falls, finds no support, ...: `outcome`
+};
+std::string_view NameOf(PointVerdict verdict);
+
+/// One evaluated point. What does not apply is NaN or empty.
+struct SearchPoint {
+  std::vector<double> x;
+  PointVerdict verdict = PointVerdict::kRunEnded;
+  Outcome outcome = Outcome::kIntegrationFailed;
+  std::string violated;  // "max_torque": the constraint broken most
+  /// What the search minimises: verdict first (its place in the list above), then a number in
+  /// [0, 1] that says how near the point is to the next better verdict.
+  double score = std::numeric_limits<double>::infinity();
+  /// The objective in its own unit, of kGood and kWideBand points.
+  double objective = std::numeric_limits<double>::quiet_NaN();
+  ConvergenceTime convergence;
+  double spectral_radius = std::numeric_limits<double>::quiet_NaN();
+  double speed = std::numeric_limits<double>::quiet_NaN();      // steady [m/s]
+  double torque = std::numeric_limits<double>::quiet_NaN();     // largest |T| [N m], if asked for
+  double clearance = std::numeric_limits<double>::quiet_NaN();  // [m]
+  double flexure = std::numeric_limits<double>::quiet_NaN();
+};
+
+SearchPoint EvaluatePoint(const SearchProblem& problem, std::span<const double> x);
+
+/// Spectral radius of the fixed point that hopping from the hopper's start leads to, and the start
+/// of the search for it; not found where there is none.
+FixedPoint SteadyHop(const Hopper& hopper, const std::optional<ApexState>& near = std::nullopt);
+
+/// Hip height at touch-down [m] (guards of the equation sheet).
+double TouchdownHeightOf(const Hopper& hopper);
+
+}  // namespace hoplab
