@@ -122,7 +122,7 @@ std::string CauseTable(const Diagnosis& d, bool colours) {
       std::string remark;
       if (rival) {
         remark = fmt::format("in its place, {:.1f} nats behind", model.cost - best.cost);
-      } else if (c.alone.ok()) {
+      } else if (c.alone.ok() && c.gain > 0.0) {
         remark = fmt::format("+{} nats alone", Significant(c.gain, 3));
       }
       for (int i = 0; i < c.candidate.parameter_count(); ++i) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "fitting/apex_segments.h"
 #include "fitting/trial_evaluator.h"
@@ -84,17 +85,23 @@ TrialProblem WithData(const TrialProblem& trial, const Trajectory& simulated) {
   return out;
 }
 
-// End of the first flight and begin of the last.
-Window FirstFlight(const Trajectory& t) {
-  return {0.0, kFlightShare * t.segments.front().end, 0.0};
+// Times of the first and the last event that is no apex; NaN without one.
+std::pair<double, double> Contacts(const Trajectory& t) {
+  std::pair<double, double> times = {kNaN, kNaN};
+  for (const Event& e : t.events) {
+    if (e.kind == EventKind::kApex) continue;
+    if (std::isnan(times.first)) times.first = e.time;
+    times.second = e.time;
+  }
+  return times;
 }
+
+Window FirstFlight(const Trajectory& t) { return {0.0, kFlightShare * Contacts(t).first, 0.0}; }
 Window LastFlight(const Trajectory& t, double end) {
-  const double begin = t.segments.back().begin;
-  return {end - kFlightShare * (end - begin), end, end};
+  return {end - kFlightShare * (end - Contacts(t).second), end, end};
 }
 bool BeginsAndEndsInFlight(const Trajectory& t) {
-  return t.segments.size() > 1 && t.segments.front().mode == Mode::kFlight &&
-         t.segments.back().mode == Mode::kFlight;
+  return !std::isnan(Contacts(t).first) && t.final_mode == Mode::kFlight;
 }
 
 // Hops of a whole trace, from its start to its first apex after a stance and on from apex to apex.
@@ -116,7 +123,7 @@ EnergyLedger LedgerOfTrial(const Extension& model, std::size_t i, const HeldOutE
   const TrialProblem& trial = model.problem.trials[i];
   EnergyLedger ledger{trial.recording, {}};
   const Trajectory& simulated = before.trials[i].trajectory;
-  if (simulated.segments.empty()) return ledger;
+  if (std::isnan(Contacts(simulated).first)) return ledger;
   const Scale scale(model, trial);
   const Window first = FirstFlight(simulated);
   const auto balances = [&](const TrialProblem& shown) {
