@@ -109,7 +109,10 @@ std::string CauseTable(const Diagnosis& d, bool colours) {
       u.misfit && !u.parameters.empty() && u.parameters.back().ci95_between_trials.has_value();
   TextTable table({kLeft, kRight, kLeft, kLeft, kLeft});
   table.AddRow({d.verdict == Verdict::kUnexplained ? "best attempt" : "supported", "size",
-                between ? "95 % between trials" : "95 % interval", "unit", "log-likelihood"});
+                !between   ? "95 % interval"
+                : d.by_hop ? "95 % between hops"
+                           : "95 % between trials",
+                "unit", "log-likelihood"});
   for (std::size_t m = 0; m < d.naming.groups.size(); ++m) {
     for (std::size_t k = 0; k < d.naming.groups[m].size(); ++k) {
       const CandidateResult& c =
@@ -121,7 +124,9 @@ std::string CauseTable(const Diagnosis& d, bool colours) {
       if (place < 0) continue;
       std::string remark;
       if (rival) {
-        remark = fmt::format("in its place, {:.1f} nats behind", model.cost - best.cost);
+        const double behind = model.cost - best.cost;
+        remark = fmt::format("in its place, {:.1f} nats {}", std::abs(behind),
+                             behind < -0.05 ? "ahead" : "behind");
       } else if (c.alone.ok() && c.gain > 0.0) {
         remark = fmt::format("+{} nats alone", Significant(c.gain, 3));
       }
