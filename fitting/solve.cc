@@ -328,7 +328,13 @@ SolveResult Solve(const SolveRequest& request) {
     const bool settled = best.status == SolveStatus::kConverged && on == held;
     if (settled || request.max_iterations <= kFirstIterations) break;
     held = on;
-    if (!GoOn(request, held, best) && best.status != SolveStatus::kConverged) break;
+    SolveRequest rest = request;
+    rest.max_iterations = request.max_iterations - best.iterations;
+    if (rest.max_iterations < 1) {
+      best.status = SolveStatus::kIterationLimit;
+      break;
+    }
+    if (!GoOn(rest, held, best) && best.status != SolveStatus::kConverged) break;
   }
   return best;
 }

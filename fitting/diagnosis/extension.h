@@ -36,7 +36,7 @@ struct Extension {
 /// What every refit of a diagnosis shares.
 struct RefitSettings {
   const std::vector<TrialProblem>* train = nullptr;
-  int max_iterations = 40;
+  int max_iterations = 30;  // in all
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
 };

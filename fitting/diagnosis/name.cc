@@ -221,7 +221,7 @@ class Search {
     const double forecast = part.empty() && added.size() == 1
                                 ? naming_.candidates[added[0]].score.predicted_gain
                                 : 0.0;
-    if (forecast > naming_.penalty && (!e.ok() || At(part).cost - e.cost < 0.5 * forecast)) {
+    if (forecast > naming_.penalty && (!e.ok() || At(part).cost - e.cost < 0.15 * forecast)) {
       for (double share : {0.3, 0.1}) {
         Extension again = Refit(At(part), candidates, share * sizes, refit_);
         if (again.ok() && (!e.ok() || again.cost < e.cost)) e = std::move(again);
