@@ -109,7 +109,10 @@ std::string CauseTable(const Diagnosis& d, bool colours) {
       u.misfit && !u.parameters.empty() && u.parameters.back().ci95_between_trials.has_value();
   TextTable table({kLeft, kRight, kLeft, kLeft, kLeft});
   table.AddRow({d.verdict == Verdict::kUnexplained ? "best attempt" : "supported", "size",
-                between ? "95 % between trials" : "95 % interval", "unit", "log-likelihood"});
+                !between   ? "95 % interval"
+                : d.by_hop ? "95 % between hops"
+                           : "95 % between trials",
+                "unit", "log-likelihood"});
   for (std::size_t m = 0; m < d.naming.groups.size(); ++m) {
     for (std::size_t k = 0; k < d.naming.groups[m].size(); ++k) {
       const CandidateResult& c =
@@ -121,8 +124,10 @@ std::string CauseTable(const Diagnosis& d, bool colours) {
       if (place < 0) continue;
       std::string remark;
       if (rival) {
-        remark = fmt::format("in its place, {:.1f} nats behind", model.cost - best.cost);
-      } else if (c.alone.ok()) {
+        const double behind = model.cost - best.cost;
+        remark = fmt::format("in its place, {:.1f} nats {}", std::abs(behind),
+                             behind < -0.05 ? "ahead" : "behind");
+      } else if (c.alone.ok() && c.gain > 0.0) {
         remark = fmt::format("+{} nats alone", Significant(c.gain, 3));
       }
       for (int i = 0; i < c.candidate.parameter_count(); ++i) {
@@ -151,7 +156,8 @@ std::string MeaningLines(const Diagnosis& d, bool colours) {
   if (effects.size() == 1 && d.verdict == Verdict::kNamed) return "";
   std::string text;
   for (const Effect* e : effects)
-    text += Labelled("", std::string(e->info.name) + ": " + std::string(e->info.sentence), colours);
+    text += Labelled(text.empty() ? "meaning" : "",
+                     std::string(e->info.name) + ": " + std::string(e->info.sentence), colours);
   return text;
 }
 
@@ -208,7 +214,7 @@ std::string GainLine(const ExtensionReport& e) {
 
 std::string MovedTable(const ExtensionReport& e, bool colours) {
   TextTable table({kLeft, kRight, kRight, kLeft, kLeft});
-  table.AddRow({"fitted before", "before", "after", "unit", "moved by"});
+  table.AddRow({"parameter", "before", "after", "unit", "moved by"});
   for (const Movement& m : e.movements) {
     const ReadableUnit unit = ReadableUnitOf(m.before, m.unit);
     table.AddRow({m.name, Significant(m.before * unit.factor, 4),
@@ -241,8 +247,9 @@ std::string RemainderLine(const ExtensionReport& e) {
   const Detection& r = e.remainder;
   if (r.p_value > kDetectionLevel)
     return fmt::format("what is left looks like noise ({})", ChanceText(r.p_value));
-  std::string text = fmt::format("{} of the misfit is explained, not all of it ({})",
-                                 Percent(e.explained), ChanceText(r.p_value));
+  // Not rounded up to all of it.
+  std::string text = fmt::format("{:.1f} % of the misfit is explained, not all of it ({})",
+                                 std::floor(1e3 * e.explained) / 10.0, ChanceText(r.p_value));
   const auto most = std::max_element(
       r.tests.begin(), r.tests.end(),
       [](const DetectionTest& a, const DetectionTest& b) { return a.statistic < b.statistic; });
@@ -334,6 +341,22 @@ std::string ExperimentLine(const Diagnosis& d) {
                      Significant(e.expected_nats, 2));
 }
 
+// "-0.072 + 0.39 s, kept by 99 % of the resamples or more"; empty where no term is.
+std::string ShapeText(const ReconstructedForce& f) {
+  std::string text;
+  double least = 1.0;
+  for (const RegressionTerm& t : f.terms) {
+    if (t.inclusion < kOftenKept || t.coefficient == 0.0) continue;
+    const std::string size = Significant(std::abs(t.coefficient), 2);
+    const bool negative = t.coefficient < 0.0;
+    text += text.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ");
+    text += t.term == "1" ? size : size + " " + t.term;
+    least = std::min(least, t.inclusion);
+  }
+  if (text.empty()) return "";
+  return fmt::format("{}, kept by {} of the resamples", text, Percent(least));
+}
+
 std::string ForceLine(const ReconstructedForce& f) {
   const ForcePoint* largest = nullptr;
   for (const ForcePoint& p : f.points) {
@@ -341,19 +364,18 @@ std::string ForceLine(const ReconstructedForce& f) {
     if (!largest || std::abs(p.value) / p.band95 > std::abs(largest->value) / largest->band95)
       largest = &p;
   }
+  const std::string against = f.group.against.substr(0, f.group.against.find(" [-]"));
   std::string text = f.group.name;
   if (largest) {
-    text += fmt::format(": {} +- {}", Significant(largest->value, 3),
-                        SizeText(largest->band95, f.group.unit));
-    if (!f.group.against.empty())
-      text += fmt::format(" at {} {}", f.group.against, Significant(largest->at, 2));
+    const ReadableUnit unit = ReadableUnitOf(largest->value, f.group.unit);
+    const double band = largest->band95 * unit.factor;
+    const int decimals = DecimalsFor(band);
+    text += fmt::format(" {} +- {} {}", Fixed(largest->value * unit.factor, decimals),
+                        Fixed(band, decimals), unit.unit);
+    if (!against.empty()) text += fmt::format(" at {} {}", against, Significant(largest->at, 2));
   }
-  std::vector<std::string> terms;
-  for (const RegressionTerm& t : f.terms) {
-    if (t.inclusion >= kOftenKept)
-      terms.push_back(fmt::format("{:+.2g} {} ({})", t.coefficient, t.term, Percent(t.inclusion)));
-  }
-  if (!terms.empty()) text += "; shaped like " + Join(terms, " ");
+  if (const std::string shape = ShapeText(f); !shape.empty())
+    text += fmt::format("; over s = {}: {}", against, shape);
   return text;
 }
 
@@ -364,7 +386,8 @@ std::string ForceLines(const FreeForces& free_forces, bool colours) {
     if (shown == kMostForces || f.p_value > kDetectionLevel) break;
     text += Labelled(shown++ == 0 ? "free forces" : "", ForceLine(f), colours);
   }
-  if (shown > 0) text += Labelled("", "(a description of what is missing, no mechanism)", colours);
+  if (shown > 0)
+    text += Labelled("", "(what is missing as a force, a description and no mechanism)", colours);
   return text;
 }
 

@@ -33,20 +33,14 @@ std::vector<std::string> NamesOf(const Diagnosis& d, const std::vector<int>& pla
   return names;
 }
 
-// How far the models of a group lie apart [nats].
-double Spread(const Diagnosis& d, std::size_t group) {
-  double lowest = d.naming.best.cost, highest = d.naming.best.cost;
-  if (group < d.naming.rivals.size()) {
-    for (const Extension& rival : d.naming.rivals[group]) {
-      lowest = std::min(lowest, rival.cost);
-      highest = std::max(highest, rival.cost);
-    }
-  }
-  return highest - lowest;
-}
-
+// How far the models of a group are from the accepted one [nats].
 std::string SpreadText(const Diagnosis& d, std::size_t group) {
-  return fmt::format("{:.1f} nats apart", Spread(d, group));
+  double spread = 0.0;
+  if (group < d.naming.rivals.size()) {
+    for (const Extension& rival : d.naming.rivals[group])
+      spread = std::max(spread, std::abs(rival.cost - d.naming.best.cost));
+  }
+  return fmt::format("within {:.1f} nats", spread);
 }
 
 // The channel whose held-out error falls most: "the test error of body_x from 8.85 to 1.20 mm".
@@ -71,6 +65,7 @@ std::optional<std::string> ErrorChange(const Diagnosis& d) {
 std::string HeldOutClause(const Diagnosis& d, const std::string& it) {
   const HeldOutGain& gain = d.extension->gain;
   if (d.extension->after.test.trials == 0) return "; there is no held-out trial to confirm it";
+  if (!gain.ci95) return "; the held-out hops are too few to claim a gain";
   if (!gain.IsClaim()) return "; the held-out trials do not confirm it, so no gain is claimed";
   if (const std::optional<std::string> change = ErrorChange(d))
     return fmt::format("; adding {} takes {}", it, *change);

@@ -31,7 +31,7 @@ std::string_view TitleOf(EffectKind kind) {
     case EffectKind::kForce:
       return "Forces, torques and impacts";
     case EffectKind::kParameter:
-      return "The mechanism, its laws and its gravity";
+      return "The mechanism and what it stands on";
     case EffectKind::kGuard:
       return "When contact begins";
     case EffectKind::kObservation:
@@ -85,7 +85,7 @@ std::string RestrictionOf(const Effect& effect) {
     return (names.size() == 1 ? "law " : "laws ") + Join(names);
   }
   if (info.for_legs && info.for_ball) return "";
-  return info.for_legs ? "legs" : "ball only";
+  return info.for_legs ? "legs only" : "ball only";
 }
 
 std::string Quantity(double value, const EffectParameter& p) {
@@ -147,7 +147,7 @@ void PrintOne(const Effect& effect, Console& console) {
 }
 
 std::vector<const Effect*> Chosen(const EffectsSettings& settings) {
-  if (!settings.name.empty()) return {&ResolveEffect(settings.name, "hoplab effects")};
+  if (!settings.name.empty()) return {&ResolveEffect(settings.name, "NAME")};
   std::vector<const Effect*> chosen;
   for (const Effect* effect : AllEffects()) {
     const std::vector<Law> laws = LawsWith(*effect);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "fitting/apex_segments.h"
 #include "fitting/trial_evaluator.h"
@@ -44,8 +45,15 @@ class Scale {
   std::vector<EffectSetting> effects_;
 };
 
-// State at the first row as a parabola through the first flight shows it; NaN where it does not.
-State StartShown(const FitProblem& problem, const TrialProblem& trial, double until, double g) {
+// The time at which a flight is read, and the rows it is read from.
+struct Window {
+  double from, to, at;  // s
+};
+
+// State that a parabola through a flight shows; NaN where it does not. The place along x is not
+// needed.
+State StateShown(const FitProblem& problem, const TrialProblem& trial, const Window& window,
+                 double g) {
   State state = {0.0, kNaN, kNaN, kNaN};
   const std::size_t width = problem.channels.size();
   for (std::size_t c = 0; c < width; ++c) {
@@ -56,8 +64,9 @@ State StartShown(const FitProblem& problem, const TrialProblem& trial, double un
     Eigen::VectorXd b(trial.row_times.size());
     Eigen::Index rows = 0;
     for (std::size_t row = 0; row < trial.row_times.size(); ++row) {
-      const double t = trial.row_times[row], v = trial.data[row * width + c];
-      if (t > until || std::isnan(v)) continue;
+      const double time = trial.row_times[row], v = trial.data[row * width + c];
+      if (time < window.from || time > window.to || std::isnan(v)) continue;
+      const double t = time - window.at;
       A.row(rows) << 1.0, t;
       b[rows++] = vertical ? v + 0.5 * g * t * t : v;
     }
@@ -69,52 +78,61 @@ State StartShown(const FitProblem& problem, const TrialProblem& trial, double un
   return state;
 }
 
-// States at the apexes after a stance, in order.
-std::vector<State> ApexesOf(const Trajectory& trajectory) {
-  std::vector<State> apexes;
-  bool stance = false;
-  for (const Event& e : trajectory.events) {
-    if (e.kind == EventKind::kApex && stance) apexes.push_back({e.x, e.y, e.vx, e.vy});
-    stance = e.kind != EventKind::kApex;
-  }
-  return apexes;
+// The trial with what a simulation reports in the place of what was measured.
+TrialProblem WithData(const TrialProblem& trial, const Trajectory& simulated) {
+  TrialProblem out = trial;
+  out.data = simulated.samples;
+  return out;
 }
 
-std::vector<HopBalance> BalancesOf(const State& start, const std::vector<State>& apexes,
-                                   const Scale& scale) {
+// Times of the first and the last event that is no apex; NaN without one.
+std::pair<double, double> Contacts(const Trajectory& t) {
+  std::pair<double, double> times = {kNaN, kNaN};
+  for (const Event& e : t.events) {
+    if (e.kind == EventKind::kApex) continue;
+    if (std::isnan(times.first)) times.first = e.time;
+    times.second = e.time;
+  }
+  return times;
+}
+
+Window FirstFlight(const Trajectory& t) { return {0.0, kFlightShare * Contacts(t).first, 0.0}; }
+Window LastFlight(const Trajectory& t, double end) {
+  return {end - kFlightShare * (end - Contacts(t).second), end, end};
+}
+bool BeginsAndEndsInFlight(const Trajectory& t) {
+  return !std::isnan(Contacts(t).first) && t.final_mode == Mode::kFlight;
+}
+
+// Hops of a whole trace, from its start to its first apex after a stance and on from apex to apex.
+std::vector<HopBalance> BalancesOf(const FitProblem& problem, const TrialProblem& trial,
+                                   const Window& first_flight, const Scale& scale) {
   std::vector<HopBalance> hops;
-  double begin = scale.EnergyOf(start);
-  for (const State& apex : apexes) {
-    const double end = scale.EnergyOf(apex);
+  const std::vector<TrialProblem> pieces = CutAtApexes(problem, trial);
+  double begin = scale.EnergyOf(StateShown(problem, trial, first_flight, scale.gravity()));
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    const double end = scale.EnergyOf(pieces[k].start);
     hops.push_back({begin, end});
     begin = end;
   }
   return hops;
 }
 
-// Apexes of whole traces.
 EnergyLedger LedgerOfTrial(const Extension& model, std::size_t i, const HeldOutErrors& before,
                            const HeldOutErrors* after) {
   const TrialProblem& trial = model.problem.trials[i];
   EnergyLedger ledger{trial.recording, {}};
-  const std::vector<TrialProblem> pieces = CutAtApexes(model.problem, trial);
-  if (pieces.size() < 2) return ledger;
-  const Scale scale(model, trial);
-  std::vector<State> shown;
-  for (std::size_t k = 1; k < pieces.size(); ++k) shown.push_back(pieces[k].start);
   const Trajectory& simulated = before.trials[i].trajectory;
-  double touchdown = 0.0;
-  for (const Segment& s : simulated.segments) {
-    if (s.mode != Mode::kFlight) break;
-    touchdown = s.end;
-  }
-  const State start = StartShown(model.problem, trial, kFlightShare * touchdown, scale.gravity());
-  const std::vector<HopBalance> measured = BalancesOf(start, shown, scale);
-  const std::vector<HopBalance> old =
-      BalancesOf(before.trials[i].start, ApexesOf(simulated), scale);
+  if (std::isnan(Contacts(simulated).first)) return ledger;
+  const Scale scale(model, trial);
+  const Window first = FirstFlight(simulated);
+  const auto balances = [&](const TrialProblem& shown) {
+    return BalancesOf(model.problem, shown, first, scale);
+  };
+  const std::vector<HopBalance> measured = balances(trial);
+  const std::vector<HopBalance> old = balances(WithData(trial, simulated));
   const std::vector<HopBalance> now =
-      after ? BalancesOf(after->trials[i].start, ApexesOf(after->trials[i].trajectory), scale)
-            : std::vector<HopBalance>();
+      after ? balances(WithData(trial, after->trials[i].trajectory)) : std::vector<HopBalance>();
   for (std::size_t k = 0; k < measured.size(); ++k) {
     const auto at = [k](const std::vector<HopBalance>& hops) {
       return k < hops.size() ? hops[k] : HopBalance{kNaN, kNaN};
@@ -126,13 +144,7 @@ EnergyLedger LedgerOfTrial(const Extension& model, std::size_t i, const HeldOutE
   return ledger;
 }
 
-double EnergyAtEnd(const Trajectory& trajectory, const Scale& scale) {
-  const std::vector<double>& s = trajectory.final_state;
-  if (trajectory.final_mode != Mode::kFlight || s.size() < 4) return kNaN;
-  return scale.EnergyOf({s[0], s[1], s[2], s[3]});
-}
-
-// Trials that are single hops: each begins at its own start and ends near the next apex.
+// Trials that are single hops: each is simulated from a start of its own.
 EnergyLedger LedgerOfHops(const Extension& model, const std::vector<std::size_t>& trials,
                           const HeldOutErrors& before, const HeldOutErrors* after) {
   EnergyLedger ledger{model.problem.trials[trials.front()].recording, {}};
@@ -141,11 +153,19 @@ EnergyLedger LedgerOfHops(const Extension& model, const std::vector<std::size_t>
     const TrialProblem &trial = model.problem.trials[trials[k]],
                        &next = model.problem.trials[trials[k + 1]];
     const Scale scale(model, trial);
-    // The first start is the nominal one, not read off the trace.
-    const double begin = k > 0 ? scale.EnergyOf(trial.start) : kNaN;
-    const auto simulated = [&](const TrialErrors& e) {
-      return HopBalance{scale.EnergyOf(e.start), EnergyAtEnd(e.trajectory, scale)};
+    const auto shown = [&](const TrialProblem& data, const Window& window) {
+      return scale.EnergyOf(StateShown(model.problem, data, window, scale.gravity()));
     };
+    const auto simulated = [&](const TrialErrors& e) {
+      if (!BeginsAndEndsInFlight(e.trajectory)) return HopBalance{kNaN, kNaN};
+      const TrialProblem data = WithData(trial, e.trajectory);
+      return HopBalance{shown(data, FirstFlight(e.trajectory)),
+                        shown(data, LastFlight(e.trajectory, trial.row_times.back()))};
+    };
+    const Trajectory& old = before.trials[trials[k]].trajectory;
+    const double begin = k > 0
+                             ? scale.EnergyOf(trial.start)
+                             : (BeginsAndEndsInFlight(old) ? shown(trial, FirstFlight(old)) : kNaN);
     HopEnergy hop{{begin, scale.EnergyOf(next.start)}, simulated(before.trials[trials[k]]), {}};
     if (after) hop.after = simulated(after->trials[trials[k]]);
     ledger.hops.push_back(hop);

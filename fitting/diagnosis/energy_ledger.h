@@ -22,16 +22,17 @@ struct HopEnergy {
   std::optional<HopBalance> after;  // absent without an extension
 };
 
-/// Energy from hop to hop of one recording. All three columns are weighed with the mass and the
-/// gravity of the model before, so that they can be compared.
+/// Energy from hop to hop of one recording. All three columns are read off the channels in the same
+/// way, by parabolas through the flights, and weighed with the mass and the gravity of the model
+/// before, so that they can be compared.
 struct EnergyLedger {
   std::string recording;  // empty: no trial shows its apexes and is simulated to its end
   std::vector<HopEnergy> hops;
 };
 
 /// The ledger of a held-out recording (a train one if there is none): the one with most hops.
-/// `after` may be null. With trials that are single hops, simulated energies begin at each hop's
-/// own start.
+/// `after` may be null. With trials that are single hops, simulated energies begin and end with
+/// each hop on its own.
 EnergyLedger LedgerOf(const Extension& model, const HeldOutErrors& before,
                       const HeldOutErrors* after);
 

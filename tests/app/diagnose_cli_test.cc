@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "tests/app/hoplab_process.h"
 
@@ -21,10 +22,13 @@ class DiagnoseCli : public ::testing::Test {
   }
   // A dataset of drops in `name`, with effects as the command line writes them.
   void Generate(const std::string& name, const std::vector<std::string>& with) {
-    std::vector<std::string> arguments = {
-        "generate", std::string(HOPLAB_SOURCE_DIR) + "/experiments/three-drops.yaml",
-        "--seed",   "7",
-        "--out",    name};
+    // A second held-out trial: an interval of the gain takes four hops.
+    const std::filesystem::path drops =
+        std::filesystem::path(HOPLAB_SOURCE_DIR) / "experiments/three-drops.yaml";
+    WriteText(
+        temp_.path() / "drops.yaml",
+        ReadText(drops) + "    - {role: test, touchdown_angle_deg: 27, initial: {y_m: 0.29}}\n");
+    std::vector<std::string> arguments = {"generate", "drops.yaml", "--seed", "7", "--out", name};
     for (const std::string& effect : with) {
       arguments.emplace_back("--with");
       arguments.push_back(effect);
@@ -240,13 +244,13 @@ TEST(EffectsCli, ShowsTheCatalogueByKindAndOneInFull) {
   EXPECT_EQ(unknown.exit_code, 65);
   EXPECT_NE(unknown.err.find("air_drag"), std::string::npos);
   const auto names = [&](const std::vector<std::string>& arguments) {
+    const auto record = nlohmann::json::parse(RunHoplab(arguments, temp.path()).out);
     std::set<std::string> out;
-    for (const auto& e : nlohmann::json::parse(RunHoplab(arguments, temp.path()).out).at("effects"))
-      out.insert(e.at("name"));
+    for (const auto& e : record.at("effects")) out.insert(e.at("name"));
     return out;
   };
-  const auto every = names({"effects", "--json"}),
-             ball = names({"effects", "--law", "ball", "--json"});
+  const std::set<std::string> every = names({"effects", "--json"});
+  const std::set<std::string> ball = names({"effects", "--law", "ball", "--json"});
   EXPECT_TRUE(every.contains("leg_material_damping"));
   EXPECT_FALSE(ball.contains("leg_material_damping"));
   EXPECT_TRUE(ball.contains("air_drag"));
