@@ -145,10 +145,12 @@ Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tes
       Linearisation at =
           Linearise(problem, model.problem.shared_count(), train, shared, model.starts, jobs);
       const Eigen::MatrixXd found = at.columns;
+      const Eigen::MatrixXd along = at.along_fitted;
       const Eigen::VectorXd length = at.length;
       if (!begun) {
         all = std::move(at);
         all.columns = Eigen::MatrixXd::Zero(all.r.size(), columns);
+        all.along_fitted = Eigen::MatrixXd::Zero(all.fitted_basis.cols(), columns);
         all.length = Eigen::VectorXd::Zero(columns);
         begun = true;
       }
@@ -157,6 +159,7 @@ Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tes
         const int to = column_of[static_cast<std::size_t>(places[first + i])];
         for (int k = 0; k < part[i].parameter_count(); ++k, ++next) {
           all.columns.col(to + k) = found.col(next);
+          all.along_fitted.col(to + k) = along.col(next);
           all.length[to + k] = length[next];
         }
       }
