@@ -407,11 +407,10 @@ class Search {
   // ---- what can take a member's place
   void FindGroups(const Model& model) {
     const auto close = [&](const Model& other) {
-      double extra = 0.0;  // a trial picked out of many must pay for the picking
+      double extra = 0.0;  // a trial picked out of many must pay for the picking, a member too
       for (int i : other) extra += IsLocal(i) ? naming_.local_penalty - naming_.penalty : 0.0;
       for (int i : model) extra -= IsLocal(i) ? naming_.local_penalty - naming_.penalty : 0.0;
-      return Usable(other) &&
-             At(other).cost + std::max(extra, 0.0) <= At(model).cost + kIndistinguishable;
+      return Usable(other) && At(other).cost + extra <= At(model).cost + kIndistinguishable;
     };
     if (model.size() > 1) RefitAll(Swaps(model, 3 * kForwardWidth));
     for (int member : model) {
