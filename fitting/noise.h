@@ -12,9 +12,9 @@ struct SampledColumn {
 };
 
 /// Standard deviation of white noise on a channel, from the traces alone: in flight a hopper's
-/// coordinates are parabolas of time, so parabolas are laid through short windows and the median of
-/// the windows' residual variances is taken (corrected for the median of chi-square). Windows that
-/// meet a stance are a minority and do not move the median.
+/// coordinates are parabolas of time, so parabolas are laid through short windows. Windows that
+/// meet a stance miss by far more than noise and are set aside; the median of the others' residual
+/// variances counts (corrected for the median of chi-square).
 /// NaN when there are fewer than 3 windows of 8 samples.
 double EstimateNoise(std::span<const SampledColumn> columns);
 

@@ -42,6 +42,7 @@ Detection Detect(const Linearisation& at, std::span<const Candidate> candidates,
 // The columns of the candidates alone, out of a linearisation that has the probes' too.
 Linearisation CandidatesOnly(Linearisation at, int columns) {
   at.columns.conservativeResize(Eigen::NoChange, columns);
+  at.along_fitted.conservativeResize(Eigen::NoChange, columns);
   at.length.conservativeResize(columns);
   return at;
 }
@@ -178,8 +179,8 @@ class Pipeline {
     report.uncertainty = AssessUncertainty(best.problem, train_, best.shared, best.starts,
                                            options_.fit.loss, options_.fit.jobs);
     report.after = MeasureHeldOut(best, options_.fit.jobs);
-    report.gain = CompareHeldOut(d_.null, d_.before, report.after, Seed(kBootstrapStream),
-                                 &report.left_out);
+    report.gain =
+        CompareHeldOut(d_.null, d_.before, report.after, Seed(kBootstrapStream), &report.left_out);
     report.movements = MovementsOf(d_.null, d_.uncertainty, best);
     const Linearisation at = LineariseAt(best, basis_.probes, train_, options_.fit.jobs);
     report.remainder = Detect(at, {}, basis_, Seed(kRemainderStream));
@@ -195,9 +196,8 @@ class Pipeline {
       const CandidateResult& c = d_.naming.candidates[static_cast<std::size_t>(i)];
       // What gained nothing on the fitted trials has nothing to show on the others.
       if (!c.alone.ok() || c.gain < 1.0 || Stopped()) return;
-      d_.candidate_gains[static_cast<std::size_t>(i)] =
-          CompareHeldOut(d_.null, d_.before, MeasureHeldOut(c.alone, 1), Seed(kBootstrapStream),
-                         nullptr);
+      d_.candidate_gains[static_cast<std::size_t>(i)] = CompareHeldOut(
+          d_.null, d_.before, MeasureHeldOut(c.alone, 1), Seed(kBootstrapStream), nullptr);
     });
     for (const std::vector<Extension>& rivals : d_.naming.rivals) {
       if (rivals.size() < 2 || d_.experiment) continue;
@@ -217,8 +217,9 @@ class Pipeline {
     if (!d_.extension) {
       if (FreeForcePays(seen, candidates)) {
         d_.verdict = Verdict::kUnexplained;
-        d_.reason = "a free force or reading is needed, and no effect of the catalogue pays for "
-                    "its parameters";
+        d_.reason =
+            "a free force or reading is needed, and no effect of the catalogue pays for "
+            "its parameters";
         DescribeFreely(d_.null);
       } else {
         d_.verdict = Verdict::kAdequate;
@@ -235,8 +236,7 @@ class Pipeline {
     } else if (remains && e.explained < kExplained) {
       d_.verdict = Verdict::kUnexplained;
       char text[96];
-      std::snprintf(text, sizeof text, " explains only %.0f %% of the misfit",
-                    100.0 * e.explained);
+      std::snprintf(text, sizeof text, " explains only %.0f %% of the misfit", 100.0 * e.explained);
       d_.reason = "the best extension, " + NamesOf(d_.naming.best) + "," + text;
     } else {
       bool alone = true;

@@ -82,7 +82,19 @@ Extension Refit(const Extension& base, std::span<const Candidate> added,
   e.shared.resize(base.shared.size() + sizes.size());
   e.shared << base.shared, sizes;
   e.starts = base.starts;
-  Run(e, NullValues(added), settings);
+  const Eigen::VectorXd null = NullValues(added);
+  Run(e, null, settings);
+  // More values cannot fit worse: a search that ended above its base went astray.
+  if (e.ok() && e.cost > base.cost) {
+    e.shared << base.shared, Eigen::VectorXd::Zero(null.size());
+    e.starts = base.starts;
+    Run(e, null, settings);
+    if (e.ok() && e.cost > base.cost) {
+      e.shared << base.shared, null;
+      e.starts = base.starts;
+      e.cost = base.cost;
+    }
+  }
   return e;
 }
 
@@ -145,10 +157,12 @@ Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tes
       Linearisation at =
           Linearise(problem, model.problem.shared_count(), train, shared, model.starts, jobs);
       const Eigen::MatrixXd found = at.columns;
+      const Eigen::MatrixXd along = at.along_fitted;
       const Eigen::VectorXd length = at.length;
       if (!begun) {
         all = std::move(at);
         all.columns = Eigen::MatrixXd::Zero(all.r.size(), columns);
+        all.along_fitted = Eigen::MatrixXd::Zero(all.fitted_basis.cols(), columns);
         all.length = Eigen::VectorXd::Zero(columns);
         begun = true;
       }
@@ -157,6 +171,7 @@ Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tes
         const int to = column_of[static_cast<std::size_t>(places[first + i])];
         for (int k = 0; k < part[i].parameter_count(); ++k, ++next) {
           all.columns.col(to + k) = found.col(next);
+          all.along_fitted.col(to + k) = along.col(next);
           all.length[to + k] = length[next];
         }
       }

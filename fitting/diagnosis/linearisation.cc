@@ -167,13 +167,19 @@ Linearisation Linearise(const FitProblem& problem, int first_tested,
   }
   out.length = out.length.cwiseSqrt();
   out.fitted_basis.resize(rows, 0);
+  out.along_fitted.resize(0, tested);
   if (!fitted.empty() && rows > 0) {
     out.fitted_basis = BasisOf(S);
     const Eigen::MatrixXd& Q = out.fitted_basis;
     out.fitted_rank += static_cast<int>(Q.cols());
     out.leverage += Q.rowwise().squaredNorm();
     out.r -= Q * (Q.transpose() * out.r);
-    for (int pass = 0; pass < 2; ++pass) out.columns -= Q * (Q.transpose() * out.columns);
+    out.along_fitted = Eigen::MatrixXd::Zero(Q.cols(), tested);
+    for (int pass = 0; pass < 2; ++pass) {
+      const Eigen::MatrixXd along = Q.transpose() * out.columns;
+      out.columns -= Q * along;
+      out.along_fitted += along;
+    }
   }
   return out;
 }

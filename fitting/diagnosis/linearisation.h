@@ -14,9 +14,9 @@ namespace hoplab {
 struct RowLabel {
   enum class Of { kSample, kContactTime, kPrior };
   Of of = Of::kSample;
-  int trial = 0;       // place among the linearised trials
-  int channel = -1;    // place in FitProblem::channels; -1 for contact times and priors
-  double time = 0.0;   // s since the trial's first row
+  int trial = 0;      // place among the linearised trials
+  int channel = -1;   // place in FitProblem::channels; -1 for contact times and priors
+  double time = 0.0;  // s since the trial's first row
   Mode mode = Mode::kFlight;
   double phase = 0.0;  // share of its spell in that mode gone by, 0..1
   int hop = 0;         // hop number in the trial, from 0
@@ -32,6 +32,9 @@ struct Linearisation {
   std::vector<RowLabel> labels;
   /// Orthonormal basis of what the fitted shared values explain beyond the starts.
   Eigen::MatrixXd fitted_basis;
+  /// What of each column lies along that basis: columns + fitted_basis * along_fitted is s_j with
+  /// the starts alone projected out, which may be cut to one trial.
+  Eigen::MatrixXd along_fitted;
   Eigen::VectorXd leverage;  // share of each row the fitted values can explain, 0..1
   int fitted_rank = 0;       // dimensions projected out
   int samples = 0;           // rows that come from data

@@ -32,27 +32,36 @@ std::vector<double> TimesOf(const Trajectory& trajectory, EventKind kind) {
   return times;
 }
 
+struct ShownApex {
+  double time, height;  // s since the first row, m
+};
+std::vector<ShownApex> ApexesOf(const FitProblem& problem, const TrialProblem& trial) {
+  std::vector<ShownApex> apexes;
+  const std::vector<TrialProblem> pieces = CutAtApexes(problem, trial);
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    const std::array<double, 4>& at = pieces[k].start;
+    const double g = trial.parameters.g;
+    apexes.push_back(
+        {pieces[k].begin_s - trial.begin_s + at[3] / g, at[1] + 0.5 * at[3] * at[3] / g});
+  }
+  return apexes;
+}
+
 FeatureErrors Features(const FitProblem& problem, const std::vector<TrialErrors>& trials) {
   MeanSquare height, time, touchdown, stance;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const TrialProblem& trial = problem.trials[i];
     if (trials[i].role != TrialRole::kTest || !trials[i].complete) continue;
-    // Apexes the trace shows, against the simulated ones nearest in time.
-    const std::vector<TrialProblem> pieces = CutAtApexes(problem, trial);
-    for (std::size_t k = 1; k < pieces.size(); ++k) {
-      const std::array<double, 4>& seen = pieces[k].start;
-      const double row_time = pieces[k].begin_s - trial.begin_s;
-      const double apex_time = row_time + seen[3] / trial.parameters.g;
-      const double apex_height = seen[1] + 0.5 * seen[3] * seen[3] / trial.parameters.g;
-      const Event* nearest = nullptr;
-      for (const Event& e : trials[i].trajectory.events) {
-        if (e.kind != EventKind::kApex) continue;
-        if (!nearest || std::abs(e.time - apex_time) < std::abs(nearest->time - apex_time))
-          nearest = &e;
+    // Apexes as the channels show them, measured and simulated read off by the same parabolas.
+    TrialProblem simulated = trial;
+    simulated.data = trials[i].trajectory.samples;
+    const std::vector<ShownApex> seen_apexes = ApexesOf(problem, trial);
+    const std::vector<ShownApex> simulated_apexes = ApexesOf(problem, simulated);
+    if (seen_apexes.size() == simulated_apexes.size()) {
+      for (std::size_t k = 0; k < seen_apexes.size(); ++k) {
+        height.Add(simulated_apexes[k].height - seen_apexes[k].height);
+        time.Add(simulated_apexes[k].time - seen_apexes[k].time);
       }
-      if (!nearest) continue;
-      height.Add(nearest->y - apex_height);
-      time.Add(nearest->time - apex_time);
     }
     const std::vector<double> down = TimesOf(trials[i].trajectory, EventKind::kTouchdown);
     const std::vector<double> up = TimesOf(trials[i].trajectory, EventKind::kLiftoff);

@@ -18,7 +18,8 @@ constexpr double kAlpha = 0.05;
 // Models tried at each step of the search beyond the single ones.
 constexpr int kForwardWidth = 5;
 constexpr int kPairWidth = 8;
-constexpr int kLocalWidth = 4;
+constexpr int kLocalWidth = 4, kMostLocal = 12;
+constexpr double kLocalSlack = 2.0;  // nats a refit may change of an expected gain
 
 /// Places of members in the pool, ascending.
 using Model = std::vector<int>;
@@ -77,8 +78,8 @@ class Search {
       c.power = std::numeric_limits<double>::infinity();
       for (int k = 0; k < hypotheses[i].count; ++k) {
         const double typical = candidates[i].effect->info.parameters[k].typical;
-        c.power = std::min(c.power,
-                           typical * typical * Information(null_at_, hypotheses[i].first + k));
+        c.power =
+            std::min(c.power, typical * typical * Information(null_at_, hypotheses[i].first + k));
       }
       tested += c.separable;
       naming_.candidates.push_back(std::move(c));
@@ -87,7 +88,8 @@ class Search {
     for (const TrialProblem& t : train_) recordings.insert(t.recording);
     naming_.penalty = std::log(std::max(tested, 1) / kAlpha);
     naming_.local_penalty =
-        naming_.penalty + std::log(static_cast<double>(std::max<std::size_t>(recordings.size(), 1)));
+        naming_.penalty +
+        std::log(static_cast<double>(std::max<std::size_t>(recordings.size(), 1)));
     if (recordings.size() > 1) AddLocal(candidates, hypotheses, recordings);
   }
 
@@ -103,8 +105,12 @@ class Search {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (candidates[i].parameter_count() != 1 || !naming_.candidates[i].separable) continue;
       for (const std::string& recording : recordings) {
-        // Cut to one trial it stays orthogonal to every start; the shared values are taken out again.
-        Eigen::VectorXd s = null_at_.columns.col(hypotheses[i].first);
+        // Free of the starts alone it may be cut to one trial; then the shared values are taken
+        // out. (Cut after that, it would keep what the other trials' share of them left in this
+        // one.)
+        const int column = hypotheses[i].first;
+        Eigen::VectorXd s = null_at_.columns.col(column) +
+                            null_at_.fitted_basis * null_at_.along_fitted.col(column);
         for (int row = 0; row < null_at_.rows(); ++row) {
           if (train_[null_at_.labels[row].trial].recording != recording) s[row] = 0.0;
         }
@@ -114,13 +120,18 @@ class Search {
         if (!(V > kInseparable * whole)) continue;
         const double z = -s.dot(null_at_.r) / std::sqrt(V);
         if (hypotheses[i].lower[0] >= 0.0 && z < 0.0) continue;
+        if (hypotheses[i].upper[0] <= 0.0 && z > 0.0) continue;
         locals.push_back({i, recording, 0.5 * z * z});
       }
     }
     std::stable_sort(locals.begin(), locals.end(),
                      [](const Local& a, const Local& b) { return a.gain > b.gain; });
+    double best = std::numeric_limits<double>::infinity();
     for (const Local& l : locals) {
-      if (naming_.candidates.size() >= candidates.size() + kLocalWidth) break;
+      // Those as good as the best belong together in its group: a width alone cut the truth off.
+      const std::size_t taken = naming_.candidates.size() - candidates.size();
+      const bool close = l.gain >= best - kIndistinguishable - kLocalSlack;
+      if (taken >= kMostLocal || (taken >= kLocalWidth && !close)) break;
       // In one trial only is worth a thought if it says nearly as much as in all.
       if (l.gain < naming_.local_penalty ||
           l.gain < 0.8 * naming_.candidates[l.candidate].score.predicted_gain)
@@ -129,6 +140,8 @@ class Search {
       c.candidate.only_recording = l.recording;
       c.score.predicted_gain = l.gain;
       c.score.score = 2.0 * l.gain;
+      c.score.p_value = std::erfc(std::sqrt(l.gain));
+      if (taken == 0) best = l.gain;
       naming_.candidates.push_back(std::move(c));
     }
   }
@@ -187,7 +200,8 @@ class Search {
 
   std::string NamesOf(const Model& model) const {
     std::string names;
-    for (int i : model) names += (names.empty() ? "" : " + ") + naming_.candidates[i].candidate.Name();
+    for (int i : model)
+      names += (names.empty() ? "" : " + ") + naming_.candidates[i].candidate.Name();
     return names;
   }
 
@@ -218,9 +232,8 @@ class Search {
     Extension e = Refit(At(part), candidates, sizes, refit_);
     // Where the refit falls well short of the linear forecast, it went into the wrong valley: the
     // forecast was too far out, or the effect too bent.
-    const double forecast = part.empty() && added.size() == 1
-                                ? naming_.candidates[added[0]].score.predicted_gain
-                                : 0.0;
+    const double forecast =
+        part.empty() && added.size() == 1 ? naming_.candidates[added[0]].score.predicted_gain : 0.0;
     if (forecast > naming_.penalty && (!e.ok() || At(part).cost - e.cost < 0.15 * forecast)) {
       for (double share : {0.3, 0.1}) {
         Extension again = Refit(At(part), candidates, share * sizes, refit_);
@@ -265,7 +278,8 @@ class Search {
     std::vector<Candidate> tested;
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
       if (!naming_.candidates[i].separable) continue;
-      if (std::any_of(model.begin(), model.end(), [&](int m) { return SameEffect(m, i); })) continue;
+      if (std::any_of(model.begin(), model.end(), [&](int m) { return SameEffect(m, i); }))
+        continue;
       rest.push_back(i);
       tested.push_back(naming_.candidates[i].candidate);
     }
@@ -355,9 +369,8 @@ class Search {
     const std::vector<Model> parts = Eliminations(model);
     RefitAll(parts);
     std::vector<Extension> refined(parts.size());
-    ParallelFor(static_cast<int>(parts.size()), options_.jobs, [&](int i) {
-      refined[i] = RefitWithout(At(model), i, null_.problem, refit_);
-    });
+    ParallelFor(static_cast<int>(parts.size()), options_.jobs,
+                [&](int i) { refined[i] = RefitWithout(At(model), i, null_.problem, refit_); });
     for (std::size_t i = 0; i < parts.size(); ++i) {
       Extension& known = models_.at(parts[i]);
       if (refined[i].ok() && (!known.ok() || refined[i].cost < known.cost)) known = refined[i];
@@ -395,11 +408,10 @@ class Search {
   // ---- what can take a member's place
   void FindGroups(const Model& model) {
     const auto close = [&](const Model& other) {
-      double extra = 0.0;  // a trial picked out of many must pay for the picking
+      double extra = 0.0;  // a trial picked out of many must pay for the picking, a member too
       for (int i : other) extra += IsLocal(i) ? naming_.local_penalty - naming_.penalty : 0.0;
       for (int i : model) extra -= IsLocal(i) ? naming_.local_penalty - naming_.penalty : 0.0;
-      return Usable(other) && At(other).cost + std::max(extra, 0.0) <=
-                                  At(model).cost + kIndistinguishable;
+      return Usable(other) && At(other).cost + extra <= At(model).cost + kIndistinguishable;
     };
     if (model.size() > 1) RefitAll(Swaps(model, 3 * kForwardWidth));
     for (int member : model) {
@@ -448,8 +460,15 @@ class Search {
     const Linearisation at = LineariseAt(At(model), one, train_, options_.jobs);
     const Score score = ScoreOf(at, HypothesesOf(one).front());
     for (int k = 0; k < c.candidate.parameter_count(); ++k) {
-      const double V = Information(at, k);
-      if (V > 0.0) c.bound95[k] = std::abs(score.size[k]) + 1.96 / std::sqrt(V);
+      // Of several parameters each is bounded with the others free.
+      Eigen::VectorXd s = at.columns.col(k);
+      for (int other = 0; other < c.candidate.parameter_count(); ++other) {
+        const auto o = at.columns.col(other);
+        if (other != k && Information(at, other) > 0.0) s -= o * (o.dot(s) / o.squaredNorm());
+      }
+      const double V = s.squaredNorm();
+      if (Information(at, k) > 0.0 && V > kInseparable * at.length[k] * at.length[k])
+        c.bound95[k] = std::abs(score.size[k]) + 1.96 / std::sqrt(V);
     }
   }
 

@@ -103,5 +103,23 @@ TEST(EstimateNoise, NeedsEnoughWindows) {
   EXPECT_TRUE(std::isnan(EstimateNoise({&column, 1})));
 }
 
+TEST(EstimateNoise, StancesInTheWindowsOfALowRateDoNotRaiseIt) {
+  Scenario s = HopScenario(2);
+  s.dataset->sample_rate_hz = 100.0;  // every third window of twelve rows meets a stance
+  double mean = 0.0;
+  constexpr int kSeeds = 20;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    GenerateOptions options;
+    options.seed = static_cast<std::uint64_t>(seed);
+    const Dataset d = GenerateDataset(s, options).dataset;
+    std::vector<SampledColumn> columns;
+    for (const Trial& t : d.trials) columns.push_back({t.trace.time_s, t.trace.columns[1].values});
+    const double estimate = EstimateNoise(columns);
+    EXPECT_LT(estimate, 1.25e-3) << seed;  // what would overrule the stated 1 mm
+    mean += estimate / kSeeds;
+  }
+  EXPECT_NEAR(mean, 1e-3, 0.05e-3);
+}
+
 }  // namespace
 }  // namespace hoplab

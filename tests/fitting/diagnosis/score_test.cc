@@ -32,6 +32,7 @@ Linearisation Synthetic(int rows, int columns, std::uint64_t noise_stream = 0) {
   for (int k = 0; k < columns; ++k) at.columns.col(k) = Noise(rows, 1000 + k);
   at.length = at.columns.colwise().norm().transpose();
   at.fitted_basis.resize(rows, 0);
+  at.along_fitted.resize(0, at.columns.cols());
   return at;
 }
 
