@@ -12,9 +12,8 @@ Hopper HopperOfScenario(const Scenario& scenario, const IntegratorOptions& integ
   if (!stopping.stop.time_s && !stopping.stop.hops) stopping.stop.time_s = kUsualHorizon;
   Hopper hopper;
   hopper.effects = ResolveEffects(
-      scenario.effects,
-      ResolveLaw(scenario.law.value_or(""), MechanismOfSpec(scenario.mechanism),
-                 scenario.law_origin.place));
+      scenario.effects, ResolveLaw(scenario.law.value_or(""), MechanismOfSpec(scenario.mechanism),
+                                   scenario.law_origin.place));
   hopper.request = RequestOfScenario(stopping, hopper.effects);
   hopper.request.effects = {};  // the hopper's own are put in place where it runs
   hopper.request.integrator = integrator;

@@ -75,9 +75,9 @@ struct ExtensionReport {
   HeldOutGain gain;
   std::vector<std::string> left_out;  // held-out trials that could not be compared
   std::vector<Movement> movements;
-  Detection remainder;                // probes at the extension
-  double explained = 0.0;             // share of the excess chi-square, 0..1
-  bool at_bound = false;              // a member's size lies on a physical bound
+  Detection remainder;     // probes at the extension
+  double explained = 0.0;  // share of the excess chi-square, 0..1
+  bool at_bound = false;   // a member's size lies on a physical bound
 };
 
 /// A diagnosis from the gate to the proposed experiment. What was not reached is empty.

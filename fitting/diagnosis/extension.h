@@ -14,12 +14,12 @@ namespace hoplab {
 /// null fit.
 struct Extension {
   std::vector<Candidate> members;
-  FitProblem problem;       // the null problem extended by the members
-  Eigen::VectorXd shared;   // fitted: those of the null problem, then the members'
+  FitProblem problem;      // the null problem extended by the members
+  Eigen::VectorXd shared;  // fitted: those of the null problem, then the members'
   std::vector<std::array<double, 4>> starts;  // of the train trials
-  double cost = 0.0;        // half the sum of squares; its difference is a log-likelihood ratio
+  double cost = 0.0;  // half the sum of squares; its difference is a log-likelihood ratio
   SolveStatus status = SolveStatus::kFailed;
-  int evaluations = 0;      // solver iterations spent
+  int evaluations = 0;  // solver iterations spent
 
   bool ok() const {
     return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit;

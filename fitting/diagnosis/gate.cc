@@ -99,12 +99,12 @@ Gate CheckGate(const Extension& null, const std::vector<TrialProblem>& train, in
 
   gate.certificate = CertifyGradients(null.problem, train, null.shared, null.starts, jobs);
   const double worst = gate.certificate.max_relative_error;
-  gate.checks.push_back(
-      {"gradients", worst < kGradientBound,
-       worst < kGradientBound
-           ? Text("agree with differences to %.1e through every event", worst)
-           : Text("differ from differences by %.1e", worst) + " (" +
-                 gate.certificate.worst_parameter + "): an event is met without crossing it"});
+  gate.checks.push_back({"gradients", worst < kGradientBound,
+                         worst < kGradientBound
+                             ? Text("agree with differences to %.1e through every event", worst)
+                             : Text("differ from differences by %.1e", worst) + " (" +
+                                   gate.certificate.worst_parameter +
+                                   "): an event is met without crossing it"});
   return gate;
 }
 

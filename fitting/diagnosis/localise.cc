@@ -55,8 +55,8 @@ Localisation Localise(const Linearisation& at) {
     const RowLabel& label = at.labels[static_cast<std::size_t>(row)];
     if (label.of == RowLabel::Of::kPrior) continue;
     const int phase = std::min(static_cast<int>(label.phase * kPhases.size()), 2);
-    for (Sum* sum : {&cells[{label.mode, phase, label.channel}], &hops[label.hop],
-                     &trials[label.trial]})
+    for (Sum* sum :
+         {&cells[{label.mode, phase, label.channel}], &hops[label.hop], &trials[label.trial]})
       sum->Add(at.r[row], at.leverage[row]);
     out.chi2 += at.r[row] * at.r[row];
     out.expected += std::max(1.0 - at.leverage[row], 0.0);

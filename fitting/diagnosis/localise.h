@@ -10,13 +10,13 @@ namespace hoplab {
 /// One cell of the misfit map: a mode, its early, middle or late part, one channel.
 struct MisfitCell {
   Mode mode = Mode::kFlight;
-  std::string phase;       // "early", "middle", "late"
-  int channel = -1;        // place in FitProblem::channels; -1: contact times
+  std::string phase;  // "early", "middle", "late"
+  int channel = -1;   // place in FitProblem::channels; -1: contact times
   long rows = 0;
-  double chi2 = 0.0;       // of its residuals
-  double expected = 0.0;   // of noise alone, what the fit takes out counted
-  double p_value = 1.0;    // of chi2, taken as chi-square with `expected` degrees of freedom
-  double share = 0.0;      // of the whole excess over noise, 0..1
+  double chi2 = 0.0;      // of its residuals
+  double expected = 0.0;  // of noise alone, what the fit takes out counted
+  double p_value = 1.0;   // of chi2, taken as chi-square with `expected` degrees of freedom
+  double share = 0.0;     // of the whole excess over noise, 0..1
 };
 
 /// The same sum by hop number or by trial.

@@ -68,8 +68,8 @@ FeatureErrors Features(const FitProblem& problem, const std::vector<TrialErrors>
     const ContactTimes& seen = trial.contact;
     for (std::size_t k = 0; k < std::min(down.size(), seen.touchdown_s.size()); ++k)
       touchdown.Add(down[k] - seen.touchdown_s[k]);
-    for (std::size_t k = 0; k < std::min({down.size(), up.size(), seen.touchdown_s.size(),
-                                          seen.liftoff_s.size()});
+    for (std::size_t k = 0;
+         k < std::min({down.size(), up.size(), seen.touchdown_s.size(), seen.liftoff_s.size()});
          ++k)
       stance.Add((up[k] - down[k]) - (seen.liftoff_s[k] - seen.touchdown_s[k]));
   }
@@ -84,8 +84,8 @@ double ChiSquared(const FitProblem& problem, const TrialProblem& trial,
   for (std::size_t cell = 0; cell < trial.data.size(); ++cell) {
     const double t = trial.row_times[cell / channels];
     if (std::isnan(trial.data[cell]) || t < begin || t >= end) continue;
-    const double r = (trajectory.samples[cell] - trial.data[cell]) /
-                     problem.channels[cell % channels].sigma;
+    const double r =
+        (trajectory.samples[cell] - trial.data[cell]) / problem.channels[cell % channels].sigma;
     sum += r * r;
     ++samples;
   }
@@ -151,8 +151,8 @@ HeldOutGain CompareHeldOut(const Extension& before, const HeldOutErrors& errors_
   for (double& draw : draws) {
     double g = 0.0, n = 0.0;
     for (std::size_t k = 0; k < hops.size(); ++k) {
-      const auto pick = static_cast<std::size_t>(
-          random.Uniform(0.0, 1.0) * static_cast<double>(hops.size()));
+      const auto pick =
+          static_cast<std::size_t>(random.Uniform(0.0, 1.0) * static_cast<double>(hops.size()));
       g += hops[pick].gain;
       n += static_cast<double>(hops[pick].samples);
     }

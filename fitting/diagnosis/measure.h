@@ -13,8 +13,8 @@ namespace hoplab {
 
 /// Errors of quantities an engineer would look at, over the held-out trials.
 struct FeatureErrors {
-  double apex_height_rmse = 0.0;  // m; NaN where no apexes show
-  double apex_time_rmse = 0.0;    // s; likewise
+  double apex_height_rmse = 0.0;                             // m; NaN where no apexes show
+  double apex_time_rmse = 0.0;                               // s; likewise
   double touchdown_time_rmse = 0.0, stance_time_rmse = 0.0;  // s; NaN without a contact channel
 };
 

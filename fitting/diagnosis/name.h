@@ -39,7 +39,7 @@ struct CandidateResult {
   bool separable = false;  // some of it can be told from the fitted values
   /// Added alone to the null model and refitted; status kFailed if it was not.
   Extension alone;
-  double gain = 0.0;       // nats over the null fit, of `alone`
+  double gain = 0.0;  // nats over the null fit, of `alone`
   CandidateStatus status = CandidateStatus::kNotTested;
   /// 95 % bound of |value| per parameter if added to the accepted extension, own units (linear);
   /// NaN where it cannot be told or is a member.
@@ -49,9 +49,9 @@ struct CandidateResult {
 /// The search for the effects a model lacks.
 struct Naming {
   std::vector<CandidateResult> candidates;  // the given ones, then those of single trials
-  double penalty = 0.0;        // nats a parameter must gain, ln(n/0.05)
-  double local_penalty = 0.0;  // of an effect in one trial only
-  Extension best;              // without members if none pays
+  double penalty = 0.0;                     // nats a parameter must gain, ln(n/0.05)
+  double local_penalty = 0.0;               // of an effect in one trial only
+  Extension best;                           // without members if none pays
   /// One a member of `best`: places in `candidates` of what does as well there, itself first.
   std::vector<std::vector<int>> groups;
   std::vector<std::vector<Extension>> rivals;  // the models behind `groups`, in the same order

@@ -87,8 +87,7 @@ struct BodyPush {
 template <std::size_t kBin>
 struct DragBump {
   static constexpr std::array kParameters = {EffectParameter{"force", "N", 0, -kFar, kFar, 0.1}};
-  static constexpr EffectInfo kInfo =
-      InfoOfProbe("probe_drag", EffectKind::kForce, kParameters);
+  static constexpr EffectInfo kInfo = InfoOfProbe("probe_drag", EffectKind::kForce, kParameters);
   template <class T>
   static void AddBodyForce(const T* p, const BodyMotion<T>& body, Vector2<T>& force) {
     using std::sqrt;
@@ -103,8 +102,7 @@ struct DragBump {
 /// Jump of the velocity along (or across) the chord at touch-down or lift-off.
 template <bool kLiftoff, bool kAcross>
 struct Kick {
-  static constexpr std::array kParameters = {
-      EffectParameter{"speed", "m/s", 0, -kFar, kFar, 0.01}};
+  static constexpr std::array kParameters = {EffectParameter{"speed", "m/s", 0, -kFar, kFar, 0.01}};
   static constexpr EffectInfo kInfo = InfoOfProbe("probe_kick", EffectKind::kGuard, kParameters);
   template <class T>
   static void Add(const T* p, const Landing<T>& landing, Vector2<T>& velocity) {
@@ -113,15 +111,13 @@ struct Kick {
     velocity.y += p[0] * (kAcross ? T(-e.x) : e.y);
   }
   template <class T>
-  static void ChangeLandingVelocity(const T* p, const Landing<T>& landing, Vector2<T>& velocity)
-    requires(!kLiftoff)
-  {
+  static void ChangeLandingVelocity(const T* p, const Landing<T>& landing,
+                                    Vector2<T>& velocity) requires(!kLiftoff) {
     Add(p, landing, velocity);
   }
   template <class T>
-  static void ChangeLiftoffVelocity(const T* p, const Landing<T>& landing, Vector2<T>& velocity)
-    requires(kLiftoff)
-  {
+  static void ChangeLiftoffVelocity(const T* p, const Landing<T>& landing,
+                                    Vector2<T>& velocity) requires(kLiftoff) {
     Add(p, landing, velocity);
   }
 };

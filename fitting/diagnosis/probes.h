@@ -12,9 +12,9 @@ namespace hoplab {
 /// One group of unit bumps: a free force, impulse, guard offset or sensor reading that needs no
 /// name to be seen.
 struct ProbeGroup {
-  std::string name;      // "chord force, loading"
-  std::string against;   // what its bumps are laid over: "compression [-]"; empty: one size each
-  std::string unit;      // of the bumps' sizes
+  std::string name;     // "chord force, loading"
+  std::string against;  // what its bumps are laid over: "compression [-]"; empty: one size each
+  std::string unit;     // of the bumps' sizes
   std::vector<double> centres;  // of the bumps, in `against`
   int first = 0, count = 0;     // places among all probes
 };

@@ -15,15 +15,15 @@ namespace hoplab {
 struct Score {
   /// Expected size of each value, V^-1 (-s'r), own units; NaN where it cannot be told.
   Eigen::VectorXd size;
-  double score = 0.0;          // 0 where the best size lies on the wrong side of a bound
-  double p_value = 1.0;        // of this score alone, under noise
+  double score = 0.0;           // 0 where the best size lies on the wrong side of a bound
+  double p_value = 1.0;         // of this score alone, under noise
   double predicted_gain = 0.0;  // nats: score/2
-  int rank = 0;                // dimensions that can be told from the fitted values
+  int rank = 0;                 // dimensions that can be told from the fitted values
 };
 
 /// One hypothesis among several: which columns, and on which side of null they may lie.
 struct Hypothesis {
-  int first = 0, count = 1;    // columns of the linearisation
+  int first = 0, count = 1;      // columns of the linearisation
   Eigen::VectorXd lower, upper;  // room on each side of null, own units (lower <= 0 <= upper)
 };
 
@@ -32,7 +32,7 @@ std::vector<Hypothesis> HypothesesOf(std::span<const Candidate> candidates);
 
 /// Scores of hypotheses with the distribution of the smallest p-value among them under white noise.
 struct ScoreTests {
-  std::vector<Score> scores;   // one a hypothesis
+  std::vector<Score> scores;  // one a hypothesis
   double smallest_p = 1.0;
   /// Chance that noise alone gives a smallest p-value as small; by drawing noise through the same
   /// projection, the Bonferroni bound where no draw was as extreme.

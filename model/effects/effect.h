@@ -68,8 +68,8 @@ struct HipMotion {
   /// motion turns the leg with falling theta. Exact on the toe, on a straight leg and for an
   /// unloaded rolling leg; the power of a torque T on the body is -T rate under every law.
   T rate;
-  T t;   // time since the first row [s]
-  T vx;  // [m/s]
+  T t;     // time since the first row [s]
+  T vx;    // [m/s]
   T lead;  // sine of the chord angle, u/l [-]
 };
 

@@ -110,8 +110,8 @@ void ExpectAllPass(const std::vector<ColumnCheck>& checks) {
 
 // Differences that straddle another event sequence, or have not converged, say nothing either way.
 bool SaysNothing(const ColumnCheck& check) {
-  return check.sequence_changed ||
-         (!check.nothing_to_see && check.error <= kGradient && check.oracle_error > kGradientOracle);
+  return check.sequence_changed || (!check.nothing_to_see && check.error <= kGradient &&
+                                    check.oracle_error > kGradientOracle);
 }
 
 // Of many effects on one sequence a few may move the run so near another one that differences do
