@@ -77,6 +77,14 @@ std::string NamedSentence(const Diagnosis& d) {
   const std::vector<Candidate>& members = d.naming.best.members;
   std::vector<std::string> names;
   for (const Candidate& c : members) names.push_back(CauseText(c));
+  // While misfit remains, a member may stand in for what is really missing.
+  if (d.extension && d.extension->remainder.p_value <= kDetectionLevel) {
+    return fmt::format(
+        "{:.3g} % of what the simulation misses is explained by {} {}{}; the rest is not, so one "
+        "of these may stand in for another cause.",
+        100.0 * d.extension->explained, Listed(names), Caveat(members.size() > 1),
+        HeldOutClause(d, members.size() == 1 ? "it" : "them"));
+  }
   std::string text = "The simulation lacks " + Listed(names) + " " + Caveat(members.size() > 1);
   if (members.size() == 1) text += ": " + std::string(members[0].effect->info.sentence);
   return text + HeldOutClause(d, members.size() == 1 ? "it" : "them") + ".";

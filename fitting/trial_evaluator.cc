@@ -35,6 +35,8 @@ double LatestReading(std::span<const EffectSetting> settings, double last) {
   return last + kReadingMargin;
 }
 
+constexpr long kMostSteps = 20000;
+
 // Event times of one kind, with their place in the trajectory.
 struct EventTime {
   double time;
@@ -110,6 +112,9 @@ void TrialEvaluator::Simulate(const EvaluationRequest& request, const Integrator
   sim.channels = channels_;
   if (request.want_jacobian) sim.directions = directions_;
   sim.integrator = integrator;
+  // Hop traces take hundreds of steps. Values at which one takes this many (a leg that chatters, a
+  // damper far too stiff) are not where a fit is going, and must not hold it up.
+  sim.integrator.max_steps = std::min(integrator.max_steps, kMostSteps);
   hoplab::Simulate(sim, out);
 }
 

@@ -49,6 +49,7 @@ class Engine {
         settings_(settings),
         sink_(sink),
         out_(out),
+        max_steps_(options.max_steps),
         stepper_(options, Rhs(&system_, &mode_)) {}
 
   /// Runs from `z0` in `mode` at time 0. `row_time(i)` is the time row i was really read at, as T:
@@ -254,7 +255,7 @@ class Engine {
     while (true) {
       double limit = settings_.horizon;
       if constexpr (!decltype(stepper_)::kReadsInsideStep) limit = NextRowLimit(row_time, limit);
-      if (stepper_.Step(limit) == StepStatus::kFailed) {
+      if (out_.steps >= max_steps_ || stepper_.Step(limit) == StepStatus::kFailed) {
         TakeStepperState();
         return false;
       }
@@ -390,6 +391,7 @@ class Engine {
   Sink& sink_;
   Trajectory& out_;
   Mode mode_ = Mode::kFlight;
+  long max_steps_;
   Stepper<kSize, kDim, Rhs> stepper_;
   std::array<T, kDim> z_;
   double t_ = 0.0, segment_begin_ = 0.0, stance_step_ = 0.0;
