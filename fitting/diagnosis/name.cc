@@ -9,17 +9,15 @@
 #include <set>
 
 #include "base/parallel.h"
+#include "fitting/diagnosis/pool.h"
 
 namespace hoplab {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kAlpha = 0.05;
 // Models tried at each step of the search beyond the single ones.
 constexpr int kForwardWidth = 5;
 constexpr int kPairWidth = 8;
-constexpr int kLocalWidth = 4, kMostLocal = 12;
-constexpr double kLocalSlack = 2.0;  // nats a refit may change of an expected gain
 
 /// Places of members in the pool, ascending.
 using Model = std::vector<int>;
@@ -31,7 +29,7 @@ class Search {
       : null_(null), null_at_(null_at), train_(train), options_(options) {
     refit_.train = &train_;
     refit_.stop = options.stop;
-    FillPool(candidates);
+    FillPool(naming_, candidates, null_at, train);
   }
 
   Naming Run() {
@@ -65,86 +63,6 @@ class Search {
 
  private:
   bool Stopped() const { return options_.stop && *options_.stop; }
-
-  // ---- the pool: given candidates, then the best of them in single trials
-  void FillPool(std::span<const Candidate> candidates) {
-    const std::vector<Hypothesis> hypotheses = HypothesesOf(candidates);
-    int tested = 0;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      CandidateResult c;
-      c.candidate = candidates[i];
-      c.score = ScoreOf(null_at_, hypotheses[i]);
-      c.separable = c.score.rank > 0;
-      c.power = std::numeric_limits<double>::infinity();
-      for (int k = 0; k < hypotheses[i].count; ++k) {
-        const double typical = candidates[i].effect->info.parameters[k].typical;
-        c.power =
-            std::min(c.power, typical * typical * Information(null_at_, hypotheses[i].first + k));
-      }
-      tested += c.separable;
-      naming_.candidates.push_back(std::move(c));
-    }
-    std::set<std::string> recordings;
-    for (const TrialProblem& t : train_) recordings.insert(t.recording);
-    naming_.penalty = std::log(std::max(tested, 1) / kAlpha);
-    naming_.local_penalty =
-        naming_.penalty +
-        std::log(static_cast<double>(std::max<std::size_t>(recordings.size(), 1)));
-    if (recordings.size() > 1) AddLocal(candidates, hypotheses, recordings);
-  }
-
-  // A candidate's column cut to one trial, what the fitted values take of it projected out again.
-  void AddLocal(std::span<const Candidate> candidates, const std::vector<Hypothesis>& hypotheses,
-                const std::set<std::string>& recordings) {
-    struct Local {
-      std::size_t candidate;
-      std::string recording;
-      double gain;
-    };
-    std::vector<Local> locals;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (candidates[i].parameter_count() != 1 || !naming_.candidates[i].separable) continue;
-      for (const std::string& recording : recordings) {
-        // Free of the starts alone it may be cut to one trial; then the shared values are taken
-        // out. (Cut after that, it would keep what the other trials' share of them left in this
-        // one.)
-        const int column = hypotheses[i].first;
-        Eigen::VectorXd s = null_at_.columns.col(column) +
-                            null_at_.fitted_basis * null_at_.along_fitted.col(column);
-        for (int row = 0; row < null_at_.rows(); ++row) {
-          if (train_[null_at_.labels[row].trial].recording != recording) s[row] = 0.0;
-        }
-        const double whole = s.squaredNorm();
-        s -= null_at_.fitted_basis * (null_at_.fitted_basis.transpose() * s);
-        const double V = s.squaredNorm();
-        if (!(V > kInseparable * whole)) continue;
-        const double z = -s.dot(null_at_.r) / std::sqrt(V);
-        if (hypotheses[i].lower[0] >= 0.0 && z < 0.0) continue;
-        if (hypotheses[i].upper[0] <= 0.0 && z > 0.0) continue;
-        locals.push_back({i, recording, 0.5 * z * z});
-      }
-    }
-    std::stable_sort(locals.begin(), locals.end(),
-                     [](const Local& a, const Local& b) { return a.gain > b.gain; });
-    double best = std::numeric_limits<double>::infinity();
-    for (const Local& l : locals) {
-      // Those as good as the best belong together in its group: a width alone cut the truth off.
-      const std::size_t taken = naming_.candidates.size() - candidates.size();
-      const bool close = l.gain >= best - kIndistinguishable - kLocalSlack;
-      if (taken >= kMostLocal || (taken >= kLocalWidth && !close)) break;
-      // In one trial only is worth a thought if it says nearly as much as in all.
-      if (l.gain < naming_.local_penalty ||
-          l.gain < 0.8 * naming_.candidates[l.candidate].score.predicted_gain)
-        continue;
-      CandidateResult c = naming_.candidates[l.candidate];
-      c.candidate.only_recording = l.recording;
-      c.score.predicted_gain = l.gain;
-      c.score.score = 2.0 * l.gain;
-      c.score.p_value = std::erfc(std::sqrt(l.gain));
-      if (taken == 0) best = l.gain;
-      naming_.candidates.push_back(std::move(c));
-    }
-  }
 
   bool IsLocal(int i) const { return !naming_.candidates[i].candidate.only_recording.empty(); }
   bool SameEffect(int i, int j) const {

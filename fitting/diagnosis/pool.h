@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fitting/diagnosis/name.h"
+
+namespace hoplab {
+
+/// Begins a search: the given candidates with their scores at the null fit, then those of single
+/// trials that promise nearly as much as in all, and what a parameter of each must gain.
+void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linearisation& null_at,
+              const std::vector<TrialProblem>& train);
+
+}  // namespace hoplab
