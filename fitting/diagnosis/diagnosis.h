@@ -39,7 +39,7 @@ struct DiagnosisOptions {
   FitOptions fit;  // jobs, stop and seed serve the whole diagnosis
   FitSpan span = FitSpan::kWholeElseHops;
   CandidateOptions candidates;
-  int max_effects = 3;
+  int max_effects = 4;
   /// Called where a stage begins, and how far it is (may come from several threads, one at a time).
   std::function<void(std::string_view stage)> stage = nullptr;
   std::function<void(const std::string& text)> step = nullptr;

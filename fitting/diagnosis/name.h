@@ -15,7 +15,7 @@ inline constexpr double kIndistinguishable = 3.0;  // nats
 inline constexpr double kTestable = 7.85;
 
 struct NamingOptions {
-  int max_effects = 3;
+  int max_effects = 4;
   std::uint64_t seed = 1;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
