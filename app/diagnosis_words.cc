@@ -80,8 +80,8 @@ std::string NamedSentence(const Diagnosis& d) {
   // While misfit remains, a member may stand in for what is really missing.
   if (d.extension && d.extension->remainder.p_value <= kDetectionLevel) {
     return fmt::format(
-        "{:.3g} % of what the simulation misses is explained by {} {}{}; the rest is not, so one "
-        "of these may stand in for another cause.",
+        "{:.3g} % of what the simulation misses is explained by {} {}{}; something remains, so "
+        "one of these may stand in for another cause.",
         100.0 * d.extension->explained, Listed(names), Caveat(members.size() > 1),
         HeldOutClause(d, members.size() == 1 ? "it" : "them"));
   }
