@@ -64,9 +64,10 @@ bool Extension::AtPhysicalBound(int i) const {
   const int first = PlaceOf(*this, i);
   const Candidate& member = members[static_cast<std::size_t>(i)];
   for (int k = 0; k < member.parameter_count(); ++k) {
-    const SharedParameter& s = problem.shared[static_cast<std::size_t>(first + k)];
+    const int place = first + k;
+    const SharedParameter& s = problem.shared[static_cast<std::size_t>(place)];
     const double null = member.effect->info.parameters[k].null, near = 1e-6 * s.scale;
-    const double value = shared[first + k];
+    const double value = shared[place];
     if (value <= s.lower + near && null > s.lower + near) return true;
     if (value >= s.upper - near && null < s.upper - near) return true;
   }
