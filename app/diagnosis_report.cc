@@ -131,13 +131,14 @@ std::string CauseTable(const Diagnosis& d, bool colours) {
         remark = fmt::format("+{} nats alone", Significant(c.gain, 3));
       }
       for (int i = 0; i < c.candidate.parameter_count(); ++i) {
+        const auto at = static_cast<std::size_t>(place) + static_cast<std::size_t>(i);
         Interval interval;
         if (!rival) {
-          const ParameterUncertainty& p = u.parameters[static_cast<std::size_t>(place + i)];
+          const ParameterUncertainty& p = u.parameters[at];
           interval = {between ? p.ci95_between_trials : p.ci95, p.at_bound};
         }
-        AddCauseRow(table, model.problem.shared[static_cast<std::size_t>(place + i)],
-                    model.shared[place + i], interval, i == 0 ? remark : "");
+        AddCauseRow(table, model.problem.shared[at], model.shared[place + i], interval,
+                    i == 0 ? remark : "");
       }
     }
   }

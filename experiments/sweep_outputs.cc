@@ -60,6 +60,16 @@ const Event* LastApex(const Trajectory& run) {
   return nullptr;
 }
 
+double LastApexHeight(const Results& r) {
+  const Event* apex = LastApex(r.run);
+  return apex ? apex->y : kMissing;
+}
+
+double LastApexSpeed(const Results& r) {
+  const Event* apex = LastApex(r.run);
+  return apex ? apex->vx : kMissing;
+}
+
 double EnergyAt(const Results& r, double y, double vx, double vy) {
   const std::array<double, 5> state = {0.0, y, vx, vy, 0.0};
   return Energy(r.request, Mode::kFlight, state);
@@ -96,9 +106,8 @@ const std::vector<Column>& Columns() {
       {{"hops", ""}, [](R r) { return static_cast<double>(r.run.hops); }},
       {{"end_time_s", "s"}, [](R r) { return r.run.end_time; }},
       {{"end_x_m", "m"}, [](R r) { return r.run.final_state[0]; }},
-      {{"apex_height_m", "m"}, [](R r) { return LastApex(r.run) ? LastApex(r.run)->y : kMissing; }},
-      {{"apex_speed_m_per_s", "m/s"},
-       [](R r) { return LastApex(r.run) ? LastApex(r.run)->vx : kMissing; }},
+      {{"apex_height_m", "m"}, LastApexHeight},
+      {{"apex_speed_m_per_s", "m/s"}, LastApexSpeed},
       {{"energy_percent", "%"}, EnergyPercent},
       {{"max_flexure", ""}, [](R r) { return r.run.max_flexure; }},
       {{"stiffness_min_N_per_m", "N/m", true}, [](R r) { return r.stiffness_min; }},

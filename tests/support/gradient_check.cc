@@ -131,7 +131,9 @@ std::vector<ColumnCheck> CheckGradient(const SimulationRequest& request,
     if (!(h < 0.4 * size) && (ValueOf(request, d) != 0.0 || !std::isfinite(h))) h = 0.4 * size;
     DifferenceColumn oracle;
     bool same_sequence = false;
-    for (int attempt = 0; attempt < 5; ++attempt, h *= 0.25) {
+    // Usually five lengths; more where no step was short enough yet (three hops of an unstable
+    // gait carry a millimetre to a fall).
+    for (int attempt = 0; attempt < 5 || (attempt < 10 && !same_sequence); ++attempt, h *= 0.25) {
       changed = false;
       const DifferenceColumn found = AtLowerBound(request, d)
                                          ? RichardsonForward(f, ValueOf(request, d), h)
