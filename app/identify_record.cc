@@ -25,8 +25,8 @@ Json ConstantsRecord(const StudyConstants& constants) {
   for (int i = 0; i < kStudyConstantCount; ++i) {
     const StudyConstantInfo& info = InfoOf(static_cast<StudyConstant>(i));
     const std::string unit(info.unit);
-    record[std::string(info.name)] = {{"value", NumberOrNull(constants[static_cast<std::size_t>(i)])},
-                                      {"unit", unit}};
+    record[std::string(info.name)] = {
+        {"value", NumberOrNull(constants[static_cast<std::size_t>(i)])}, {"unit", unit}};
   }
   return record;
 }
@@ -95,9 +95,9 @@ void AddIdentification(const IdentificationRequest& request, const Identificatio
   Json others = Json::array();
   for (const ScoredFit& scored : result.by_all) others.push_back(FitRecord(scored));
   record["readings"] = others;
-  record["directions"] = {{"table_6_5", DirectionsRecord(request.free, result.energy_directions)},
-                          {"with_stiffness",
-                           DirectionsRecord(request.free, result.smooth_directions)}};
+  record["directions"] = {
+      {"table_6_5", DirectionsRecord(request.free, result.energy_directions)},
+      {"with_stiffness", DirectionsRecord(request.free, result.smooth_directions)}};
   record["decisions"] = DecisionsRecord(result.decisions);
   record["evaluations"] = result.evaluations;
   record["interrupted"] = result.interrupted;
@@ -168,15 +168,23 @@ std::string ScenarioText(const StudyHopper& best, const std::string& origin) {
     variant += variant.empty() ? "" : ", ";
     variant += fmt::format("{}: {}", key.key, key.words[key.get(best.reading.variant)]);
   }
+  const double scale = At(best.constants, C::kDampingScale);
+  const std::string damping =
+      scale == 1.0 ? std::string()
+                   : fmt::format("# A printed damping coefficient stands for {} times its value.\n",
+                                 number(scale));
   return fmt::format(
       "# The hopper of the published study: law thesis in the reading and with the constants that\n"
-      "# do best on its tables 6.2 to 6.5 together. The study prints neither; what is here was found\n"
+      "# do best on its tables 6.2 to 6.5 together. The study prints neither; what is here was "
+      "found\n"
       "# by {}\n"
       "# (docs/decisions/0005-study-constants.md says how well it does and what remains open).\n"
-      "# Whatever a table or a caption states (E, damping, touch-down angle, start) is set over this\n"
-      "# file; `initial` is the start of table 6.5, whose speed is not printed either. Of the section\n"
+      "# Whatever a table or a caption states (E, damping, touch-down angle, start) is set over "
+      "this\n"
+      "# file; `initial` is the start of table 6.5, whose speed is not printed either. Of the "
+      "section\n"
       "# only E I counts: width and G are taken, thickness follows.\n"
-      "format: hoplab-scenario/1\n"
+      "{}format: hoplab-scenario/1\n"
       "name: published\n"
       "law: thesis\n"
       "mechanism:\n"
@@ -196,7 +204,7 @@ std::string ScenarioText(const StudyHopper& best, const std::string& origin) {
       "touchdown_angle_deg: 40\n"
       "initial: {{x_m: 0, y_m: 0.30, vx_m_per_s: {}, vy_m_per_s: 0}}\n"
       "stop: {{time_s: 15}}\n",
-      origin, number(At(best.constants, C::kMass)), WordOf(best.reading.liftoff),
+      origin, damping, number(At(best.constants, C::kMass)), WordOf(best.reading.liftoff),
       number(At(best.constants, C::kRadius)), number(section.width_m), number(section.thickness_m),
       variant, number(At(best.constants, C::kGain)), number(At(best.constants, C::kStartSpeed)));
 }

@@ -17,10 +17,10 @@ struct IdentifySettings {
   int budget = IdentificationRequest().budget;
   int keep = IdentificationRequest().keep;
   std::uint64_t seed = IdentificationRequest().seed;
-  bool damping_as_printed = false;
+  bool free_damping_scale = false;
   int jobs = 0;
   std::string integrator = "dop853";
-  double tolerance = 1e-8;
+  double tolerance = 1e-9;
   std::string out;
   bool force = false, json = false, quiet = false;
 };
@@ -31,7 +31,7 @@ IdentificationRequest RequestOf(const IdentifySettings& settings) {
   request.readings = AllReadings();
   for (int i = 0; i < kStudyConstantCount; ++i) {
     const auto c = static_cast<StudyConstant>(i);
-    if (c == StudyConstant::kDampingScale && settings.damping_as_printed) continue;
+    if (c == StudyConstant::kDampingScale && !settings.free_damping_scale) continue;
     request.free.push_back(c);
   }
   At(request.fixed, StudyConstant::kGain) = 1.0;
@@ -51,7 +51,7 @@ Json NewIdentifyRecord(const IdentifySettings& settings) {
   header.seed = settings.seed;
   header.options = {{"budget", settings.budget},
                     {"keep", settings.keep},
-                    {"damping_as_printed", settings.damping_as_printed},
+                    {"free_damping_scale", settings.free_damping_scale},
                     {"integrator", settings.integrator},
                     {"relative_tolerance", settings.tolerance},
                     {"absolute_tolerance", 0.1 * settings.tolerance}};
@@ -66,7 +66,7 @@ std::string OriginText(const IdentifySettings& settings) {
   if (gmtime_r(&now, &day) != nullptr) std::strftime(date, sizeof date, "%Y-%m-%d", &day);
   return "`hoplab identify --budget " + std::to_string(settings.budget) + " --keep " +
          std::to_string(settings.keep) + " --seed " + std::to_string(settings.seed) +
-         (settings.damping_as_printed ? " --damping-as-printed" : "") + "`, " + date;
+         (settings.free_damping_scale ? " --free-damping-scale" : "") + "`, " + date;
 }
 
 ExitCode RunIdentify(const IdentifySettings& settings, Console& console) {
@@ -121,11 +121,11 @@ void AddIdentifyCommand(CLI::App& app, Invocation& invocation) {
       ->check(CLI::Range(20, 10000000))
       ->option_text("N");
   sub.add_option("--keep", settings->keep,
-                 "Readings that go on from table 6.5 to the other tables (default 12)")
-      ->check(CLI::Range(1, 192))
+                 "Families of readings that go on from table 6.5 to the others (default 32, all)")
+      ->check(CLI::Range(1, 32))
       ->option_text("N");
-  sub.add_flag("--damping-as-printed", settings->damping_as_printed,
-               "The printed damping coefficients are N s/m as they stand (default: up to a factor)");
+  sub.add_flag("--free-damping-scale", settings->free_damping_scale,
+               "Search a factor on the printed damping coefficients, too (default: 1)");
   sub.add_option("--seed", settings->seed, "Of the searches (default 1)")->option_text("N");
   sub.add_option("--jobs", settings->jobs, "Threads (default: all cores); never changes a result")
       ->check(CLI::Range(1, 1024))
@@ -138,7 +138,7 @@ void AddIdentifyCommand(CLI::App& app, Invocation& invocation) {
   sub.footer(
       "Examples:\n"
       "  hoplab identify\n"
-      "  hoplab identify --budget 2000 --keep 24 --damping-as-printed --out constants");
+      "  hoplab identify --budget 2000 --free-damping-scale --out constants");
   OnParsed(sub, invocation, settings, RunIdentify);
 }
 

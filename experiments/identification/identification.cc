@@ -42,9 +42,10 @@ class ReadingProblem {
     for (std::size_t i = 0; i < free_.size(); ++i) {
       q.lower[Index(i)] = std::log(InfoOf(free_[i]).low);
       q.upper[Index(i)] = std::log(InfoOf(free_[i]).high);
-      q.start[Index(i)] = std::clamp(std::log(At(fit.constants, free_[i])), q.lower[Index(i)],
-                                     q.upper[Index(i)]);
+      q.start[Index(i)] =
+          std::clamp(std::log(At(fit.constants, free_[i])), q.lower[Index(i)], q.upper[Index(i)]);
     }
+    q.max_iterations = 20;
     q.stop = request_.stop;
     q.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
       ++evaluations_;
@@ -151,15 +152,25 @@ std::vector<StudyFit> FitEnergy(const IdentificationRequest& request,
                  });
 }
 
+// What rolls and bends, without what damps and when it leaves the ground.
+StudyReading FamilyOf(StudyReading reading) {
+  reading.variant.damping_rate = {};
+  reading.liftoff = {};
+  return reading;
+}
+
 std::vector<StudyFit> FitStiffness(const IdentificationRequest& request,
                                    const std::vector<StudyFit>& by_energy,
                                    std::atomic<long>& evaluations) {
-  std::vector<StudyReading> readings;
-  const auto keep = static_cast<std::size_t>(std::max(request.keep, 1));
-  for (std::size_t i = 0; i < std::min(keep, by_energy.size()); ++i) {
+  std::vector<StudyReading> readings, families;
+  for (const StudyFit& fit : by_energy) {
+    const StudyReading family = FamilyOf(fit.reading);
+    const bool is_known = std::find(families.begin(), families.end(), family) != families.end();
+    if (is_known || std::ssize(families) >= request.keep) continue;
+    families.push_back(family);
     for (const auto sign :
          {ThesisVariant::TorqueSign::kNormal, ThesisVariant::TorqueSign::kPrinted}) {
-      readings.push_back(by_energy[i].reading);
+      readings.push_back(fit.reading);
       readings.back().variant.torque_sign = sign;
     }
   }
@@ -170,6 +181,20 @@ std::vector<StudyFit> FitStiffness(const IdentificationRequest& request,
                    spent = problem.evaluations();
                    return fit;
                  });
+}
+
+// The other readings of each fit's family that are asked for, from its constants; the fits first.
+std::vector<StudyFit> WithRelatives(std::vector<StudyFit> fits,
+                                    const std::vector<StudyReading>& readings) {
+  const std::size_t count = fits.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (StudyReading reading : readings) {
+      reading.variant.torque_sign = fits[i].reading.variant.torque_sign;
+      if (FamilyOf(reading) != FamilyOf(fits[i].reading) || reading == fits[i].reading) continue;
+      fits.push_back({reading, fits[i].constants, kNaN});
+    }
+  }
+  return fits;
 }
 
 void FitAll(const IdentificationRequest& request, const std::vector<StudyFit>& smooth,
@@ -183,19 +208,20 @@ void FitAll(const IdentificationRequest& request, const std::vector<StudyFit>& s
         spent = 1;
         return fit;
       });
-  const std::vector<StudyFit> kept(
-      fits.begin(), fits.begin() + static_cast<long>(std::min(to_the_end, fits.size())));
+  const std::vector<StudyFit> kept = WithRelatives(
+      {fits.begin(), fits.begin() + static_cast<long>(std::min(to_the_end, fits.size()))},
+      request.readings);
   std::vector<StudyFit> polished =
       FitEach(request, "polishing", kept.size(), evaluations, [&](std::size_t i, long& spent) {
         ReadingProblem problem(request, kept[i].reading, kAll);
         const StudyFit fit = problem.From(kept[i].constants);
         spent = problem.evaluations();
-        return IsBetter(fit.misfit, kept[i].misfit) ? fit : kept[i];
+        return fit;
       });
-  polished.insert(polished.end(), fits.begin() + static_cast<long>(kept.size()), fits.end());
-  std::stable_sort(
-      polished.begin(), polished.end(),
-      [](const StudyFit& a, const StudyFit& b) { return IsBetter(a.misfit, b.misfit); });
+  polished.insert(polished.end(), fits.begin(), fits.end());
+  std::stable_sort(polished.begin(), polished.end(), [](const StudyFit& a, const StudyFit& b) {
+    return IsBetter(a.misfit, b.misfit);
+  });
   result.by_all.resize(polished.size());
   ParallelFor(static_cast<int>(polished.size()), request.jobs, [&](int i) {
     const StudyFit& fit = polished[static_cast<std::size_t>(i)];

@@ -15,9 +15,11 @@ struct IdentificationRequest {
   std::vector<StudyReading> readings;  // to choose from; see AllReadings
   std::vector<StudyConstant> free;     // searched; the others stay as in `fixed`
   StudyConstants fixed{};
-  int budget = 600;         // evaluations of each reading in each stage
-  int keep = 12;            // readings that go on from table 6.5 to all tables
-  int keep_to_the_end = 4;  // of those, the ones polished on the convergence times, too
+  int budget = 600;  // evaluations of each reading in each stage
+  /// Families (readings up to what damps and when it leaves the ground, which 6.5 hardly tells
+  /// apart) that go on from table 6.5 to all tables.
+  int keep = 32;
+  int keep_to_the_end = 2;  // of those, the ones polished on the convergence times, with relatives
   std::uint64_t seed = 1;
   int jobs = 1;  // never changes a result
   IntegratorOptions integrator;
@@ -62,10 +64,10 @@ struct PointDecision {
 struct IdentificationResult {
   std::vector<StudyFit> by_energy;  // table 6.5 alone: all readings, best first
   ScoredFit best_by_energy;
-  std::vector<ScoredFit> by_all;    // every table, best first
+  std::vector<ScoredFit> by_all;  // every table, best first
   /// Constants of `by_all` whose misfit is within twice the best's: least and greatest.
   StudyConstants low{}, high{};
-  int as_good = 0;  // how many those are
+  int as_good = 0;                                // how many those are
   std::vector<StudyDirection> energy_directions;  // of the best, 6.5 alone; strongest first
   std::vector<StudyDirection> smooth_directions;  // 6.5 and the stiffness ranges
   std::vector<PointDecision> decisions;
@@ -75,7 +77,7 @@ struct IdentificationResult {
 
 /// Table 6.5 over all readings (NLopt's CRS2 and Sbplx, then Ceres with the simulator's
 /// sensitivities); the best of them, with both signs of the torque, on 6.5 and the stiffness ranges
-/// together; the best of those on all tables.
+/// together; the best of those, and the other readings of their families, on all tables.
 IdentificationResult Identify(const IdentificationRequest& request);
 
 }  // namespace hoplab

@@ -8,9 +8,9 @@ namespace hoplab {
 
 /// Which tables a misfit is made of.
 struct StudyTables {
-  bool energy = true;         // 6.5
-  bool stiffness = false;     // ranges of 6.3 and 6.4
-  bool convergence = false;   // times of 6.2 and 6.4
+  bool energy = true;        // 6.5
+  bool stiffness = false;    // ranges of 6.3 and 6.4
+  bool convergence = false;  // times of 6.2 and 6.4
 };
 
 /// Sizes a difference from the print is measured in.
@@ -44,8 +44,8 @@ StudyPredictions PredictionsOf(const StudyHopper& hopper, const StudyData& data,
 /// The mean squares of the differences in the units above, summed over the tables: finite
 /// everywhere. A jump that falls counts as 10 points off, a run that ends early as stiffness off by
 /// a factor of e and the more the earlier it ends, a run without convergence as 8 s off. Of
-/// `data.modulus` the rows with the least and greatest modulus stand for all stiffness ranges,
-/// which grow with it.
+/// `data.modulus` the rows with the greatest modulus stand for all stiffness ranges, which grow
+/// with it.
 double MisfitOf(const StudyHopper& hopper, const StudyData& data, const StudyTables& tables);
 
 /// Residuals whose sum of squares is the smooth part of that misfit, table 6.5 and stiffness, for a

@@ -14,12 +14,12 @@ namespace {
 using C = StudyConstant;
 
 // What the study does print.
-constexpr double kModulus = 22e9;                   // Pa
-constexpr double kHeight = 0.3;                     // m, of the start
+constexpr double kModulus = 22e9;  // Pa
+constexpr double kHeight = 0.3;    // m, of the start
 constexpr double kControlledAngle = DegToRad(40.0);
-constexpr double kDesiredSpeed = 1.8;               // m/s
-constexpr double kRunTime = 15.0;                   // s
-constexpr double kGravity = 9.81;                   // m/s^2
+constexpr double kDesiredSpeed = 1.8;  // m/s
+constexpr double kRunTime = 15.0;      // s
+constexpr double kGravity = 9.81;      // m/s^2
 // What nothing hangs on.
 constexpr double kWidth = 0.03;        // m
 constexpr double kShearModulus = 4e9;  // Pa
@@ -30,7 +30,7 @@ constexpr std::array<StudyConstantInfo, kStudyConstantCount> kInfo = {{
     {"rest_radius", "m", "radius of the unloaded leg", 0.06, 0.113},
     {"bending_stiffness", "N m^2", "E I at 22 GPa", 0.3, 30.0},
     {"kp", "N s", "gain of the speed controller", 0.02, 20.0},
-    {"start_speed", "m/s", "start speed of table 6.5", 0.3, 1.6},
+    {"start_speed", "m/s", "start speed of table 6.5", 0.7, 1.4},
     {"damping_scale", "", "damping over the printed one", 0.1, 3.0},
 }};
 
@@ -110,10 +110,12 @@ StudySection SectionOf(double bending_stiffness_N_m2) {
 std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell& cell,
                                     StudySlopes* slopes) {
   using D = SensitivityDirection;
-  static const std::array kDirections = {
-      D::Parameter(ParameterId::kM),    D::Parameter(ParameterId::kR),
-      D::Parameter(ParameterId::kSecondMoment), D::Parameter(ParameterId::kArea),
-      D::Parameter(ParameterId::kD),    D::InitialState(2)};
+  static const std::array kDirections = {D::Parameter(ParameterId::kM),
+                                         D::Parameter(ParameterId::kR),
+                                         D::Parameter(ParameterId::kSecondMoment),
+                                         D::Parameter(ParameterId::kArea),
+                                         D::Parameter(ParameterId::kD),
+                                         D::InitialState(2)};
   SimulationRequest request = RequestOf(hopper, kModulus, cell.damping_N_s_per_m);
   const double speed = At(hopper.constants, C::kStartSpeed);
   request.parameters.theta_td = cell.touchdown_angle_rad;
@@ -142,8 +144,7 @@ std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell&
   (*slopes)[static_cast<std::size_t>(C::kRadius)] = p.r * by[1];
   (*slopes)[static_cast<std::size_t>(C::kBendingStiffness)] = p.I * by[2] + p.A / 3.0 * by[3];
   (*slopes)[static_cast<std::size_t>(C::kDampingScale)] = p.d * by[4];
-  (*slopes)[static_cast<std::size_t>(C::kStartSpeed)] =
-      speed * (by[5] - percent * speed / before);
+  (*slopes)[static_cast<std::size_t>(C::kStartSpeed)] = speed * (by[5] - percent * speed / before);
   return percent;
 }
 
@@ -158,8 +159,7 @@ double ChordStiffness(const Parameters<double>& p, double leg_angle, double leng
 
 ControlledRun RunControlled(const StudyHopper& hopper, const ControlledSettings& settings) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  SimulationRequest request =
-      RequestOf(hopper, settings.modulus_Pa, settings.damping_N_s_per_m);
+  SimulationRequest request = RequestOf(hopper, settings.modulus_Pa, settings.damping_N_s_per_m);
   request.parameters.theta_td = kControlledAngle;
   request.parameters.kp = At(hopper.constants, C::kGain);
   request.parameters.v_des = kDesiredSpeed;

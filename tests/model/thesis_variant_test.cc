@@ -46,7 +46,6 @@ class Variant : public ::testing::TestWithParam<NamedVariant> {
     q.parameters.theta_td = Degrees(12.0);
     q.parameters.kp = 0.6;
     q.parameters.v_des = 1.6;
-    q.max_hops = 2;
     return q;
   }
 };
@@ -134,9 +133,8 @@ TEST(ThesisVariantLaw, DampsTheRateEachReadingNames) {
   RandomStream random(5, 2);
   constexpr double kStep = 1e-6;
   for (int i = 0; i < 60; ++i) {
-    for (const auto word :
-         {ThesisVariant::DampingRate::kChord, ThesisVariant::DampingRate::kHip,
-          ThesisVariant::DampingRate::kDeflection}) {
+    for (const auto word : {ThesisVariant::DampingRate::kChord, ThesisVariant::DampingRate::kHip,
+                            ThesisVariant::DampingRate::kDeflection}) {
       RandomStream same = random;
       ThesisVariant v;
       v.damping_rate = word;
@@ -168,10 +166,9 @@ TEST(ThesisVariantLaw, IsAsStiffAsEachReadingSays) {
     const double phi = std::numbers::pi - (i & 2 ? 1.0 : 2.0) * state.alpha;
     const double radius = i & 1 ? p.r : state.l / (2.0 * std::cos(state.alpha));
     const double bending = 2.0 * phi - 3.0 * std::sin(phi) + phi * std::cos(phi);
-    const double compliance =
-        0.5 * (std::pow(radius, 3) * bending / (p.E * p.I) +
-               radius * (3.0 * std::sin(phi) - phi) / (p.E * p.A) +
-               p.kappa * radius * (phi - std::sin(phi)) / (p.G * p.A));
+    const double compliance = 0.5 * (std::pow(radius, 3) * bending / (p.E * p.I) +
+                                     radius * (3.0 * std::sin(phi) - phi) / (p.E * p.A) +
+                                     p.kappa * radius * (phi - std::sin(phi)) / (p.G * p.A));
     const double force = (2.0 * p.r * std::cos(state.alpha) - state.l) / compliance;
     EXPECT_NEAR(state.Load().elastic_force / force, 1.0, 1e-10) << i;
   }
