@@ -19,7 +19,7 @@ std::string NumbersTable(const StudyHopper& best, const StudyData& data);
 std::string ScenarioText(const StudyHopper& best, const std::string& origin);
 
 /// What the command prints.
-std::string IdentifyReport(const IdentificationRequest& request,
-                           const IdentificationResult& result, bool colours);
+std::string IdentifyReport(const IdentificationRequest& request, const IdentificationResult& result,
+                           bool colours);
 
 }  // namespace hoplab

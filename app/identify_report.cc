@@ -36,11 +36,11 @@ std::string ScoresText(const StudyScores& s) {
       s.converged_moduli, Fixed(s.modulus_trend, 2));
 }
 
-std::string ConstantsTable(const IdentificationRequest& request,
-                           const IdentificationResult& result, bool colours) {
+std::string ConstantsTable(const IdentificationRequest& request, const IdentificationResult& result,
+                           bool colours) {
   using Align = TextTable::Align;
-  TextTable table({Align::kLeft, Align::kRight, Align::kRight, Align::kRight, Align::kRight,
-                   Align::kLeft});
+  TextTable table(
+      {Align::kLeft, Align::kRight, Align::kRight, Align::kRight, Align::kRight, Align::kLeft});
   table.AddRow({"", "all tables", "least", "greatest", "6.5 alone", "unit"});
   for (StudyConstant c : request.free) {
     const StudyConstantInfo& info = InfoOf(c);
@@ -61,7 +61,8 @@ std::string DecisionsTable(const IdentificationResult& result, bool colours) {
     bool first = true;
     for (const PointDecision::Word& w : decision.words) {
       table.AddRow({first ? decision.point : "", w.word,
-                    Fixed(kEnergyUnit * std::sqrt(w.energy_misfit), 3), Significant(w.all_misfit, 4)});
+                    Fixed(kEnergyUnit * std::sqrt(w.energy_misfit), 3),
+                    Significant(w.all_misfit, 4)});
       first = false;
     }
   }
@@ -82,20 +83,21 @@ std::string WeakestText(const IdentificationRequest& request,
                               Fixed(d.loadings[i], 2));
     }
     if (loadings.empty()) continue;
-    text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", Significant(d.strength, 2), loadings);
+    text +=
+        fmt::format("{}{} ({})", text.empty() ? "" : "; ", Significant(d.strength, 2), loadings);
   }
   return text.empty() ? "every combination" : "all but " + text;
 }
 
 }  // namespace
 
-std::string IdentifyReport(const IdentificationRequest& request,
-                           const IdentificationResult& result, bool colours) {
+std::string IdentifyReport(const IdentificationRequest& request, const IdentificationResult& result,
+                           bool colours) {
   const ScoredFit& best = result.by_all.front();
   std::string text = Styled("published study", Emphasis::kBold, colours) +
                      "  constants and reading of its law, from tables 6.2 to 6.5\n";
-  text += fmt::format("  {} readings, {} evaluations\n\n", request.readings.size(),
-                      result.evaluations);
+  text +=
+      fmt::format("  {} readings, {} evaluations\n\n", request.readings.size(), result.evaluations);
   text += ConstantsTable(request, result, colours) + "\n";
   text += Labelled("best", ReadingText(best.fit.reading) + ": " + ScoresText(best.scores), colours);
   text += Labelled("6.5 alone",

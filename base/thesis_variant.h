@@ -41,7 +41,7 @@ struct ThesisVariant {
 struct VariantKey {
   std::string_view key;
   std::span<const std::string_view> words;
-  int (*get)(const ThesisVariant& variant);            // index of the word
+  int (*get)(const ThesisVariant& variant);  // index of the word
   void (*set)(ThesisVariant& variant, int word_index);
 };
 /// All of them, in the order of the struct.

@@ -27,10 +27,9 @@ bool Has(const YamlCursor& cursor, const Names& keys) {
 }
 
 const Names& LegKeys(MechanismType type) {
-  static const Names kCLeg = {"rest_radius_m", "E_Pa",         "G_Pa",
-                              "width_m",       "thickness_m",  "second_moment_m4",
-                              "area_m2",       "shear_factor", "damping_N_s_per_m",
-                              "variant"};
+  static const Names kCLeg = {
+      "rest_radius_m",    "E_Pa",    "G_Pa",         "width_m",           "thickness_m",
+      "second_moment_m4", "area_m2", "shear_factor", "damping_N_s_per_m", "variant"};
   static const Names kStraight = {"rest_length_m", "stiffness_N_per_m", "damping_N_s_per_m",
                                   "variant"};
   static const Names kBall = {"radius_m", "restitution", "tangential_loss"};

@@ -14,8 +14,7 @@ class Residuals : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(request.start.size()));
   }
 
-  bool Evaluate(double const* const* blocks, double* residuals,
-                double** jacobians) const override {
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     const Eigen::Index n = request_.start.size();
     const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(blocks[0], n);
     Eigen::VectorXd r(request_.residual_count);

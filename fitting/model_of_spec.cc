@@ -96,11 +96,11 @@ void CheckVariant(const ThesisVariant& variant, Law law, const std::string& plac
   for (const VariantKey& key : VariantKeys()) {
     const int word = key.get(variant);
     if (word == key.get(allowed)) continue;
-    throw InputError({place,
-                      "mechanism.leg.variant." + std::string(key.key) + " = " +
-                          std::string(key.words[word]),
-                      "is a reading of the law thesis and this law is " + std::string(NameOf(law)),
-                      "Use the law thesis, or remove it."});
+    throw InputError(
+        {place,
+         "mechanism.leg.variant." + std::string(key.key) + " = " + std::string(key.words[word]),
+         "is a reading of the law thesis and this law is " + std::string(NameOf(law)),
+         "Use the law thesis, or remove it."});
   }
 }
 

@@ -26,8 +26,7 @@ class Seeker {
       from = result_.x;
     }
     std::vector<double> step(n);
-    for (std::size_t i = 0; i < n; ++i)
-      step[i] = kFirstStep * (request_.high[i] - request_.low[i]);
+    for (std::size_t i = 0; i < n; ++i) step[i] = kFirstStep * (request_.high[i] - request_.low[i]);
     Minimize(nlopt::LN_SBPLX, from, request_.budget - result_.evaluations, step);
     return result_;
   }

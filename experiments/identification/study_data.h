@@ -30,8 +30,8 @@ struct StudyData {
   std::vector<StartCell> starts;
 };
 
-/// The numbers of `experiments/published`: tables 6.5, 6.3, 6.4 and, of the two grids of starts, the
-/// damped one, 6.2 (undamped, convergence takes as long as the runs and has no pattern).
+/// The numbers of `experiments/published`: tables 6.5, 6.3, 6.4 and, of the two grids of starts,
+/// the damped one, 6.2 (undamped, convergence takes as long as the runs and has no pattern).
 StudyData PublishedStudyData();
 
 }  // namespace hoplab

@@ -314,7 +314,7 @@ class LeggedBody {
   ActiveEffects<T> effects_;
   LiftoffRule liftoff_;
   bool has_body_force_, has_chord_force_, has_hip_torque_, has_quick_lag_, flies_freely_, extended_;
-  bool may_pull_;  // for a moment after touch-down, bent by the hip torque
+  bool may_pull_;       // for a moment after touch-down, bent by the hip torque
   double torque_lift_;  // sign of the torque's vertical force: 1, or -1 (M37)
   Inertia<T> inertia_;
   LegT<T> leg_;
