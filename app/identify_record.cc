@@ -169,6 +169,10 @@ std::string ScenarioText(const StudyHopper& best, const std::string& origin) {
     variant += fmt::format("{}: {}", key.key, key.words[key.get(best.reading.variant)]);
   }
   const double scale = At(best.constants, C::kDampingScale);
+  const double blend = At(best.constants, C::kRollingBlend);
+  const std::string effects =
+      blend == 0.0 ? std::string()
+                   : fmt::format("effects: {{rolling_law: {{blend: {}}}}}\n", number(blend));
   const std::string damping =
       scale == 1.0 ? std::string()
                    : fmt::format("# A printed damping coefficient stands for {} times its value.\n",
@@ -203,10 +207,11 @@ std::string ScenarioText(const StudyHopper& best, const std::string& origin) {
       "controller: {{kp_N_s: {}, v_des_m_per_s: 1.8}}\n"
       "touchdown_angle_deg: 40\n"
       "initial: {{x_m: 0, y_m: 0.30, vx_m_per_s: {}, vy_m_per_s: 0}}\n"
-      "stop: {{time_s: 15}}\n",
+      "stop: {{time_s: 15}}\n{}",
       origin, damping, number(At(best.constants, C::kMass)), WordOf(best.reading.liftoff),
       number(At(best.constants, C::kRadius)), number(section.width_m), number(section.thickness_m),
-      variant, number(At(best.constants, C::kGain)), number(At(best.constants, C::kStartSpeed)));
+      variant, number(At(best.constants, C::kGain)), number(At(best.constants, C::kStartSpeed)),
+      effects);
 }
 
 }  // namespace hoplab

@@ -17,7 +17,7 @@ struct IdentifySettings {
   int budget = IdentificationRequest().budget;
   int keep = IdentificationRequest().keep;
   std::uint64_t seed = IdentificationRequest().seed;
-  bool free_damping_scale = false;
+  bool free_damping_scale = false, free_rolling_blend = false;
   int jobs = 0;
   std::string integrator = "dop853";
   double tolerance = 1e-9;
@@ -32,6 +32,7 @@ IdentificationRequest RequestOf(const IdentifySettings& settings) {
   for (int i = 0; i < kStudyConstantCount; ++i) {
     const auto c = static_cast<StudyConstant>(i);
     if (c == StudyConstant::kDampingScale && !settings.free_damping_scale) continue;
+    if (c == StudyConstant::kRollingBlend && !settings.free_rolling_blend) continue;
     request.free.push_back(c);
   }
   At(request.fixed, StudyConstant::kGain) = 1.0;
@@ -52,6 +53,7 @@ Json NewIdentifyRecord(const IdentifySettings& settings) {
   header.options = {{"budget", settings.budget},
                     {"keep", settings.keep},
                     {"free_damping_scale", settings.free_damping_scale},
+                    {"free_rolling_blend", settings.free_rolling_blend},
                     {"integrator", settings.integrator},
                     {"relative_tolerance", settings.tolerance},
                     {"absolute_tolerance", 0.1 * settings.tolerance}};
@@ -66,7 +68,8 @@ std::string OriginText(const IdentifySettings& settings) {
   if (gmtime_r(&now, &day) != nullptr) std::strftime(date, sizeof date, "%Y-%m-%d", &day);
   return "`hoplab identify --budget " + std::to_string(settings.budget) + " --keep " +
          std::to_string(settings.keep) + " --seed " + std::to_string(settings.seed) +
-         (settings.free_damping_scale ? " --free-damping-scale" : "") + "`, " + date;
+         (settings.free_damping_scale ? " --free-damping-scale" : "") +
+         (settings.free_rolling_blend ? " --free-rolling-blend" : "") + "`, " + date;
 }
 
 ExitCode RunIdentify(const IdentifySettings& settings, Console& console) {
@@ -126,6 +129,8 @@ void AddIdentifyCommand(CLI::App& app, Invocation& invocation) {
       ->option_text("N");
   sub.add_flag("--free-damping-scale", settings->free_damping_scale,
                "Search a factor on the printed damping coefficients, too (default: 1)");
+  sub.add_flag("--free-rolling-blend", settings->free_rolling_blend,
+               "Search the share of the arc laid down in the rolling (effect rolling_law), too");
   sub.add_option("--seed", settings->seed, "Of the searches (default 1)")->option_text("N");
   sub.add_option("--jobs", settings->jobs, "Threads (default: all cores); never changes a result")
       ->check(CLI::Range(1, 1024))

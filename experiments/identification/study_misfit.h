@@ -15,7 +15,7 @@ struct StudyTables {
 
 /// Sizes a difference from the print is measured in.
 inline constexpr double kEnergyUnit = 0.1;       // percentage points
-inline constexpr double kStiffnessUnit = 0.03;   // of the printed number
+inline constexpr double kStiffnessUnit = 0.015;  // of the printed number
 inline constexpr double kConvergenceUnit = 0.8;  // s, two hops
 
 /// How well a hopper does on the printed tables.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "base/units.h"
 #include "model/leg_compliance.h"
@@ -32,7 +33,18 @@ constexpr std::array<StudyConstantInfo, kStudyConstantCount> kInfo = {{
     {"kp", "N s", "gain of the speed controller", 0.02, 20.0},
     {"start_speed", "m/s", "start speed of table 6.5", 0.7, 1.4},
     {"damping_scale", "", "damping over the printed one", 0.1, 3.0},
+    {"rolling_blend", "", "share of the arc laid down in the rolling (M27); no reading of the text",
+     0.001, 1.0},
 }};
+
+// The effect by which a hopper rolls between M7 and M8; none where the share is 0.
+std::vector<EffectSetting> EffectsOf(const StudyHopper& hopper) {
+  const double blend = At(hopper.constants, C::kRollingBlend);
+  if (blend == 0.0) return {};
+  EffectSetting setting = EffectSetting::Null(*FindEffect("rolling_law"));
+  setting.values[0] = blend;
+  return {setting};
+}
 
 SimulationRequest RequestOf(const StudyHopper& hopper, double modulus, double damping) {
   const StudySection section = SectionOf(At(hopper.constants, C::kBendingStiffness));
@@ -110,19 +122,22 @@ StudySection SectionOf(double bending_stiffness_N_m2) {
 std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell& cell,
                                     StudySlopes* slopes) {
   using D = SensitivityDirection;
-  static const std::array kDirections = {D::Parameter(ParameterId::kM),
-                                         D::Parameter(ParameterId::kR),
-                                         D::Parameter(ParameterId::kSecondMoment),
-                                         D::Parameter(ParameterId::kArea),
-                                         D::Parameter(ParameterId::kD),
-                                         D::InitialState(2)};
+  std::vector<D> directions = {D::Parameter(ParameterId::kM),
+                               D::Parameter(ParameterId::kR),
+                               D::Parameter(ParameterId::kSecondMoment),
+                               D::Parameter(ParameterId::kArea),
+                               D::Parameter(ParameterId::kD),
+                               D::InitialState(2)};
   SimulationRequest request = RequestOf(hopper, kModulus, cell.damping_N_s_per_m);
   const double speed = At(hopper.constants, C::kStartSpeed);
   request.parameters.theta_td = cell.touchdown_angle_rad;
   request.initial = {0.0, kHeight, speed, 0.0};
   request.horizon = 5.0;
   request.max_hops = 1;
-  if (slopes) request.directions = kDirections;
+  const std::vector<EffectSetting> effects = EffectsOf(hopper);
+  request.effects = effects;
+  if (!effects.empty()) directions.push_back(D::EffectParameter(0, 0));
+  if (slopes) request.directions = directions;
   const Trajectory run = Simulate(request);
   if (!IsComplete(run.outcome) || run.hops < 1) return std::nullopt;
   const std::vector<double>& z = run.final_state;
@@ -131,7 +146,7 @@ std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell&
   const double percent = 100.0 * after / before;
   if (!slopes) return percent;
   // The energy of a flight does not depend on when it is looked at: slopes at a fixed time will do.
-  std::array<double, kDirections.size()> by{};
+  std::vector<double> by(directions.size());
   for (std::size_t i = 0; i < by.size(); ++i) {
     const auto slope = [&](std::size_t component) {
       return run.final_sensitivities[component * by.size() + i];
@@ -145,6 +160,8 @@ std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell&
   (*slopes)[static_cast<std::size_t>(C::kBendingStiffness)] = p.I * by[2] + p.A / 3.0 * by[3];
   (*slopes)[static_cast<std::size_t>(C::kDampingScale)] = p.d * by[4];
   (*slopes)[static_cast<std::size_t>(C::kStartSpeed)] = speed * (by[5] - percent * speed / before);
+  if (!effects.empty())
+    (*slopes)[static_cast<std::size_t>(C::kRollingBlend)] = effects[0].values[0] * by[6];
   return percent;
 }
 
@@ -165,6 +182,8 @@ ControlledRun RunControlled(const StudyHopper& hopper, const ControlledSettings&
   request.parameters.v_des = kDesiredSpeed;
   request.initial = {0.0, settings.height_m, settings.speed_m_per_s, 0.0};
   request.horizon = kRunTime;
+  const std::vector<EffectSetting> effects = EffectsOf(hopper);
+  request.effects = effects;
   const Trajectory run = Simulate(request);
   ControlledRun out{run.outcome, run.end_time, {}, kNaN, kNaN};
   if (!IsComplete(run.outcome)) return out;

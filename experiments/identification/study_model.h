@@ -18,8 +18,16 @@ struct StudyReading {
 };
 
 /// The numbers the study does not print.
-enum class StudyConstant { kMass, kRadius, kBendingStiffness, kGain, kStartSpeed, kDampingScale };
-inline constexpr int kStudyConstantCount = 6;
+enum class StudyConstant {
+  kMass,
+  kRadius,
+  kBendingStiffness,
+  kGain,
+  kStartSpeed,
+  kDampingScale,
+  kRollingBlend
+};
+inline constexpr int kStudyConstantCount = 7;
 using StudyConstants = std::array<double, kStudyConstantCount>;
 
 struct StudyConstantInfo {

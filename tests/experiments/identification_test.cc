@@ -16,7 +16,7 @@ using C = StudyConstant;
 
 StudyHopper SomeHopper() {
   StudyHopper hopper;
-  hopper.constants = {0.8, 0.09, 6.0, 2.5, 0.9, 1.0};
+  hopper.constants = {0.8, 0.09, 6.0, 2.5, 0.9, 1.0, 0.0};
   return hopper;
 }
 
@@ -41,7 +41,7 @@ IdentificationRequest RequestFor(const StudyData& data, std::vector<StudyReading
   request.data = data;
   request.readings = std::move(readings);
   request.free = {C::kMass, C::kRadius, C::kBendingStiffness, C::kGain, C::kStartSpeed};
-  request.fixed = {1.0, 0.1, 1.0, 1.0, 1.0, 1.0};
+  request.fixed = {1.0, 0.1, 1.0, 1.0, 1.0, 1.0, 0.0};
   request.budget = 400;
   request.keep = 2;
   request.keep_to_the_end = 1;
@@ -53,10 +53,12 @@ TEST(StudyModel, SlopesOfTheEnergyLeftMatchDifferences) {
   hopper.integrator.relative_tolerance = 1e-11;
   hopper.integrator.absolute_tolerance = 1e-12;
   const EnergyCell cell{DegToRad(35.0), 3.0, 0.0};
+  At(hopper.constants, C::kRollingBlend) = 0.3;
   StudySlopes slopes;
   ASSERT_TRUE(EnergyPercent(hopper, cell, &slopes).has_value());
   constexpr double kStep = 1e-4;
-  for (const C c : {C::kMass, C::kRadius, C::kBendingStiffness, C::kStartSpeed, C::kDampingScale}) {
+  for (const C c : {C::kMass, C::kRadius, C::kBendingStiffness, C::kStartSpeed, C::kDampingScale,
+                    C::kRollingBlend}) {
     StudyHopper above = hopper, below = hopper;
     At(above.constants, c) *= std::exp(kStep);
     At(below.constants, c) *= std::exp(-kStep);

@@ -85,7 +85,7 @@ TEST_P(Variant, ChangesTheMotion) {
   const Trajectory changed = Simulate(q);
   q.parameters.variant = {};
   const Trajectory plain = Simulate(q);
-  EXPECT_GT(std::abs(changed.final_state[kX] - plain.final_state[kX]), 1e-4);
+  EXPECT_GT(std::abs(changed.final_state[kX] - plain.final_state[kX]), 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(OneWordAndAll, Variant, ::testing::ValuesIn(Variants()),
