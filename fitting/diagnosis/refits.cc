@@ -1,8 +1,10 @@
 #include "fitting/diagnosis/refits.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/parallel.h"
+#include "fitting/uncertainty.h"
 
 namespace hoplab {
 namespace {
@@ -10,6 +12,9 @@ namespace {
 // A refit that ended early may still come this much closer [nats], in so many goes.
 constexpr double kContention = 25.0;
 constexpr int kMostContinuations = 4;
+// A member that is worth this many penalties by the linear model will not be missed for less than
+// one, whatever valley the model without it lies in.
+constexpr double kIndispensable = 30.0;
 
 }  // namespace
 
@@ -139,12 +144,37 @@ Extension Refits::Ordered(Extension e, const Model& part, const std::vector<int>
   return sorted;
 }
 
+// Log-likelihood that each member is worth by the linear model [nats]: half the square of its
+// greatest distance from null in standard errors.
+std::vector<double> Refits::LinearWorth(const Extension& e) const {
+  const Uncertainty u =
+      AssessUncertainty(e.problem, train_, e.shared, e.starts, Loss(), options_.jobs);
+  std::vector<double> worth;
+  int place = null_.problem.shared_count();
+  for (const Candidate& member : e.members) {
+    double most = 0.0;
+    for (int k = 0; k < member.parameter_count(); ++k, ++place) {
+      const std::optional<double>& error = u.parameters[static_cast<std::size_t>(place)].std_error;
+      const double away =
+          e.shared[place] - member.effect->info.parameters[static_cast<std::size_t>(k)].null;
+      if (error && *error > 0.0) most = std::max(most, 0.5 * std::pow(away / *error, 2));
+    }
+    worth.push_back(most);
+  }
+  return worth;
+}
+
 void Refits::RefineParts(const Model& model) {
   const std::vector<Model> parts = Eliminations(model);
   RefitAll(parts);
+  const std::vector<double> worth = LinearWorth(At(model));
   std::vector<Extension> refined(parts.size());
-  ParallelFor(static_cast<int>(parts.size()), options_.jobs,
-              [&](int i) { refined[i] = RefitWithout(At(model), i, null_.problem, refit_); });
+  ParallelFor(static_cast<int>(parts.size()), options_.jobs, [&](int i) {
+    const double lost = At(parts[i]).ok() ? At(parts[i]).cost - At(model).cost : 0.0;
+    const double enough = kIndispensable * naming_.penalty;
+    if (lost > enough && worth[static_cast<std::size_t>(i)] > enough) return;
+    refined[i] = RefitWithout(At(model), i, null_.problem, refit_);
+  });
   for (std::size_t i = 0; i < parts.size(); ++i) {
     Extension& known = models_.at(parts[i]);
     if (refined[i].ok() && (!known.ok() || refined[i].cost < known.cost)) known = refined[i];

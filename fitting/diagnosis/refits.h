@@ -46,6 +46,7 @@ class Refits {
   void FinishContenders(const std::vector<Model>& models);
   std::string NamesOf(const Model& model) const;
   Extension RefitModel(const Model& model) const;
+  std::vector<double> LinearWorth(const Extension& e) const;
   Extension Ordered(Extension e, const Model& part, const std::vector<int>& added,
                     const Model& model) const;
   const Candidate& CandidateAt(int i) const {

@@ -117,7 +117,7 @@ struct Statics {
 
 // P: scalar of the parameters, S of the unknowns.
 template <class S, class P>
-Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& phi,
+[[gnu::flatten]] Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& phi,
                      const Situation<S>& at) {
   using std::sqrt;
   const LawTerms<P>& terms = p.law_terms;
