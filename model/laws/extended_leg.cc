@@ -117,8 +117,8 @@ struct Statics {
 
 // P: scalar of the parameters, S of the unknowns.
 template <class S, class P>
-[[gnu::flatten]] Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& phi,
-                     const Situation<S>& at) {
+[[gnu::flatten]] Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque,
+                                      const S& phi, const Situation<S>& at) {
   using std::sqrt;
   const LawTerms<P>& terms = p.law_terms;
   Statics<S> out{.l = sqrt(at.u * at.u + at.Y * at.Y),
