@@ -25,7 +25,10 @@ std::string ReadingText(const StudyReading& reading) {
   return text.empty() ? "as in the equation sheet" : text;
 }
 
-std::string PercentOf(double fraction) { return Fixed(100.0 * fraction, 1) + " %"; }
+// "9.3 %"; "-" where a run has no steady hop.
+std::string PercentOf(double fraction) {
+  return std::isnan(fraction) ? "-" : Fixed(100.0 * fraction, 1) + " %";
+}
 
 std::string ScoresText(const StudyScores& s) {
   return fmt::format(

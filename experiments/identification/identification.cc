@@ -243,7 +243,7 @@ void FindSpread(IdentificationResult& result) {
   }
 }
 
-// Index of the word of a point that a reading chose; the last two are not in VariantKeys.
+// What each set of tables says about each open point.
 std::vector<PointDecision> Decide(const IdentificationResult& result) {
   std::vector<PointDecision> decisions;
   const auto least = [](double a, double b) { return IsBetter(b, a) ? b : a; };
@@ -251,7 +251,9 @@ std::vector<PointDecision> Decide(const IdentificationResult& result) {
     PointDecision decision{std::move(point), {}};
     for (const std::string_view word : words)
       decision.words.push_back({std::string(word), kNaN, kNaN});
+    const bool is_in_energy = decision.point != "torque_sign";  // no torque in table 6.5
     for (const StudyFit& fit : result.by_energy) {
+      if (!is_in_energy) break;
       double& best = decision.words[static_cast<std::size_t>(word_of(fit.reading))].energy_misfit;
       best = least(best, fit.misfit);
     }
