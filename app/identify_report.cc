@@ -75,6 +75,7 @@ std::string DecisionsTable(const IdentificationResult& result, bool colours) {
 // The combination of constants that a set of tables says least about: powers whose product stays.
 std::string WeakestText(const IdentificationRequest& request,
                         const std::vector<StudyDirection>& directions, bool without_gain) {
+  if (directions.empty()) return "-";
   std::string text;
   for (const StudyDirection& d : directions) {
     if (d.strength >= 1.0) continue;

@@ -1,6 +1,7 @@
 #include "app/commands/identify.h"
 
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <ostream>
 
@@ -95,13 +96,13 @@ ExitCode RunIdentify(const IdentifySettings& settings, Console& console) {
     SetFailed(record, "interrupted; the result is the best of what was tried");
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
-  const std::string written =
-      folder
-          .Write({{"run.json", TextOf(record)},
-                  {"readings.csv", ReadingsTable(result)},
-                  {"numbers.csv", NumbersTable(best, request.data)},
-                  {"published.yaml", ScenarioText(best, OriginText(settings))}})
-          .string();
+  std::map<std::string, std::string> files = {{"run.json", TextOf(record)},
+                                              {"readings.csv", ReadingsTable(result)}};
+  if (!std::isnan(fit.misfit)) {
+    files["numbers.csv"] = NumbersTable(best, request.data);
+    files["published.yaml"] = ScenarioText(best, OriginText(settings));
+  }
+  const std::string written = folder.Write(files).string();
   if (settings.json) {
     console.out << TextOf(record);
   } else {

@@ -27,6 +27,7 @@ class ReadingProblem {
     for (StudyConstant c : request.free) {
       if (c == StudyConstant::kGain && !tables.stiffness) continue;  // no torque in table 6.5
       free_.push_back(c);
+      hoplab::At(hopper_.constants, c) = kNaN;  // until it is found
     }
   }
 
@@ -116,6 +117,16 @@ class ReadingProblem {
   std::vector<StudyConstant> free_;
   long evaluations_ = 0;
 };
+
+// The fit with what it makes of the tables; all missing where a stop left it without constants.
+ScoredFit Scored(const StudyFit& fit, const IdentificationRequest& request) {
+  if (!std::isnan(fit.misfit))
+    return {fit, ScoresOf({fit.reading, fit.constants, request.integrator}, request.data)};
+  StudyScores none{};
+  none.energy_rms = none.energy_worst = none.stiffness_rms = none.stiffness_worst = kNaN;
+  none.start_rank_correlation = none.modulus_trend = none.convergence_rms = kNaN;
+  return {fit, none};
+}
 
 // NaN last, so that what a stop cut short does not lead.
 bool IsBetter(double a, double b) { return std::isnan(b) ? !std::isnan(a) : a < b; }
@@ -224,9 +235,8 @@ void FitAll(const IdentificationRequest& request, const std::vector<StudyFit>& s
   });
   result.by_all.resize(polished.size());
   ParallelFor(static_cast<int>(polished.size()), request.jobs, [&](int i) {
-    const StudyFit& fit = polished[static_cast<std::size_t>(i)];
-    result.by_all[static_cast<std::size_t>(i)] = {
-        fit, ScoresOf({fit.reading, fit.constants, request.integrator}, request.data)};
+    result.by_all[static_cast<std::size_t>(i)] =
+        Scored(polished[static_cast<std::size_t>(i)], request);
   });
 }
 
@@ -298,16 +308,16 @@ IdentificationResult Identify(const IdentificationRequest& request) {
   std::atomic<long> evaluations{0};
   IdentificationResult result;
   result.by_energy = FitEnergy(request, evaluations);
-  const StudyFit& first = result.by_energy.front();
-  result.best_by_energy = {
-      first, ScoresOf({first.reading, first.constants, request.integrator}, request.data)};
+  result.best_by_energy = Scored(result.by_energy.front(), request);
   FitAll(request, FitStiffness(request, result.by_energy, evaluations), evaluations, result);
   FindSpread(result);
   const StudyFit& best = result.by_all.front().fit;
-  result.energy_directions =
-      ReadingProblem(request, best.reading, kEnergyAlone).Directions(best.constants);
-  result.smooth_directions =
-      ReadingProblem(request, best.reading, kSmooth).Directions(best.constants);
+  if (!std::isnan(best.misfit)) {
+    result.energy_directions =
+        ReadingProblem(request, best.reading, kEnergyAlone).Directions(best.constants);
+    result.smooth_directions =
+        ReadingProblem(request, best.reading, kSmooth).Directions(best.constants);
+  }
   result.decisions = Decide(result);
   result.evaluations = evaluations;
   result.interrupted = request.stop && *request.stop;
