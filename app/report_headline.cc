@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "app/quantity.h"
+#include "app/sweep_record.h"
 #include "base/text.h"
 
 namespace hoplab {
@@ -161,7 +162,7 @@ void FitHeadline(const Json& record, Headline& out) {
       Figure(record, TextAt(first, "/name"), "/parameters/0/value", TextAt(first, "/unit")));
   out.figures.back().note = IntervalNote(record, first);
   out.figures.push_back(ErrorFigure(record, held_out ? "test error" : "train error", errors));
-  out.figures.push_back(Figure(record, "chi2 per sample", "/chi2_per_dof", "", 3));
+  out.figures.push_back(Figure(record, "chi² per sample", "/chi2_per_dof", "", 3));
   out.figures.back().note = "1 if only noise were left";
 }
 
@@ -175,7 +176,7 @@ void DiagnosisHeadline(const Json& record, Headline& out) {
     out.figures.push_back(Figure(record, "chance of such a misfit", "/detection/p_value", "", 2));
     out.figures.back().note = "under noise alone";
     out.figures.push_back(ErrorFigure(record, "test error", "/null/test/rmse"));
-    out.figures.push_back(Figure(record, "chi2 per sample", "/null/chi2_per_dof", "", 3));
+    out.figures.push_back(Figure(record, "chi² per sample", "/null/chi2_per_dof", "", 3));
     out.figures.back().note = causes;
     return;
   }
@@ -229,10 +230,21 @@ void GaitHeadline(const Json& record, Headline& out) {
   out.figures.back().note = "from the scenario's start";
 }
 
+// "touchdown_angle = 23.04 deg" of touchdown_angle_deg.
+std::string SettingText(const std::string& key, const Json& value) {
+  const std::string unit = UnitOfKey(key), name = key.substr(key.rfind('.') + 1);
+  const std::string number = value.is_number() ? Significant(value.get<double>(), 4) : kNotComputed;
+  if (unit.empty()) return name + " = " + number;
+  std::string suffix = "_" + unit;
+  std::replace(suffix.begin(), suffix.end(), ' ', '_');
+  return (name.ends_with(suffix) ? name.substr(0, name.size() - suffix.size()) : name) + " = " +
+         number + " " + unit;
+}
+
 void OptimizeHeadline(const Json& record, Headline& out) {
   std::vector<std::string> values;
   for (const auto& [name, value] : At(record, "/best/parameters").items())
-    values.push_back(name + " = " + Significant(value.get<double>(), 4));
+    values.push_back(SettingText(name, value));
   const double settle = NumberAt(record, "/best/convergence_time_s");
   const double before = NumberAt(record, "/before/convergence_time_s");
   out.sentence = "Best found: " + Listed(values);
@@ -286,19 +298,32 @@ void SimulationHeadline(const Json& record, Headline& out) {
   out.figures.back().note = Significant(first, 4) + " J at the start";
 }
 
+// How many of a list have the verdict "reproduced", of how many.
+HeadlineFigure ReproducedFigure(const Json& record, const std::string& label,
+                                const std::string& pointer) {
+  std::size_t reproduced = 0;
+  for (const Json& part : At(record, pointer))
+    reproduced += TextAt(part, "/verdict") == "reproduced" ? 1 : 0;
+  return {label, std::to_string(reproduced), "", "of " + std::to_string(SizeAt(record, pointer)),
+          pointer};
+}
+
 void ReproductionHeadline(const Json& record, Headline& out) {
-  std::size_t held = 0;
-  const Json& claims = At(record, "/claims");
-  for (const Json& claim : claims) held += TextAt(claim, "/verdict") == "holds" ? 1 : 0;
+  const HeadlineFigure claims = ReproducedFigure(record, "claims reproduced", "/claims");
+  const HeadlineFigure tables = ReproducedFigure(record, "tables reproduced", "/tables");
   out.sentence = TextAt(record, "/sentence");
-  if (out.sentence.empty() && !claims.empty())
-    out.sentence = fmt::format("{} of {} claims of the study hold.", held, claims.size());
-  out.figures.push_back(CountFigure("claims that hold", std::to_string(held), "/claims"));
-  out.figures.back().note = "of " + std::to_string(SizeAt(record, "/claims"));
-  out.figures.push_back(
-      CountFigure("tables", std::to_string(SizeAt(record, "/comparison")), "/comparison"));
-  out.figures.push_back(
-      CountFigure("figures", std::to_string(SizeAt(record, "/figures")), "/figures"));
+  if (out.sentence.empty()) {
+    std::vector<std::string> parts;
+    if (SizeAt(record, "/claims") > 0)
+      parts.push_back(claims.value + " " + claims.note + " claims of the study");
+    if (SizeAt(record, "/tables") > 0)
+      parts.push_back(tables.value + " " + tables.note + " of its tables");
+    out.sentence = parts.empty() ? "The study was run anew."
+                                 : Listed(parts) + " are reproduced with its own settings.";
+  }
+  out.figures = {claims, tables,
+                 CountFigure("figures drawn anew", std::to_string(SizeAt(record, "/figures")),
+                             "/figures")};
 }
 
 struct Kind {

@@ -1,6 +1,7 @@
 #include "app/report_page.h"
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 
 #include "app/report_headline.h"
@@ -53,6 +54,18 @@ Json PackedTables(const std::map<std::string, std::string>& files) {
   return packed;
 }
 
+// Numbers stay in one line with their units: a blank between a digit and a letter does not break.
+std::string FirmUnits(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool firm = text[i] == ' ' && i > 0 && i + 1 < text.size() && text[i - 1] >= '0' &&
+                      text[i - 1] <= '9' && (std::isalpha(static_cast<unsigned char>(text[i + 1])) ||
+                                             text[i + 1] == '%');
+    out += firm ? "&nbsp;" : std::string(1, text[i]);
+  }
+  return out;
+}
+
 std::string FigureHtml(const Json& record, const HeadlineFigure& figure) {
   const Json::json_pointer path(figure.pointer);
   const Json value = record.contains(path) ? record.at(path) : Json(nullptr);
@@ -74,8 +87,11 @@ std::string FiguresHtml(const Json& record, const Headline& headline) {
 
 // Surfaces need a second plotting library.
 bool HasSurfaces(const Json& record) {
-  const auto surfaces = record.find("surfaces");
-  return surfaces != record.end() && !surfaces->empty();
+  const auto figures = record.find("figures");
+  return figures != record.end() && figures->is_array() &&
+         std::any_of(figures->begin(), figures->end(), [](const Json& figure) {
+           return figure.is_object() && figure.value("kind", "") == "surface";
+         });
 }
 
 // `{{name}}` of the template is what `value` gives; what it gives is not looked into.
@@ -144,7 +160,7 @@ std::string ReportPage(const Json& record, const std::map<std::string, std::stri
   return Filled(
       WebAsset("page.html"),
       {{"title", text(HtmlText(headline.title))},
-       {"sentence", text(HtmlText(headline.sentence))},
+       {"sentence", text(FirmUnits(HtmlText(headline.sentence)))},
        {"figures", text(FiguresHtml(record, headline))},
        {"status", text(HtmlText(record.value("status", "")))},
        {"style", asset("report.css")},

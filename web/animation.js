@@ -44,6 +44,15 @@ function greatestForce(motion) {
   return row;
 }
 
+// The row of the greatest force of the first stance.
+function firstStance(motion) {
+  const last = motion.time.length - 1;
+  let row = 0;
+  while (row < last && !isNumber(motion.contactX[row])) ++row;
+  for (let i = row; i < last && isNumber(motion.contactX[i]); ++i) if (forceOf(motion, i) > forceOf(motion, row)) row = i;
+  return row;
+}
+
 // A leg that can be moved: body, leg, contact force.
 class Hopper {
   constructor(layer, kind, label) {
@@ -98,7 +107,7 @@ class Animation {
     this.end = Math.max(...motions.map((m) => m.time[m.time.length - 1]));
     this.peak = Math.max(...motions.map((m) => forceOf(m, greatestForce(m))));
     const first = motions[0];
-    this.time = first.time[greatestForce(first)];
+    this.time = first.time[firstStance(first)];
     this.width = 720;
     this.height = 320;
     let top = 0;
@@ -200,10 +209,10 @@ class Animation {
       return `M${a} ${b}L${c} ${d}`;
     };
     const parts = [svg('path', {d: line(left, left * slope, right, right * slope)})];
-    const step = half > 1.2 ? 0.5 : half > 0.4 ? 0.1 : 0.05;
+    const step = [0.05, 0.1, 0.2, 0.5, 1, 2].find((s) => s * view.scale >= 96) ?? 5;
     for (let x = Math.ceil(left / step) * step; x < right; x += step) {
-      parts.push(svg('path', {d: line(x, x * slope, x - 0.015, x * slope - 0.03), class: 'tick'}));
-      const [px] = view.point(x, 0);
+      const [px, py] = view.point(x, x * slope);
+      parts.push(svg('path', {d: `M${px} ${py}l-4 8`}));
       const label = svg('text', {x: px, y: this.height - 4});
       label.textContent = `${x.toFixed(step < 0.1 ? 2 : 1)} m`;
       parts.push(label);
@@ -212,8 +221,8 @@ class Animation {
   }
 }
 
-const animationLegend = () => el('p', {class: 'legend'}, swatch('mode-flight', 'flight'), swatch('mode-rolling', 'rolling or stance'),
-  swatch('mode-toe', 'on the toe'), swatch('mode-force', 'contact force on the leg'));
+const animationLegend = (two) => el('p', {class: 'legend'}, swatch('mode-flight', 'flight'), swatch('mode-rolling', 'rolling or stance'),
+  swatch('mode-toe', 'on the toe'), swatch('mode-force', 'contact force on the leg'), two ? swatch('kind-two', 'before, broad and pale') : '');
 
 // An animation with its legend; a closed form of the bent leg is no part of the data, which is said.
 function animationOf(runs) {

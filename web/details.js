@@ -7,6 +7,7 @@ function settingText(value) {
     const parts = Object.entries(value).map(([name, v]) => `${name} = ${settingText(v)}`);
     return parts.length ? parts.join(', ') : 'none';
   }
+  if (isNumber(value)) return String(Number(value.toPrecision(12)));
   return String(value);
 }
 

@@ -1,6 +1,7 @@
 // The report of a diagnosis.
 
 const statusKinds = {supported: 'one', indistinguishable: 'three', excluded: 'two', not_tested: 'soft'};
+const statusSymbols = {supported: 'circle', indistinguishable: 'diamond', excluded: 'x-thin-open', not_tested: 'circle-open'};
 const statusMeaning = {
   supported: 'supported: the data want it',
   indistinguishable: 'indistinguishable: does as well as the best',
@@ -28,18 +29,19 @@ function sizeText(candidate) {
 
 function ladderPlot(candidates) {
   const shown = candidates.filter((c) => isNumber(c.gain_nats) && c.gain_nats > 0);
+  const leastShown = 0.1; // smaller gains stand at the edge
   if (!shown.length) return undefined;
   return plot('Log-likelihood each cause gains when it is added alone and everything is refitted [nats]. Beyond the dashed line a gain pays for the choice among so many causes.', () => {
     const traces = Object.keys(statusKinds).map((status) => {
       const of = shown.filter((c) => c.status === status);
-      return {type: 'bar', orientation: 'h', name: words(status), y: of.map(causeText), x: of.map((c) => c.gain_nats),
-        marker: {color: colour(statusKinds[status])}, customdata: of.map(sizeText),
-        hovertemplate: `%{y}: %{x:.4g} nats<br>%{customdata}<extra>${words(status)}</extra>`};
+      return {mode: 'markers', name: words(status), y: of.map(causeText), x: of.map((c) => Math.max(c.gain_nats, leastShown)),
+        marker: {color: colour(statusKinds[status]), size: status === 'supported' ? 12 : 9, symbol: statusSymbols[status]}, customdata: of.map((c) => [significant(c.gain_nats, 4), sizeText(c)]),
+        hovertemplate: `%{y}: %{customdata[0]} nats<br>%{customdata[1]}<extra>${words(status)}</extra>`};
     }).filter((t) => t.y.length);
     const penalty = run.penalty_nats;
     return {traces, layout: {
-      barmode: 'overlay', bargap: 0.25, xaxis: {type: 'log', title: {text: 'gain [nats], logarithmic'}},
-      yaxis: {categoryorder: 'array', categoryarray: shown.map(causeText).reverse(), tickfont: {size: 12}}, legend: {traceorder: 'normal'},
+      xaxis: {type: 'log', dtick: 1, title: {text: 'gain [nats], logarithmic'}},
+      yaxis: {categoryorder: 'array', categoryarray: shown.map(causeText).reverse(), tickfont: {size: 12}, range: [-0.8, shown.length - 0.2]}, legend: {traceorder: 'normal'},
       shapes: isNumber(penalty) ? [{type: 'line', yref: 'paper', y0: 0, y1: 1, x0: penalty, x1: penalty, line: {color: colour('ink'), dash: 'dash', width: 1}}] : [],
     }};
   }, {height: 120 + 20 * shown.length});
@@ -74,8 +76,8 @@ function misfitBars(parts, key, caption) {
   return plot(caption, () => ({
     traces: [{type: 'bar', x: labels, y: shown.map((p) => 100 * p.share), marker: {color: colour('one')},
       hovertemplate: '%{x}: %{y:.3g} %<extra></extra>'}],
-    layout: {yaxis: {title: {text: 'share of the misfit [%]'}, rangemode: 'tozero'}},
-  }), {height: 260});
+    layout: {bargap: 0.55, yaxis: {title: {text: 'share of the misfit [%]'}, rangemode: 'tozero'}},
+  }), {height: 230});
 }
 
 function evidencePlot() {
@@ -128,7 +130,7 @@ function energyPlot(energy) {
     traces: series.map(([key, name, kind]) => ({type: 'bar', name, x: labels, y: hops.map((h) => (isNumber(h[key]?.loss_share) ? 100 * h[key].loss_share : null)),
       customdata: hops.map((h) => `${quantity(h[key]?.begin_J, 'J')} to ${quantity(h[key]?.end_J, 'J')}`), marker: {color: colour(kind)},
       hovertemplate: `%{x}: %{y:.3g} %<br>%{customdata}<extra>${name}</extra>`})),
-    layout: {barmode: 'group', yaxis: {title: {text: 'lost [%]'}, rangemode: 'tozero'}},
+    layout: {barmode: 'group', bargap: 0.5, yaxis: {title: {text: 'lost [%]'}, rangemode: 'tozero'}},
   }), {height: 300});
 }
 
@@ -196,7 +198,7 @@ function diagnosisReport() {
   const cells = list(run.localisation);
   if (cells.length) {
     section('Where the misfit sits', localisationPlot(cells),
-      misfitBars(list(run.misfit_by_hop), 'hop', 'The same by hop.'), misfitBars(list(run.misfit_by_trial), 'trial', 'The same by trial.'), evidencePlot());
+      el('div', {class: 'pair'}, misfitBars(list(run.misfit_by_hop), 'hop', 'The same by hop.'), misfitBars(list(run.misfit_by_trial), 'trial', 'The same by trial.')), evidencePlot());
   }
   groupPart();
   forcesPart();

@@ -7,7 +7,7 @@ function el(tag, properties = {}, ...children) {
     if (name in element && typeof value !== 'string') element[name] = value;
     else element.setAttribute(name, value);
   }
-  element.append(...children.flat().filter((child) => child !== undefined && child !== null && child !== ''));
+  element.append(...children.flat(Infinity).filter((child) => child !== undefined && child !== null && child !== ''));
   return element;
 }
 

@@ -58,11 +58,6 @@ function weakDirections(identifiability) {
 function fitReport() {
   const parameters = list(run.parameters);
   const residuals = table('residuals');
-  section('Fitted values', run.sentences?.misfit ? paragraph(`The fit as a whole: ${run.sentences.misfit}.`) : undefined,
-    parameterTable(parameters, run.misfit), intervalPlot(parameters, run.misfit),
-    el('h3', {}, 'What the data determine'),
-    paragraph(run.sentences?.determined ? `Determined: ${run.sentences.determined}.` : `Identifiability: ${notComputed}.`),
-    weakDirections(run.identifiability), correlationPlot(run.correlation), ...profilePlots(run.profiles, parameters));
   if (residuals) {
     const motion = table('trajectories');
     section('Measured and simulated', ...traceView({
@@ -72,6 +67,11 @@ function fitReport() {
       runsOf: (trial) => (motion && run.mechanism ? [{label: '', kind: 'after', mechanism: run.mechanism, motion: motionOf(motion, motion.where({trial}))}] : []),
     }));
   }
+  section('Fitted values', run.sentences?.misfit ? paragraph(`The fit as a whole: ${run.sentences.misfit}.`) : undefined,
+    parameterTable(parameters, run.misfit), intervalPlot(parameters, run.misfit),
+    el('h3', {}, 'What the data determine'),
+    paragraph(run.sentences?.determined ? `Determined: ${run.sentences.determined}.` : `Identifiability: ${notComputed}.`),
+    weakDirections(run.identifiability), correlationPlot(run.correlation), ...profilePlots(run.profiles, parameters));
   const {channels, cell} = errorTable(run.test ?? run.train);
   const errorRows = [['fitted trials', run.train], ['held-out trials', run.test]].map(([name, errors]) =>
     [name, String(errors?.trials ?? notComputed), ...channels.map((c) => cell(errors, c)), significant(errors?.nll_per_sample, 4)]);

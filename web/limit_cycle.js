@@ -22,7 +22,7 @@ function phasePlot(curves, caption) {
   return plot(caption, () => ({
     traces: curves.map((c) => ({
       x: c.trajectory.pick('body_vy_m_per_s', c.rows), y: c.trajectory.pick('body_y_m', c.rows), mode: 'lines', name: c.name,
-      line: {color: colour(c.kind), width: c.faint ? 1 : 2.5}, opacity: c.faint ? 0.55 : 1,
+      line: {color: colour(c.kind), width: c.faint ? 1 : 2.5}, opacity: c.faint ? 0.7 : 1,
       hovertemplate: `hip %{y:.4g} m, %{x:.4g} m/s upward<extra>${c.name}</extra>`})),
     layout: {xaxis: {title: {text: 'vertical speed [m/s]'}, zeroline: true}, yaxis: {title: {text: 'hip height [m]'}}, showlegend: curves.length > 1},
   }), {height: 380});
@@ -33,4 +33,4 @@ const gaitRow = (name, gait) => (gait
     gait.stable ? 'stable' : 'unstable', gait.events]
   : [name, notComputed, '', '', '', 'no steady hop found', '']);
 
-const gaitTable = (rows) => dataTable(['', 'speed at apex', 'apex height', 'period', 'spectral radius', '', 'events of a hop'], rows, 'lrrrrll');
+const gaitTable = (rows) => dataTable(['', 'speed at apex', 'apex height', 'period', 'spectral radius', '', 'events of a hop'], rows.map(([name, gait]) => gaitRow(name, gait)), 'lrrrrll');

@@ -37,7 +37,7 @@ function mapPlot() {
     hovertemplate: `${first} %{x:.4g}<br>${second} %{y:.4g}<extra>${name}</extra>`});
   const before = list(run.variables).map((v) => v.before);
   return plot(`The map of ${objectiveName()}${objectiveUnit() ? ` [${objectiveUnit()}]` : ''}, other variables at their best; blank where nothing settles.`, () => ({
-    traces: [{type: 'heatmap', x: xs, y: ys, z, customdata: said, colorscale: sequential().map(([at], i, all) => [at, all[all.length - 1 - i][1]]), hoverongaps: true, colorbar: {thickness: 12, title: {text: objectiveUnit()}},
+    traces: [{type: 'heatmap', x: xs, y: ys, z, customdata: said, colorscale: downward(), hoverongaps: true, colorbar: {thickness: 12, title: {text: objectiveUnit()}},
       hovertemplate: `${first} %{x:.4g}<br>${second} %{y:.4g}<br>%{z:.4g} ${objectiveUnit()}, %{customdata}<extra></extra>`},
     mark(best.map(([, v]) => v), 'best', 'star'), ...(before.length > 1 ? [mark(before, 'before', 'circle')] : [])],
     layout: {xaxis: {title: {text: first}}, yaxis: {title: {text: second}}, showlegend: true},
@@ -73,7 +73,7 @@ function optimizeReport() {
       multiplierPlot(sets.map(([name, kind, symbol]) => ({name, kind, symbol, values: gaits[name].multipliers})), 'Multipliers of the return map: inside the unit circle a disturbance dies out, the nearer to 0 the sooner.'),
       cycles ? phasePlot(sets.map(([name, kind]) => ({name, kind, trajectory: cycles, rows: cycles.where({run: name})})), 'The limit cycles.') : undefined,
       cycles && run.mechanism ? animationOf([...sets].reverse().map(([name]) => ({label: name, kind: name === 'best' || sets.length === 1 ? 'after' : 'before', mechanism: run.mechanism, motion: motionOf(cycles, cycles.where({run: name}))}))) : undefined,
-      animationLegend(), paragraph(animationNote, 'note'));
+      animationLegend(sets.length > 1), paragraph(animationNote, 'note'));
   }
   section('Robustness', robustnessTable(run.robustness));
   runDetails();

@@ -48,6 +48,7 @@ function intervalPlot(parameters, misfit) {
 function correlationPlot(correlation) {
   const names = Object.keys(correlation ?? {});
   if (names.length < 2) return undefined;
+  if (names.length === 2) return paragraph(`${names[0]} and ${names[1]} are correlated by ${significant(correlation[names[0]][names[1]], 2)}.`);
   const z = names.map((row) => names.map((column) => correlation[row][column]));
   return plot('Correlation of the fitted values: near ±1 the data see only a combination of two.', () => ({
     traces: [{type: 'heatmap', x: names, y: names, z, zmin: -1, zmax: 1, colorscale: diverging(), xgap: 2, ygap: 2,
@@ -62,7 +63,7 @@ function profilePlots(profiles, parameters) {
     const {factor, unit} = readableUnit(p.value, p.unit);
     const x = profile.points.map((q) => q.value * factor);
     return plot(`Profile of ${profile.name}: everything else refitted at each value. 95 %: ${intervalText(profile.ci95, factor) || 'open'} ${unit}.`, () => ({
-      traces: [{x, y: profile.points.map((q) => q.delta_chi2), mode: 'lines+markers', line: {color: colour('one')}, name: profile.name,
+      traces: [{x, y: profile.points.map((q) => q.delta_chi2), mode: 'lines+markers', line: {color: colour('one'), shape: 'spline'}, name: profile.name,
         hovertemplate: `%{x:.6g} ${unit}<br>chi² rises by %{y:.3g}<extra></extra>`}],
       layout: {xaxis: {title: {text: withUnit(profile.name, unit)}}, yaxis: {title: {text: 'rise of chi²'}, rangemode: 'tozero'}, showlegend: false,
         shapes: [{type: 'line', xref: 'paper', x0: 0, x1: 1, y0: 3.841, y1: 3.841, line: {color: colour('soft'), dash: 'dash', width: 1}}],

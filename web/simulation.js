@@ -11,7 +11,7 @@ function channelPlot(trajectory, events, channel) {
         const rows = events?.where({}) ?? [];
         if (!rows.length || rows.length > 400) return [];
         const {segments, marks} = segmentsOf(events, rows, time[0], time[time.length - 1]);
-        return modeBands(segments, rows.length < 120 ? marks : []);
+        return modeBands(segments, rows.length < 40 ? marks : []);
       })()},
   };
 }
@@ -31,7 +31,7 @@ function simulationReport() {
       channel = channels[labels.indexOf(label)];
       if (drawn.shown) drawn.show();
     }, labels[channels.indexOf(channel)]), drawn.figure, traceLegend(), paragraph(trajectory.thinning, 'note'));
-    section('As dynamics', phasePlot([{name: 'run', kind: 'one', trajectory, rows: trajectory.where({})}], 'Hip height against vertical speed.'));
+    section('As dynamics', phasePlot([{name: 'run', kind: 'one', trajectory, rows: trajectory.where({}), faint: true}], 'Hip height against vertical speed.'));
   }
   const energies = list(run.apex_energies);
   if (energies.length > 1) {

@@ -1,41 +1,62 @@
 // The report of a sweep.
 
-// Columns that are varied: they come first and hold more than one value.
+// Columns that are varied (keys of the scenario stand first) and those that come out as numbers.
 function sweepColumns(rows) {
-  const columns = list(run.columns).filter((c) => rows.has(c.name) && typeof rows.column(c.name)[0] === 'number' || rows.has(c.name) && ArrayBuffer.isView(rows.column(c.name)));
-  const keys = columns.filter((c) => c.name.includes('.') || splitUnit(c.name).unit === 'deg' || c.name.startsWith('initial'));
-  const varied = keys.filter((c) => new Set(rows.column(c.name)).size > 1);
-  const outputs = columns.filter((c) => !keys.includes(c) && [...rows.column(c.name)].some(isNumber));
+  const columns = list(run.columns).filter((c) => ArrayBuffer.isView(rows.column(c.name)));
+  const isKey = (c) => (run.keys ? run.keys.includes(c.name) : c.name.includes('.'));
+  const varied = columns.filter((c) => isKey(c) && new Set(rows.column(c.name)).size > 1);
+  const outputs = columns.filter((c) => !isKey(c) && [...rows.column(c.name)].some(isNumber));
   return {varied, outputs};
 }
 
 const shortName = (name) => splitUnit(name.split('.').pop()).name;
 
+// A column in units that read well: {values, title, unit}.
+function scaledColumn(rows, column) {
+  const raw = [...rows.column(column.name)];
+  const most = Math.max(...raw.filter(isNumber).map(Math.abs));
+  const {factor, unit} = readableUnit(most, column.unit);
+  return {values: raw.map((v) => v * factor), title: {text: withUnit(words(shortName(column.name)), unit)}, unit};
+}
+
+const distinct = (values) => [...new Set(values)].sort((a, b) => a - b);
+
+// A line for each value of the second key, where it has few.
+function sweepLines(x, z, second, ended) {
+  const kinds = ['one', 'two', 'three', 'four', 'soft', 'ink'];
+  const groups = second ? distinct(second.values) : [undefined];
+  return groups.map((value, i) => {
+    const rows = x.values.map((_, row) => row).filter((row) => !second || second.values[row] === value).sort((a, b) => x.values[a] - x.values[b]);
+    const name = second ? `${second.title.text.replace(/ \[.*/, '')} = ${significant(value)} ${second.unit}` : '';
+    return {x: rows.map((r) => x.values[r]), y: rows.map((r) => z.values[r]), customdata: rows.map((r) => ended[r]), mode: 'lines+markers', name, line: {color: colour(kinds[i % 6])},
+      hovertemplate: `%{x:.5g} ${x.unit}: %{y:.5g} ${z.unit}<br>%{customdata}<extra>${name}</extra>`};
+  });
+}
+
 function sweepPlot(rows, output, varied) {
-  const x = [...rows.column(varied[0].name)];
-  const z = [...rows.column(output.name)];
-  const axisTitle = (c) => ({title: {text: withUnit(words(shortName(c.name)), c.unit)}});
-  const missing = rows.has('outcome') ? rows.column('outcome') : [];
-  if (varied.length >= 2) {
-    const y = [...rows.column(varied[1].name)];
-    const [xs, ys] = [[...new Set(x)].sort((a, b) => a - b), [...new Set(y)].sort((a, b) => a - b)];
-    if (xs.length * ys.length <= 1.5 * rows.rows) { // a grid; of further keys the last row counts
-      const grid = ys.map(() => Array(xs.length).fill(null));
-      const said = ys.map(() => Array(xs.length).fill(''));
-      x.forEach((v, i) => {
-        grid[ys.indexOf(y[i])][xs.indexOf(v)] = isNumber(z[i]) ? z[i] : null;
-        said[ys.indexOf(y[i])][xs.indexOf(v)] = missing[i] ?? '';
-      });
-      return {traces: [{type: 'heatmap', x: xs, y: ys, z: grid, customdata: said, colorscale: sequential(), hoverongaps: true, colorbar: {thickness: 12, title: {text: output.unit}}, xgap: 1, ygap: 1,
-        hovertemplate: `%{x:.5g} ${varied[0].unit}, %{y:.5g} ${varied[1].unit}<br>%{z:.5g} ${output.unit}<br>%{customdata}<extra></extra>`}],
-      layout: {xaxis: axisTitle(varied[0]), yaxis: axisTitle(varied[1])}};
-    }
-    return {traces: [{x, y, mode: 'markers', marker: {color: z, size: 9, colorscale: sequential(), showscale: true, line: {color: colour('soft'), width: 1}, colorbar: {thickness: 12, title: {text: output.unit}}},
-      customdata: z, hovertemplate: `%{x:.5g} ${varied[0].unit}, %{y:.5g} ${varied[1].unit}<br>%{customdata:.5g} ${output.unit}<extra></extra>`}],
-    layout: {xaxis: axisTitle(varied[0]), yaxis: axisTitle(varied[1])}};
+  const keys = [...varied].sort((a, b) => new Set(rows.column(b.name)).size - new Set(rows.column(a.name)).size);
+  const [x, y] = keys.map((key) => scaledColumn(rows, key));
+  const z = scaledColumn(rows, output);
+  const ended = rows.has('outcome') ? rows.column('outcome').map(words) : [];
+  const layout = {xaxis: {title: x.title}, yaxis: {title: y?.title}};
+  if (keys.length === 1 || (keys.length === 2 && distinct(y.values).length <= 6))
+    return {traces: sweepLines(x, z, y, ended), layout: {...layout, yaxis: {title: z.title}, showlegend: Boolean(y)}};
+  const [xs, ys] = [distinct(x.values), distinct(y.values)];
+  const hover = `%{x:.5g} ${x.unit}, %{y:.5g} ${y.unit}<br>`;
+  const bar = {thickness: 12, title: {text: z.unit}};
+  if (xs.length * ys.length <= 1.5 * rows.rows) { // a grid; of further keys the last row counts
+    const grid = ys.map(() => Array(xs.length).fill(null));
+    const said = ys.map(() => Array(xs.length).fill(''));
+    x.values.forEach((v, i) => {
+      const [r, c] = [ys.indexOf(y.values[i]), xs.indexOf(v)];
+      grid[r][c] = isNumber(z.values[i]) ? z.values[i] : null;
+      said[r][c] = ended[i] ?? '';
+    });
+    return {traces: [{type: 'heatmap', x: xs, y: ys, z: grid, customdata: said, colorscale: upward(), hoverongaps: true, colorbar: bar, xgap: 1, ygap: 1,
+      hovertemplate: `${hover}%{z:.5g} ${z.unit}<br>%{customdata}<extra></extra>`}], layout};
   }
-  return {traces: [{x, y: z, mode: 'lines+markers', line: {color: colour('one')}, hovertemplate: `%{x:.5g} ${varied[0].unit}: %{y:.5g} ${output.unit}<extra></extra>`}],
-    layout: {xaxis: axisTitle(varied[0]), yaxis: {title: {text: withUnit(words(shortName(output.name)), output.unit)}}}};
+  return {traces: [{x: x.values, y: y.values, mode: 'markers', marker: {color: z.values, size: 9, colorscale: upward(), showscale: true, line: {color: colour('soft'), width: 1}, colorbar: bar},
+    customdata: z.values, hovertemplate: `${hover}%{customdata:.5g} ${z.unit}<extra></extra>`}], layout};
 }
 
 function sweepTable(rows) {

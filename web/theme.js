@@ -7,12 +7,15 @@ const modeColours = {rolling: 'rolling', toe: 'toe', stance: 'rolling', flight: 
 
 // Sequential and diverging scales that read in black and white and with any colour vision.
 const sequential = () => [[0, colour('paper')], [0.35, colour('heat-1')], [0.7, colour('heat-2')], [1, colour('heat-3')]];
+// For what is to be small: blank cells stay apart from the palest colour.
+const downward = () => [[0, colour('heat-3')], [0.4, colour('heat-2')], [1, colour('heat-1')]];
+const upward = () => [[0, colour('heat-1')], [0.6, colour('heat-2')], [1, colour('heat-3')]];
 const diverging = () => [[0, colour('one')], [0.5, colour('paper')], [1, colour('two')]];
 
 function baseLayout() {
   const axis = {
     gridcolor: colour('line'), linecolor: colour('line'), zerolinecolor: colour('line'),
-    tickcolor: colour('line'), automargin: true, title: {standoff: 8}, ticks: 'outside', ticklen: 4,
+    tickcolor: colour('line'), automargin: true, title: {standoff: 8}, exponentformat: 'power', ticks: 'outside', ticklen: 4,
   };
   return {
     paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)',

@@ -105,7 +105,7 @@ function traceView({residuals, models, start, describe, caption, runsOf}) {
     trial = chosen;
     said.textContent = describe(trial);
     const runs = runsOf(trial).filter((r) => r.motion.time.length > 1);
-    stage.replaceChildren(...(runs.length ? [animationOf(runs), animationLegend(), paragraph(animationNote, 'note')] : []));
+    stage.replaceChildren(...(runs.length ? [animationOf(runs), animationLegend(runs.length > 1), paragraph(animationNote, 'note')] : []));
     if (panels.shown) panels.show();
   };
   const choice = choices('Trial', trials, choose, start);
