@@ -111,8 +111,7 @@ std::string Residuals(const Diagnosis& d) {
 // Evidence for the effects of the extension at the null fit, row by row and summed up since the
 // trial's first; an effect of one trial only counts there.
 std::string Evidence(const Diagnosis& d) {
-  CsvText csv({"effect", "parameter", "trial", "time_s", "channel", "mode", "evidence",
-               "running"});
+  CsvText csv({"effect", "parameter", "trial", "time_s", "channel", "mode", "running", "evidence"});
   const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
   for (const Candidate& member : d.naming.best.members) {
     int column = 0;
@@ -138,8 +137,8 @@ std::string Evidence(const Diagnosis& d) {
             .Cell(trial.begin_s + label.time)
             .Cell(ChannelNameOf(d.problem, label.channel))
             .Cell(NameOf(label.mode))
-            .Cell(evidence[row])
             .Cell(running)
+            .Cell(evidence[row])
             .EndRow();
       }
     }

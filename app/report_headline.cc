@@ -150,9 +150,9 @@ void FitHeadline(const Json& record, Headline& out) {
   }
   out.sentence = Listed(values);
   if (!misses.empty())
-    out.sentence += fmt::format(" reproduce{} {} of {}", values.size() == 1 ? "s" : "",
-                                Listed(misses),
-                                held_out ? "trials that were not fitted" : "the fitted trials");
+    out.sentence +=
+        fmt::format(" reproduce{} {} of {}", values.size() == 1 ? "s" : "", Listed(misses),
+                    held_out ? "trials that were not fitted" : "the fitted trials");
   const Json& misfit = At(record, "/misfit");
   if (misfit.is_boolean())
     out.sentence += misfit.get<bool>() ? "; the model misses more than the noise."
@@ -188,11 +188,10 @@ void DiagnosisHeadline(const Json& record, Headline& out) {
   }
   out.figures.back().note = causes;
   const std::string channel = WorstChannel(record, "/null/test/rmse");
-  HeadlineFigure after =
-      ErrorFigure(Json{{"channels", At(record, "/channels")},
-                       {"rmse", {{channel, At(record, "/extension/test_after/rmse/" +
-                                                           Escaped(channel))}}}},
-                  "test error", "/rmse");
+  HeadlineFigure after = ErrorFigure(
+      Json{{"channels", At(record, "/channels")},
+           {"rmse", {{channel, At(record, "/extension/test_after/rmse/" + Escaped(channel))}}}},
+      "test error", "/rmse");
   after.pointer = "/extension/test_after/rmse/" + Escaped(channel);
   const std::string unit = UnitOfChannel(channel);
   after.note = ErrorText(NumberAt(record, "/null/test/rmse/" + Escaped(channel)), unit) + " before";
@@ -201,9 +200,9 @@ void DiagnosisHeadline(const Json& record, Headline& out) {
                                "/extension/heldout_gain/nats_per_sample", "nats a sample", 3));
   const double low = NumberAt(record, "/extension/heldout_gain/ci95/0");
   const double high = NumberAt(record, "/extension/heldout_gain/ci95/1");
-  out.figures.back().note =
-      std::isnan(low) ? "too few hops for an interval"
-                      : "95 %: " + Significant(low, 3) + " to " + Significant(high, 3);
+  out.figures.back().note = std::isnan(low)
+                                ? "too few hops for an interval"
+                                : "95 %: " + Significant(low, 3) + " to " + Significant(high, 3);
 }
 
 void GaitHeadline(const Json& record, Headline& out) {
@@ -212,15 +211,15 @@ void GaitHeadline(const Json& record, Headline& out) {
   const double radius = NumberAt(record, "/spectral_radius");
   const bool stable = At(record, "/stable") == Json(true);
   const bool neutral = At(record, "/conserves_energy") == Json(true);
-  out.sentence =
-      fmt::format("The steady hop goes {} m/s with its apex at {} m", Significant(speed, 3),
-                  Significant(height, 3));
+  out.sentence = fmt::format("The steady hop goes {} m/s with its apex at {} m",
+                             Significant(speed, 3), Significant(height, 3));
   if (neutral)
     out.sentence += "; energy is conserved, so a change of it stays.";
   else if (stable)
-    out.sentence += fmt::format(" and is stable: a disturbance keeps {} % of its size from hop to "
-                                "hop, once the slowest part of it is left.",
-                                Significant(100.0 * radius, 3));
+    out.sentence += fmt::format(
+        " and is stable: a disturbance keeps {} % of its size from hop to "
+        "hop, once the slowest part of it is left.",
+        Significant(100.0 * radius, 3));
   else
     out.sentence += " and is unstable: a disturbance grows.";
   out.figures.push_back(Figure(record, "spectral radius", "/spectral_radius", ""));
@@ -258,9 +257,8 @@ void OptimizeHeadline(const Json& record, Headline& out) {
     out.figures.push_back(Figure(record, "objective", "/best/objective", ""));
   out.figures.push_back(Figure(record, "spectral radius", "/best/spectral_radius", ""));
   const double radius = NumberAt(record, "/before/spectral_radius");
-  out.figures.back().note =
-      std::isnan(radius) ? "before: " + std::string(kNotComputed)
-                         : "before: " + Significant(radius, 4);
+  out.figures.back().note = std::isnan(radius) ? "before: " + std::string(kNotComputed)
+                                               : "before: " + Significant(radius, 4);
   out.figures.push_back(Figure(record, "seeds that agree", "/agreeing_seeds", ""));
   out.figures.back().note = "of " + std::to_string(SizeAt(record, "/seeds"));
 }
@@ -285,9 +283,9 @@ void SweepHeadline(const Json& record, Headline& out) {
 }
 
 void SimulationHeadline(const Json& record, Headline& out) {
-  out.sentence = fmt::format("The hopper {}: {} hops in {} s.", TextAt(record, "/outcome_sentence"),
-                             At(record, "/hops").dump(),
-                             Significant(NumberAt(record, "/end_time_s"), 4));
+  out.sentence =
+      fmt::format("The hopper {}: {} hops in {} s.", TextAt(record, "/outcome_sentence"),
+                  At(record, "/hops").dump(), Significant(NumberAt(record, "/end_time_s"), 4));
   out.figures.push_back(Figure(record, "hops", "/hops", ""));
   out.figures.push_back(Figure(record, "ended at", "/end_time_s", "s"));
   const std::size_t apexes = SizeAt(record, "/apex_energies");
@@ -321,9 +319,9 @@ void ReproductionHeadline(const Json& record, Headline& out) {
     out.sentence = parts.empty() ? "The study was run anew."
                                  : Listed(parts) + " are reproduced with its own settings.";
   }
-  out.figures = {claims, tables,
-                 CountFigure("figures drawn anew", std::to_string(SizeAt(record, "/figures")),
-                             "/figures")};
+  out.figures = {
+      claims, tables,
+      CountFigure("figures drawn anew", std::to_string(SizeAt(record, "/figures")), "/figures")};
 }
 
 struct Kind {
@@ -349,14 +347,13 @@ Headline HeadlineOf(const Json& record) {
   const auto kind = std::find_if(kKinds.begin(), kKinds.end(),
                                  [&](const Kind& k) { return command == k.command; });
   const bool known = kind != kKinds.end();
-  out.title = (known ? kind->title : "hoplab " + command) + (subject.empty() ? "" : " of ") +
-              subject;
+  out.title =
+      (known ? kind->title : "hoplab " + command) + (subject.empty() ? "" : " of ") + subject;
   const bool failed = TextAt(record, "/status") == "failed";
   if (known) {
     kind->fill(record, out);
-  } else if (!failed) {
-    out.sentence = "hoplab " + command + (subject.empty() ? "" : " of " + subject) + ".";
   }
+  if (out.sentence.empty()) out.sentence = out.title + ".";
   if (failed) {  // an interrupted run may have a result all the same
     const std::string message = TextAt(record, "/message");
     out.sentence = message.empty() ? "The run failed." : message + ".";

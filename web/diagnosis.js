@@ -41,9 +41,11 @@ function ladderPlot(candidates) {
     const penalty = run.penalty_nats;
     return {traces, layout: {
       xaxis: {type: 'log', dtick: 1, title: {text: 'gain [nats], logarithmic'}},
-      yaxis: {categoryorder: 'array', categoryarray: shown.map(causeText).reverse(), tickfont: {size: 12}, range: [-0.8, shown.length - 0.2]}, legend: {traceorder: 'normal'},
+      yaxis: {categoryorder: 'array', categoryarray: shown.map(causeText).reverse(), tickfont: {size: 12}, range: [-0.8, shown.length - 0.2], showticklabels: !narrow.matches}, legend: {traceorder: 'normal'},
+      // In a narrow window the names stand above their marks.
+      annotations: narrow.matches ? shown.map((c) => ({xref: 'paper', x: 0, xanchor: 'left', y: causeText(c), yanchor: 'bottom', text: causeText(c), showarrow: false, font: {size: 11}})) : [],
       shapes: isNumber(penalty) ? [{type: 'line', yref: 'paper', y0: 0, y1: 1, x0: penalty, x1: penalty, line: {color: colour('ink'), dash: 'dash', width: 1}}] : [],
-    }};
+    }, height: 120 + (narrow.matches ? 34 : 20) * shown.length};
   }, {height: 120 + 20 * shown.length});
 }
 
@@ -192,8 +194,7 @@ function diagnosisReport() {
   if (candidates.length) {
     const count = (status) => candidates.filter((c) => c.status === status).length;
     section('The evidence', paragraph(`${candidates.length} causes were tried: ${Object.keys(statusKinds).filter(count).map((s) => `${count(s)} ${words(s)}`).join(', ')}.`),
-      el('p', {class: 'legend'}, Object.entries(statusKinds).filter(([s]) => count(s)).map(([s, kind]) => swatch(`kind-${kind}`, statusMeaning[s]))),
-      ladderPlot(candidates), details('Table of all causes', ladderTable(candidates)));
+      ladderPlot(candidates), paragraph(`${Object.keys(statusMeaning).filter(count).map((s) => statusMeaning[s]).join('; ')}.`.replace(/^./, (c) => c.toUpperCase()), 'note'), details('Table of all causes', ladderTable(candidates)));
   }
   const cells = list(run.localisation);
   if (cells.length) {

@@ -6,8 +6,7 @@ function hopErrorPlot(hops) {
   const trials = hops.values('trial');
   const most = Math.max(...hops.column('hop')) + 1;
   return plot('Root-mean-square error hop by hop; a hop ends at the apex.', () => {
-    const gap = 0.04;
-    const share = (1 - gap * (channels.length - 1)) / channels.length;
+    const domains = panelDomains(channels.length, narrow.matches ? 0.12 : 0.04);
     const layout = {margin: {l: 56, r: 12, t: 34, b: 44}, annotations: []};
     const traces = channels.map((channel, i) => {
       const {name, unit} = splitUnit(channel);
@@ -16,13 +15,13 @@ function hopErrorPlot(hops) {
       for (const row of hops.where({channel}))
         z[trials.indexOf(hops.column('trial')[row])][hops.column('hop')[row]] = factor * hops.column('rmse')[row];
       const k = i ? String(i + 1) : '';
-      layout[`xaxis${k}`] = {domain: [i * (share + gap), i * (share + gap) + share], title: {text: 'hop'}, tickvals: [...Array(most).keys()], ticktext: [...Array(most).keys()].map((h) => h + 1), anchor: `y${k}`};
-      layout[`yaxis${k}`] = {autorange: 'reversed', showticklabels: i === 0, anchor: `x${k}`};
-      layout.annotations.push({text: withUnit(name, shown), xref: 'paper', yref: 'paper', x: i * (share + gap), xanchor: 'left', y: 1, yanchor: 'bottom', showarrow: false});
+      layout[`xaxis${k}`] = {domain: domains[i].x, title: {text: 'hop'}, tickvals: [...Array(most).keys()], ticktext: [...Array(most).keys()].map((h) => h + 1), anchor: `y${k}`};
+      layout[`yaxis${k}`] = {domain: domains[i].y, autorange: 'reversed', showticklabels: i === 0 || narrow.matches, anchor: `x${k}`};
+      layout.annotations.push({text: withUnit(name, shown), xref: 'paper', yref: 'paper', x: domains[i].x[0], xanchor: 'left', y: domains[i].y[1], yanchor: 'bottom', showarrow: false});
       return {type: 'heatmap', x: [...Array(most).keys()], y: trials, z, xaxis: `x${k}`, yaxis: `y${k}`, colorscale: sequential(), showscale: false, zmin: 0,
         xgap: 2, ygap: 2, texttemplate: '%{z:.3g}', hovertemplate: `%{y}, hop %{x}<br>${name} %{z:.3g} ${shown}<extra></extra>`};
     });
-    return {traces, layout};
+    return {traces, layout, height: (110 + 28 * Math.max(3, trials.length)) * (narrow.matches ? channels.length : 1)};
   }, {height: 110 + 28 * Math.max(3, trials.length)});
 }
 

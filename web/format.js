@@ -47,6 +47,13 @@ function intervalText(pair, factor) {
   return pair.map((v) => (v * factor).toFixed(decimals)).join(' to ');
 }
 
+// A setting: without the zeros at its end.
+const brief = (value, unit) => {
+  if (!isNumber(value)) return notComputed;
+  const readable = readableUnit(value, unit);
+  return `${Number((value * readable.factor).toPrecision(5))} ${readable.unit}`.trim();
+};
+
 const percent = (share, digits = 3) =>
   isNumber(share) ? `${significant(100 * share, digits)} %` : notComputed;
 
@@ -67,6 +74,12 @@ function splitUnit(name) {
 // How errors of a channel are shown: lengths in mm.
 function errorScale(unit) {
   return unit === 'm' ? {factor: 1e3, unit: 'mm'} : {factor: 1, unit};
+}
+
+// The last part of a dotted key with its unit: {name, unit}.
+function splitKey(key) {
+  const {name, unit} = splitUnit(key.split('.').pop());
+  return {name: words(name), unit};
 }
 
 const withUnit = (text, unit) => (unit ? `${text} [${unit}]` : text);

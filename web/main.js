@@ -5,26 +5,31 @@ const reports = {
   sweep: sweepReport, simulate: simulationReport, reproduce: reproductionReport,
 };
 
-function redraw() {
-  for (const each of plots) if (each.shown) each.show();
+// Draws every plot; the page says when all of them stand, and in which colours.
+async function drawAll() {
+  delete document.body.dataset.ready;
+  await showPlots();
+  document.body.dataset.scheme = darkScheme.matches ? 'dark' : 'light';
+  document.body.dataset.ready = 'yes';
 }
 
 async function start() {
   (reports[run.command] ?? runDetails)();
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
+  for (const query of [darkScheme, narrow]) query.addEventListener('change', drawAll);
   const folded = () => [...document.querySelectorAll('details:not([open])')];
   let opened = [];
   addEventListener('beforeprint', () => {
     opened = folded().filter((d) => !d.closest('footer'));
     for (const d of opened) d.open = true;
-    redraw();
+    document.documentElement.dataset.print = 'yes'; // dark colours do not go on paper
+    for (const each of plots) each.show(); // at once: printing does not wait
   });
   addEventListener('afterprint', () => {
     for (const d of opened) d.open = false;
-    redraw();
+    delete document.documentElement.dataset.print;
+    drawAll();
   });
-  await showPlots();
-  document.body.dataset.ready = 'yes';
+  await drawAll();
 }
 
 start().catch((error) => {

@@ -33,14 +33,16 @@ function mapPlot() {
     z[i][j] = isNumber(value) ? value : null;
     said[i][j] = verdict === 'run ended' ? words(map.column('outcome')[row]) : verdict;
   }
+  const [across, up] = [first, second].map(splitKey);
+  const place = `${across.name} %{x:.4g} ${across.unit}<br>${up.name} %{y:.4g} ${up.unit}`;
   const mark = (point, name, symbol) => ({x: [point[0]], y: [point[1]], mode: 'markers', name, marker: {symbol, size: 13, color: colour('paper'), line: {color: colour('ink'), width: 2}},
-    hovertemplate: `${first} %{x:.4g}<br>${second} %{y:.4g}<extra>${name}</extra>`});
+    hovertemplate: `${place}<extra>${name}</extra>`});
   const before = list(run.variables).map((v) => v.before);
   return plot(`The map of ${objectiveName()}${objectiveUnit() ? ` [${objectiveUnit()}]` : ''}, other variables at their best; blank where nothing settles.`, () => ({
     traces: [{type: 'heatmap', x: xs, y: ys, z, customdata: said, colorscale: downward(), hoverongaps: true, colorbar: {thickness: 12, title: {text: objectiveUnit()}},
-      hovertemplate: `${first} %{x:.4g}<br>${second} %{y:.4g}<br>%{z:.4g} ${objectiveUnit()}, %{customdata}<extra></extra>`},
+      hovertemplate: `${place}<br>%{z:.4g} ${objectiveUnit()}, %{customdata}<extra></extra>`},
     mark(best.map(([, v]) => v), 'best', 'star'), ...(before.length > 1 ? [mark(before, 'before', 'circle')] : [])],
-    layout: {xaxis: {title: {text: first}}, yaxis: {title: {text: second}}, showlegend: true},
+    layout: {xaxis: {title: {text: withUnit(across.name, across.unit)}}, yaxis: {title: {text: withUnit(up.name, up.unit)}}, showlegend: true},
   }), {height: 420});
 }
 
@@ -57,7 +59,7 @@ function robustnessTable(robustness) {
 function searchTable() {
   const value = (point, key, unit) => (point ? quantity(point[key], unit) : notComputed);
   return dataTable(['', 'before', 'best', 'searched'], [
-    ...list(run.variables).map((v) => [v.name, significant(v.before), significant(run.best?.parameters?.[v.name]), `${significant(v.low)} to ${significant(v.high)}`]),
+    ...list(run.variables).map((v) => [withUnit(splitKey(v.name).name, splitKey(v.name).unit), significant(v.before), significant(run.best?.parameters?.[v.name]), `${significant(v.low)} to ${significant(v.high)}`]),
     ...[['convergence time', 'convergence_time_s', 's'], ['steady speed', 'steady_speed_m_per_s', 'm/s'], ['spectral radius', 'spectral_radius', ''], ['greatest torque', 'max_torque_N_m', 'N m'], ['ground clearance', 'clearance_m', 'm']]
       .map(([name, key, unit]) => [name, value(run.before, key, unit), value(run.best, key, unit), ''])], 'lrrr');
 }

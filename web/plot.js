@@ -58,6 +58,15 @@ async function showPlots() {
   }
 }
 
+// Where the panels of a plot lie: side by side, in a narrow window one below the other.
+function panelDomains(count, gap) {
+  const share = (1 - gap * (count - 1)) / count;
+  return Array.from({length: count}, (_, i) => {
+    const from = i * (share + gap);
+    return narrow.matches ? {x: [0, 1], y: [Math.max(0, 1 - from - share), 1 - from]} : {x: [from, from + share], y: [0, 1]};
+  });
+}
+
 // Bands of the modes and lines of the events of a run, as shapes of a plot.
 function modeBands(segments, events) {
   const bands = segments.filter((s) => s.mode !== 'flight').map((s) => ({

@@ -15,10 +15,10 @@ const badge = (verdict) => el('span', {class: `status ${verdictKinds[verdict] ??
 
 // {name: value}, or a list of {name, value, unit}, as "E = 22 GPa, d = 3 N s/m".
 function settingsText(settings) {
-  if (Array.isArray(settings)) return settings.map((s) => `${words(s.name)} ${isNumber(s.value) ? quantity(s.value, s.unit) : notComputed}`).join(', ');
+  if (Array.isArray(settings)) return settings.map((s) => `${words(s.name)} ${brief(s.value, s.unit)}`).join(', ');
   return entries(settings).filter(([, v]) => v !== null && typeof v !== 'object').map(([key, v]) => {
     const {name, unit} = splitUnit(key);
-    return `${words(name)} ${isNumber(v) ? quantity(v, unit) : v}`;
+    return `${words(name)} ${isNumber(v) ? brief(v, unit) : v}`;
   }).join(', ');
 }
 
@@ -48,27 +48,30 @@ function comparisonMaps(name, numbers) {
   const apart = Math.max(...numbers.map((n) => Math.abs((n.ours ?? NaN) - (n.published ?? NaN))).filter(isNumber), 1e-12);
   return plot(`${name} [${unit}]: as published, ours, and the difference; blank where there is none.`, () => {
     const layout = {margin: {l: 56, r: 12, t: 34, b: 48}, annotations: []};
+    const domains = panelDomains(3, narrow.matches ? 0.1 : 0.035);
     const traces = panels.map(([title, value], i) => {
       const k = i ? String(i + 1) : '';
-      const [from, to] = [i * 0.345, i * 0.345 + 0.31];
-      layout[`xaxis${k}`] = {domain: [from, to], type: 'category', title: {text: atLabel(numbers[0].at[0])}, anchor: `y${k}`};
-      layout[`yaxis${k}`] = {type: 'category', title: {text: i ? '' : atLabel(numbers[0].at[1])}, showticklabels: i === 0, anchor: `x${k}`};
-      layout.annotations.push({text: title, xref: 'paper', yref: 'paper', x: from, xanchor: 'left', y: 1, yanchor: 'bottom', showarrow: false});
+      const labelled = narrow.matches ? i === 2 : i === 1;
+      layout[`xaxis${k}`] = {domain: domains[i].x, type: 'category', title: {text: labelled ? atLabel(numbers[0].at[0]) : ''}, anchor: `y${k}`};
+      layout[`yaxis${k}`] = {domain: domains[i].y, type: 'category', title: {text: i ? '' : atLabel(numbers[0].at[1])}, showticklabels: i === 0 || narrow.matches, anchor: `x${k}`};
+      layout.annotations.push({text: title, xref: 'paper', yref: 'paper', x: domains[i].x[0], xanchor: 'left', y: domains[i].y[1], yanchor: 'bottom', showarrow: false});
       const scale = i === 2 ? {colorscale: diverging(), zmin: -apart, zmax: apart} : {colorscale: sequential(), zmin: Math.min(...all), zmax: Math.max(...all)};
-      return {type: 'heatmap', x: first.map((v) => significant(v, 3)), y: second.map((v) => significant(v, 3)), z: grid(value), xaxis: `x${k}`, yaxis: `y${k}`, ...scale, showscale: false, xgap: 2, ygap: 2,
-        texttemplate: first.length < 8 ? '%{z:.3g}' : '', hovertemplate: `${words(numbers[0].at[0].name)} %{x} ${numbers[0].at[0].unit}, ${words(numbers[0].at[1].name)} %{y} ${numbers[0].at[1].unit}<br>%{z:.4g} ${unit}<extra>${title}</extra>`};
+      return {type: 'heatmap', x: first.map((v) => brief(v)), y: second.map((v) => brief(v)), z: grid(value), xaxis: `x${k}`, yaxis: `y${k}`, ...scale, showscale: false, xgap: 2, ygap: 2,
+        texttemplate: first.length < 8 ? (i === 2 ? '%{z:.2g}' : '%{z:.3g}') : '', hovertemplate: `${words(numbers[0].at[0].name)} %{x} ${numbers[0].at[0].unit}, ${words(numbers[0].at[1].name)} %{y} ${numbers[0].at[1].unit}<br>%{z:.4g} ${unit}<extra>${title}</extra>`};
     });
-    return {traces, layout};
+    return {traces, layout, height: (150 + 34 * second.length) * (narrow.matches ? 2.2 : 1)};
   }, {height: 150 + 34 * second.length});
 }
 
 function comparisonLines(name, numbers) {
   const {unit} = numbers[0];
-  const x = numbers.map((n) => n.at[0]?.value);
+  const at = numbers[0].at[0] ?? {name: '', unit: ''};
+  const scale = readableUnit(at.value, at.unit);
+  const x = numbers.map((n) => n.at[0]?.value * scale.factor);
   const line = (key, title, kind, symbol) => ({x, y: numbers.map((n) => n[key]), mode: 'lines+markers', name: title, marker: {symbol, size: 8}, line: {color: colour(kind)},
-    hovertemplate: `%{x:.4g} ${numbers[0].at[0]?.unit ?? ''}: %{y:.4g} ${unit}<extra>${title}</extra>`});
+    hovertemplate: `%{x:.4g} ${scale.unit}: %{y:.4g} ${unit}<extra>${title}</extra>`});
   return plot(`${name}, as published and ours.`, () => ({traces: [line('published', 'published', 'two', 'diamond'), line('ours', 'ours', 'one', 'circle')],
-    layout: {xaxis: {title: {text: atLabel(numbers[0].at[0] ?? {name: ''})}}, yaxis: {title: {text: withUnit(name, unit)}}}}), {height: 300});
+    layout: {xaxis: {title: {text: withUnit(words(at.name), scale.unit)}}, yaxis: {title: {text: withUnit(name, unit)}}}}), {height: 300});
 }
 
 function tablePart(t) {

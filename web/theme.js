@@ -3,6 +3,9 @@
 const style = () => getComputedStyle(document.documentElement);
 const colour = (name) => style().getPropertyValue(`--${name}`).trim();
 
+const darkScheme = matchMedia('(prefers-color-scheme: dark)');
+const narrow = matchMedia('(max-width: 600px)');
+
 const modeColours = {rolling: 'rolling', toe: 'toe', stance: 'rolling', flight: 'flight'};
 
 // Sequential and diverging scales that read in black and white and with any colour vision.
