@@ -84,7 +84,8 @@ for (const [kind, expected] of Object.entries(kinds)) {
       await page.mouse.move(place.x - 3, place.y);
       await page.mouse.move(place.x, place.y, {steps: 2});
       const label = await page.waitForSelector('.hoverlayer .hovertext', {timeout: 5000});
-      assert.match(await label.textContent(), expected.hover, place.caption);
+      const lines = await label.$$eval('text, tspan', (all) => all.map((line) => line.textContent).join(' '));
+      assert.match(lines, expected.hover, place.caption);
       await page.mouse.move(2, 2);
     });
 
