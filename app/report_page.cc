@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "app/report_headline.h"
 #include "app/report_table.h"
@@ -12,8 +14,8 @@
 namespace hoplab {
 namespace {
 
-// Cells a page may hold, of all its tables together: about 2.5 MB of the 6 a page may have.
-constexpr std::size_t kCells = 440000;
+// A page stays below 6 MB; what the scripts leave of this is for the tables.
+constexpr double kPageBytes = 5.7e6;
 // Longer lists of a record stand in its tables, too.
 constexpr std::size_t kLongList = 2000;
 
@@ -33,24 +35,35 @@ Json WithoutLongLists(Json record) {
   return record;
 }
 
-Json PackedTables(const std::map<std::string, std::string>& files) {
+// How many rows of each table fit into `bytes`: all of a small one, an equal share of the rest for
+// each of the large ones.
+std::map<std::string, std::size_t> RowsThatFit(const std::map<std::string, ReportTable>& tables,
+                                               double bytes) {
+  std::vector<std::pair<double, std::string>> by_size;
+  for (const auto& [name, table] : tables)
+    by_size.emplace_back(table.bytes_per_row() * static_cast<double>(table.rows()), name);
+  std::sort(by_size.begin(), by_size.end());
+  std::map<std::string, std::size_t> rows;
+  for (std::size_t i = 0; i < by_size.size(); ++i) {
+    const auto& [size, name] = by_size[i];
+    const ReportTable& table = tables.at(name);
+    const double share = std::min(size, bytes / static_cast<double>(by_size.size() - i));
+    bytes -= share;
+    rows[name] =
+        size <= share ? table.rows() : static_cast<std::size_t>(share / table.bytes_per_row());
+  }
+  return rows;
+}
+
+Json PackedTables(const std::map<std::string, std::string>& files, double bytes) {
   std::map<std::string, ReportTable> tables;
-  std::size_t cells = 0;
   for (const auto& [name, text] : files) {
-    if (!name.ends_with(".csv")) continue;
-    cells += tables.emplace(name.substr(0, name.size() - 4), ReportTable(name, text))
-                 .first->second.cells();
+    if (name.ends_with(".csv"))
+      tables.emplace(name.substr(0, name.size() - 4), ReportTable(name, text));
   }
   Json packed = Json::object();
-  for (const auto& [name, table] : tables) {
-    // Every table gives the same share of its rows where there are too many.
-    const std::size_t most = cells <= kCells ? table.rows()
-                                             : static_cast<std::size_t>(
-                                                   static_cast<double>(table.rows()) *
-                                                   static_cast<double>(kCells) /
-                                                   static_cast<double>(cells));
-    packed[name] = table.Packed(most);
-  }
+  for (const auto& [name, rows] : RowsThatFit(tables, bytes))
+    packed[name] = tables.at(name).Packed(rows);
   return packed;
 }
 
@@ -59,8 +72,8 @@ std::string FirmUnits(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool firm = text[i] == ' ' && i > 0 && i + 1 < text.size() && text[i - 1] >= '0' &&
-                      text[i - 1] <= '9' && (std::isalpha(static_cast<unsigned char>(text[i + 1])) ||
-                                             text[i + 1] == '%');
+                      text[i - 1] <= '9' &&
+                      (std::isalpha(static_cast<unsigned char>(text[i + 1])) || text[i + 1] == '%');
     out += firm ? "&nbsp;" : std::string(1, text[i]);
   }
   return out;
@@ -90,7 +103,9 @@ bool HasSurfaces(const Json& record) {
   const auto figures = record.find("figures");
   return figures != record.end() && figures->is_array() &&
          std::any_of(figures->begin(), figures->end(), [](const Json& figure) {
-           return figure.is_object() && figure.value("kind", "") == "surface";
+           // One value over a plane is a map.
+           return figure.is_object() && figure.value("kind", "") == "surface" &&
+                  figure.value("columns", Json::array()).size() > 3;
          });
 }
 
@@ -151,27 +166,27 @@ std::string HtmlText(const std::string& text) {
 
 std::string ReportPage(const Json& record, const std::map<std::string, std::string>& files) {
   const Headline headline = HeadlineOf(record);
+  const std::string plotting_3d(HasSurfaces(record) ? WebAsset("plotly-3d.js") : "");
+  const std::string run = ScriptJson(WithoutLongLists(record));
+  const auto taken = static_cast<double>(WebAsset("plotly.js").size() + plotting_3d.size() +
+                                         WebAsset("report.js").size() + run.size());
   const auto asset = [](const char* name) {
     return [name] { return std::string(WebAsset(name)); };
   };
-  const auto text = [](std::string value) {
-    return [value = std::move(value)] { return value; };
-  };
-  return Filled(
-      WebAsset("page.html"),
-      {{"title", text(HtmlText(headline.title))},
-       {"sentence", text(FirmUnits(HtmlText(headline.sentence)))},
-       {"figures", text(FiguresHtml(record, headline))},
-       {"status", text(HtmlText(record.value("status", "")))},
-       {"style", asset("report.css")},
-       {"plotting", asset("plotly.js")},
-       {"plotting_3d",
-        [&] { return HasSurfaces(record) ? std::string(WebAsset("plotly-3d.js")) : ""; }},
-       {"script", asset("report.js")},
-       {"run", [&] { return ScriptJson(WithoutLongLists(record)); }},
-       {"tables", [&] { return ScriptJson(PackedTables(files)); }},
-       {"plotting_license", text(HtmlText(std::string(WebAsset("plotly-license.txt"))))},
-       {"license", text(HtmlText(std::string(WebAsset("hoplab-license.txt"))))}});
+  const auto text = [](std::string value) { return [value = std::move(value)] { return value; }; };
+  return Filled(WebAsset("page.html"),
+                {{"title", text(HtmlText(headline.title))},
+                 {"sentence", text(FirmUnits(HtmlText(headline.sentence)))},
+                 {"figures", text(FiguresHtml(record, headline))},
+                 {"status", text(HtmlText(record.value("status", "")))},
+                 {"style", asset("report.css")},
+                 {"plotting", asset("plotly.js")},
+                 {"plotting_3d", text(plotting_3d)},
+                 {"script", asset("report.js")},
+                 {"run", text(run)},
+                 {"tables", [&] { return ScriptJson(PackedTables(files, std::max(0.0, kPageBytes - taken))); }},
+                 {"plotting_license", text(HtmlText(std::string(WebAsset("plotly-license.txt"))))},
+                 {"license", text(HtmlText(std::string(WebAsset("hoplab-license.txt"))))}});
 }
 
 }  // namespace hoplab

@@ -12,7 +12,8 @@ namespace hoplab {
 /// InputError for a CSV that is no table.
 std::string ReportPage(const Json& record, const std::map<std::string, std::string>& files);
 
-/// JSON fit to stand in a script element: no `<`, so that no `</script` or `<!--` can end or hide it.
+/// JSON fit to stand in a script element: no `<`, so that no `</script` or `<!--` can end or hide
+/// it.
 std::string ScriptJson(const Json& value);
 
 /// `text` as the content of an element or a quoted attribute.

@@ -53,8 +53,8 @@ class CsvReader {
     while (true) {
       const std::size_t quote = rest_.find('"');
       if (quote == rest_.npos)
-        throw InputError({file_ + ":" + std::to_string(line_), "",
-                          "a quoted cell has no end", "Write the run anew."});
+        throw InputError({file_ + ":" + std::to_string(line_), "", "a quoted cell has no end",
+                          "Write the run anew."});
       cell.append(rest_.substr(0, quote));
       rest_.remove_prefix(quote + 1);
       if (!rest_.starts_with('"')) return;
@@ -144,6 +144,13 @@ ReportTable::ReportTable(const std::string& file, std::string_view text) {
   }
 }
 
+double ReportTable::bytes_per_row() const {
+  constexpr double kNumber = 4.0 * 4.0 / 3.0, kWord = 2.0 * 4.0 / 3.0;  // in base64
+  double bytes = 0.0;
+  for (const Column& column : columns_) bytes += column.of_words ? kWord : kNumber;
+  return bytes;
+}
+
 const ReportTable::Column* ReportTable::Find(std::string_view name) const {
   for (std::size_t c = 0; c < names_.size(); ++c) {
     if (names_[c] == name) return &columns_[c];
@@ -170,6 +177,7 @@ std::vector<std::vector<std::size_t>> ReportTable::Series() const {
 }
 
 std::vector<std::size_t> ReportTable::Thinned(std::size_t most) const {
+  most = std::max<std::size_t>(most, 2);
   std::vector<std::size_t> kept;
   if (rows_ <= most) {
     for (std::size_t row = 0; row < rows_; ++row) kept.push_back(row);
@@ -180,12 +188,15 @@ std::vector<std::size_t> ReportTable::Thinned(std::size_t most) const {
     const Column* column = Find(name);
     if (!telling && column && !column->of_words) telling = column;
   }
-  const std::size_t stretch = 2 * rows_ / std::max<std::size_t>(most, 2) + 1;
+  for (auto c = columns_.rbegin(); !telling && c != columns_.rend(); ++c) {
+    if (!c->of_words) telling = &*c;
+  }
+  const std::size_t stretch = 2 * rows_ / most + 1;
   for (const std::vector<std::size_t>& series : Series()) {
     for (std::size_t begin = 0; begin < series.size(); begin += stretch) {
       const auto first = series.begin() + static_cast<std::ptrdiff_t>(begin);
-      const auto last = series.begin() +
-                        static_cast<std::ptrdiff_t>(std::min(begin + stretch, series.size()));
+      const auto last =
+          series.begin() + static_cast<std::ptrdiff_t>(std::min(begin + stretch, series.size()));
       kept.push_back(*first);
       if (telling) {
         const auto less = [&](std::size_t a, std::size_t b) {

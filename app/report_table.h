@@ -17,7 +17,8 @@ class ReportTable {
   ReportTable(const std::string& file, std::string_view text);
 
   std::size_t rows() const { return rows_; }
-  std::size_t cells() const { return rows_ * names_.size(); }
+  /// Of a row in a page, about.
+  double bytes_per_row() const;
 
   /// The rows to show, ascending: all of them, or about `most`. Of each stretch of a series (a
   /// trial's channel, say) those with the least and the greatest value that matters are kept, the

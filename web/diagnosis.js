@@ -158,16 +158,24 @@ function groupPart() {
       : paragraph(search ? `No trial was found that would settle it; the best of ${search.designs_tried} tried, ${search.description}, is expected to bring ${significant(search.expected_nats, 3)} nats.` : 'No trial was looked for.'));
 }
 
+function forcePlot(force, points) {
+  const p = isNumber(force.p_value) ? `, p = ${significant(force.p_value, 2)}` : '';
+  return plot(`${force.name.replace(/^./, (c) => c.toUpperCase())}${p}.`, () => ({
+    traces: [{x: points.map((q) => q.at), y: points.map((q) => q.value), mode: 'lines+markers', line: {color: colour('one')},
+      error_y: {type: 'data', array: points.map((q) => q.band95), color: colour('one'), thickness: 1.5},
+      hovertemplate: `%{x:.4g}: %{y:.4g} ${force.unit}<extra>${force.name}</extra>`}],
+    layout: {xaxis: {title: {text: force.against ?? ''}}, yaxis: {title: {text: `[${force.unit}]`}, zeroline: true}, showlegend: false},
+  }), {height: 230});
+}
+
 function forcesPart() {
-  const forces = list(run.free_forces).filter((f) => list(f.points).length);
+  const forces = list(run.free_forces).map((f) => ({...f, seen: list(f.points).filter((p) => isNumber(p.value))})).filter((f) => f.seen.length);
   if (!forces.length) return undefined;
-  return section('What the missing part looks like', paragraph('Free forces, impulses and offsets, fitted to what the catalogue leaves; the band is 95 %.'),
-    ...forces.slice(0, 6).map((f) => plot(`${f.name}${f.unit ? ` [${f.unit}]` : ''}${isNumber(f.p_value) ? `, p = ${significant(f.p_value, 2)}` : ''}.`, () => ({
-      traces: [{x: f.points.map((p) => p.at), y: f.points.map((p) => p.value), mode: 'lines+markers', line: {color: colour('one')},
-        error_y: {type: 'data', array: f.points.map((p) => p.band95), color: colour('one'), thickness: 1.5},
-        hovertemplate: `%{x:.4g}: %{y:.4g} ${f.unit}<extra>${f.name}</extra>`}],
-      layout: {xaxis: {title: {text: f.against ?? ''}}, yaxis: {title: {text: withUnit('', f.unit).trim() || f.unit}, zeroline: true}, showlegend: false},
-    }), {height: 260})));
+  const curves = forces.filter((f) => f.seen.filter((p) => isNumber(p.at)).length > 1);
+  const single = forces.filter((f) => !curves.includes(f));
+  return section('What the missing part looks like', paragraph('Free forces, impulses and offsets, fitted to what the model leaves; the bands are 95 %.'),
+    el('div', {class: 'pair'}, curves.slice(0, 8).map((f) => forcePlot(f, f.seen.filter((p) => isNumber(p.at))))),
+    single.length ? dataTable(['', 'value', '95 %', 'p'], single.map((f) => [f.name, quantity(f.seen[0].value, f.unit, 3), `± ${quantity(f.seen[0].band95, f.unit, 2)}`, significant(f.p_value, 2)]), 'lrrr') : undefined);
 }
 
 function diagnosisReport() {

@@ -51,13 +51,6 @@ function plot(caption, draw, options) { return new Plot(caption, draw, options).
 
 const nextFrame = () => new Promise((resolve) => { setTimeout(resolve, 0); });
 
-async function showPlots() {
-  for (const each of plots) {
-    await each.show();
-    await nextFrame();
-  }
-}
-
 // Where the panels of a plot lie: side by side, in a narrow window one below the other.
 function panelDomains(count, gap) {
   const share = (1 - gap * (count - 1)) / count;

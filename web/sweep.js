@@ -27,7 +27,7 @@ function sweepLines(x, z, second, ended) {
   const groups = second ? distinct(second.values) : [undefined];
   return groups.map((value, i) => {
     const rows = x.values.map((_, row) => row).filter((row) => !second || second.values[row] === value).sort((a, b) => x.values[a] - x.values[b]);
-    const name = second ? `${second.title.text.replace(/ \[.*/, '')} = ${significant(value)} ${second.unit}` : '';
+    const name = second ? `${second.title.text.replace(/ \[.*/, '')} = ${brief(value)} ${second.unit}${rows.some((r) => isNumber(z.values[r])) ? '' : ` (${notComputed})`}` : '';
     return {x: rows.map((r) => x.values[r]), y: rows.map((r) => z.values[r]), customdata: rows.map((r) => ended[r]), mode: 'lines+markers', name, line: {color: colour(kinds[i % 6])},
       hovertemplate: `%{x:.5g} ${x.unit}: %{y:.5g} ${z.unit}<br>%{customdata}<extra>${name}</extra>`};
   });
@@ -62,10 +62,14 @@ function sweepPlot(rows, output, varied) {
 function sweepTable(rows) {
   const names = rows.names.filter((n) => n !== 'reason' || rows.values('reason').some((r) => typeof r === 'string' && r));
   const shown = Math.min(rows.rows, 60);
-  const cell = (name, row) => { const v = rows.column(name)[row]; return typeof v === 'number' ? (Number.isNaN(v) ? '' : significant(v, 5)) : v; };
-  return el('div', {}, dataTable(names.map((n) => withUnit(words(shortName(n)), list(run.columns).find((c) => c.name === n)?.unit ?? '')),
-    Array.from({length: shown}, (_, row) => names.map((n) => cell(n, row))), names.map((n) => (ArrayBuffer.isView(rows.column(n)) ? 'r' : 'l')).join('')),
-  paragraph(rows.allRows > shown ? `The first ${shown} of ${rows.allRows} rows; all are in rows.csv. An empty cell was not computed.` : 'An empty cell was not computed.', 'note'));
+  const columns = names.map((name) => {
+    const column = list(run.columns).find((c) => c.name === name) ?? {name, unit: ''};
+    if (!ArrayBuffer.isView(rows.column(name))) return {title: words(shortName(name)), cells: rows.column(name).map(words), align: 'l'};
+    const {values, title} = scaledColumn(rows, column);
+    return {title: title.text, cells: values.map((v) => (isNumber(v) ? brief(v) : '')), align: 'r'};
+  });
+  return el('div', {}, dataTable(columns.map((c) => c.title), Array.from({length: shown}, (_, row) => columns.map((c) => c.cells[row])), columns.map((c) => c.align).join('')),
+    paragraph(rows.allRows > shown ? `The first ${shown} of ${rows.allRows} rows; all are in rows.csv. An empty cell was not computed.` : 'An empty cell was not computed.', 'note'));
 }
 
 function sweepReport() {

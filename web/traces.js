@@ -28,7 +28,7 @@ function tracePanels(residuals, trial, models) {
   const gap = 0.035;
   const share = (1 - gap * (2 * channels.length - 1)) / channels.length;
   const traces = [];
-  const layout = {margin: {l: 64, r: 12, t: 12, b: 44}, legend: {y: 1.0}, shapes: [], annotations: []};
+  const layout = {margin: {l: 64, r: 12, t: 12, b: 44}, legend: {y: 1.0, itemsizing: 'constant'}, shapes: [], annotations: []};
   let top = 1;
   let begin = Infinity;
   let end = -Infinity;

@@ -73,7 +73,7 @@ TEST(ReportPage, SurfacesAloneBringTheSecondLibrary) {
   Json record = SmallFit();
   record["figures"] = {{{"name", "a"}, {"kind", "lines"}}};
   const std::size_t flat = ReportPage(record, {}).size();
-  record["figures"].push_back({{"name", "b"}, {"kind", "surface"}});
+  record["figures"].push_back({{"name", "b"}, {"kind", "surface"}, {"columns", {1, 2, 3, 4}}});
   const std::size_t both = ReportPage(record, {}).size();
   EXPECT_GT(both, flat + WebAsset("plotly-3d.js").size());
 }
@@ -93,7 +93,8 @@ TEST(ReportPage, OfALongRunIsBelowSixMegabytesAndWrittenInASecond) {
     }
   }
   Json record = SmallFit();
-  record["figures"] = {{{"name", "b"}, {"kind", "surface"}}};  // with both libraries
+  record["figures"] = {
+      {{"name", "b"}, {"kind", "surface"}, {"columns", {1, 2, 3, 4}}}};  // with both libraries
   record["starts"] = Json(std::vector<Json>(10000, {{"cost", 1.25}, {"status", "converged"}}));
   const std::map<std::string, std::string> files = {{"residuals.csv", residuals.text()},
                                                     {"trajectories.csv", trajectories.text()}};
