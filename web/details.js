@@ -31,13 +31,14 @@ function startsPart() {
 }
 
 function runDetails(...more) {
+  const options = run.options ?? {};
   const versions = [['hoplab', run.version], ...entries(run.tools)];
   const remarks = [...list(run.warnings), ...list(run.notes), ...list(run.sentences?.remarks)];
   section('Details',
     remarks.length ? el('div', {class: 'remarks'}, el('h3', {}, 'Remarks'), el('ul', {}, remarks.map((r) => el('li', {}, r)))) : undefined,
     ...more,
     el('h3', {}, 'Settings'), definitionList([
-      ...(run.law ? [['law', words(run.law)]] : []), ...(run.seed !== null && run.seed !== undefined ? [['seed', String(run.seed)]] : []),
+      ...(run.law && !options.law ? [['law', words(run.law)]] : []), ...(isNumber(run.seed) && options.seed === undefined ? [['seed', String(run.seed)]] : []),
       ...settingRows(run.options), ['computed in', quantity(run.seconds, 's', 3)]]),
     el('h3', {}, 'Versions'), definitionList(versions),
     tables.size ? el('h3', {}, 'Tables behind the plots') : undefined,

@@ -72,14 +72,19 @@ function localisationPlot(cells) {
 }
 
 function misfitBars(parts, key, caption) {
+  const most = 20;
   const shown = parts.filter((p) => isNumber(p.share));
   if (shown.length < 2) return undefined;
-  const labels = shown.map((p) => (key === 'hop' ? `hop ${p.hop + 1}` : p[key]));
-  return plot(caption, () => ({
-    traces: [{type: 'bar', x: labels, y: shown.map((p) => 100 * p.share), marker: {color: colour('one')},
-      hovertemplate: '%{x}: %{y:.3g} %<extra></extra>'}],
-    layout: {bargap: 0.55, yaxis: {title: {text: 'share of the misfit [%]'}, rangemode: 'tozero'}},
-  }), {height: 230});
+  const label = (p) => (key === 'hop' ? `hop ${p.hop + 1}` : p[key]);
+  const many = shown.length > 6; // then across, the largest first
+  const bars = many ? [...shown].sort((a, b) => b.share - a.share).slice(0, most) : shown;
+  const [labels, shares] = [bars.map(label), bars.map((p) => 100 * p.share)];
+  const axis = {title: {text: 'share of the misfit [%]'}, rangemode: 'tozero'};
+  return plot(shown.length > most ? `${caption} The ${most} largest of ${shown.length}.` : caption, () => ({
+    traces: [{type: 'bar', ...(many ? {orientation: 'h', x: shares, y: labels} : {x: labels, y: shares}), marker: {color: colour('one')},
+      hovertemplate: many ? '%{y}: %{x:.3g} %<extra></extra>' : '%{x}: %{y:.3g} %<extra></extra>'}],
+    layout: many ? {xaxis: axis, yaxis: {autorange: 'reversed'}, bargap: 0.4} : {yaxis: axis, bargap: 0.55},
+  }), {height: many ? 90 + 18 * bars.length : 230});
 }
 
 function evidencePlot() {
@@ -154,7 +159,7 @@ function groupPart() {
     ...groups.map((group) => dataTable(['cause', 'behind the best by [nats]', 'with'], group.map((m) => [m.only_in_trial ? `${m.effect} (${m.only_in_trial} only)` : m.effect,
       significant(m.nats_behind, 3), list(m.with).join(', ')]), 'lrl', 'Causes that do equally well')),
     el('h3', {}, 'The trial to record next'),
-    proposed ? paragraph(`${proposed.description}: expected to set the best apart from ${proposed.closest_rival} by ${significant(proposed.expected_nats, 3)} nats.`)
+    proposed ? paragraph(`${proposed.description.replace(/^./, (c) => c.toUpperCase())}: expected to set the best apart from ${proposed.closest_rival} by ${significant(proposed.expected_nats, 3)} nats.`)
       : paragraph(search ? `No trial was found that would settle it; the best of ${search.designs_tried} tried, ${search.description}, is expected to bring ${significant(search.expected_nats, 3)} nats.` : 'No trial was looked for.'));
 }
 
@@ -215,8 +220,10 @@ function diagnosisReport() {
     section('What it does to the rest', movementPart(list(extension?.movements)), energyPlot(run.energy));
   }
   const fitted = extension ? list(extension.parameters) : list(run.null?.parameters);
+  // Where something remains, the noise alone makes the intervals too narrow.
+  const apart = extension?.remainder?.p_value <= 0.01 && fitted.some((p) => Array.isArray(p.ci95_between_trials));
   if (fitted.length) {
-    section(extension ? 'The extended model' : 'The model as it is', parameterTable(fitted, false), intervalPlot(fitted, false),
+    section(extension ? 'The extended model' : 'The model as it is', parameterTable(fitted, apart), intervalPlot(fitted, apart),
       paragraph(run.sentences?.determined ? `Determined, before: ${run.sentences.determined}.` : ''),
       paragraph(extension?.remainder && isNumber(extension.remainder.p_value) ? `What is left after it: chance under noise alone ${extension.remainder.p_value < 0.001 ? 'below 0.001' : significant(extension.remainder.p_value, 2)}.` : ''));
   }

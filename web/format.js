@@ -9,7 +9,7 @@ function significant(value, digits = 4) {
   if (!isNumber(value)) return notComputed;
   const size = Math.abs(value);
   if (size === 0) return '0';
-  if (size >= 1e-4 && size < 1e6) {
+  if (size >= 1e-3 && size < 1e6) {
     const decimals = digits - 1 - Math.floor(Math.log10(size));
     return value.toFixed(Math.min(12, Math.max(0, decimals)));
   }
@@ -43,6 +43,7 @@ function decimalsFor(halfWidth) {
 
 function intervalText(pair, factor) {
   if (!Array.isArray(pair) || !isNumber(pair[0]) || !isNumber(pair[1])) return '';
+  if (Math.max(...pair.map(Math.abs)) * factor < 1e-3) return pair.map((v) => significant(v * factor)).join(' to ');
   const decimals = decimalsFor(0.5 * Math.abs(pair[1] - pair[0]) * factor);
   return pair.map((v) => (v * factor).toFixed(decimals)).join(' to ');
 }

@@ -9,7 +9,7 @@ function parameterRows(parameters, misfit) {
     const counted = wide ?? narrow;
     const decimals = counted ? decimalsFor(0.5 * (counted[1] - counted[0]) * factor) : undefined;
     const value = !isNumber(p.value) ? 'not determined'
-      : decimals === undefined ? significant(p.value * factor) : (p.value * factor).toFixed(decimals);
+      : decimals === undefined || Math.abs(p.value * factor) < 1e-3 ? significant(p.value * factor) : (p.value * factor).toFixed(decimals);
     return [p.name, value, unit, intervalText(p.ci95, factor) || 'none',
       misfit ? intervalText(p.ci95_between_trials, factor) || 'none' : undefined,
       significant(p.initial * factor), p.at_bound ? 'at a bound' : ''].filter((cell) => cell !== undefined);
