@@ -40,7 +40,7 @@ std::size_t SizeAt(const Json& record, const std::string& pointer) {
 }
 
 // A key as part of a pointer.
-std::string Escaped(std::string key) {
+std::string Escaped(const std::string& key) {
   std::string out;
   for (const char c : key) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
   return out;

@@ -31,7 +31,7 @@ before(async () => {
   makeRuns();
   browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync),
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+    args: ['--no-sandbox', '--disable-gpu'], // software drawing: the same everywhere
   });
 });
 after(() => browser?.close());
