@@ -166,6 +166,26 @@ void FitHeadline(const Json& record, Headline& out) {
   out.figures.back().note = "1 if only noise were left";
 }
 
+void CheckHeadline(const Json& record, Headline& out) {
+  const std::size_t warnings = SizeAt(record, "/warnings");
+  const std::size_t parameters = SizeAt(record, "/parameters");
+  const double rank = NumberAt(record, "/identifiability/rank");
+  const bool all = rank == static_cast<double>(parameters) &&
+                   SizeAt(record, "/identifiability/weak_directions") == 0;
+  out.sentence = warnings == 0   ? "Nothing looks odd in these traces"
+                 : warnings == 1 ? "One thing looks odd in these traces"
+                                 : fmt::format("{} things look odd in these traces", warnings);
+  out.sentence += std::isnan(rank) ? "; what they determine was not computed."
+                  : all            ? ", and they determine every parameter asked for."
+                                   : "; not every parameter asked for is well determined.";
+  out.figures.push_back(
+      CountFigure("trials", std::to_string(SizeAt(record, "/trials")), "/trials"));
+  out.figures.push_back(
+      Figure(record, "condition number", "/identifiability/condition_number", "", 2));
+  out.figures.push_back(
+      Figure(record, "derivatives agree to", "/gradient_check/max_relative_error", "", 2));
+}
+
 void DiagnosisHeadline(const Json& record, Headline& out) {
   out.sentence = TextAt(record, "/sentence");
   const std::string verdict = TextAt(record, "/verdict");
@@ -329,7 +349,8 @@ struct Kind {
   const char* title;
   void (*fill)(const Json&, Headline&);
 };
-constexpr std::array<Kind, 7> kKinds = {{{"fit", "Fit", FitHeadline},
+constexpr std::array<Kind, 8> kKinds = {{{"check", "Check", CheckHeadline},
+                                         {"fit", "Fit", FitHeadline},
                                          {"diagnose", "Diagnosis", DiagnosisHeadline},
                                          {"gait", "Gait", GaitHeadline},
                                          {"optimize", "Optimisation", OptimizeHeadline},

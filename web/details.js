@@ -33,7 +33,7 @@ function startsPart() {
 function runDetails(...more) {
   const options = run.options ?? {};
   const versions = [['hoplab', run.version], ...entries(run.tools)];
-  const remarks = [...list(run.warnings), ...list(run.notes), ...list(run.sentences?.remarks)];
+  const remarks = [...(run.command === 'check' ? [] : list(run.warnings)), ...list(run.notes), ...list(run.sentences?.remarks)];
   section('Details',
     remarks.length ? el('div', {class: 'remarks'}, el('h3', {}, 'Remarks'), el('ul', {}, remarks.map((r) => el('li', {}, r)))) : undefined,
     ...more,

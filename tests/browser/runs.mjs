@@ -13,6 +13,7 @@ export function makeRuns() {
   rmSync(out, {recursive: true, force: true});
   mkdirSync(out, {recursive: true});
   const scenario = (name) => join(source, 'experiments', `${name}.yaml`);
+  hoplab('check', join(source, 'datasets/rig-drops'), '--out', 'check');
   hoplab('fit', join(source, 'datasets/rig-drops'), '--profile', 'E', '--quiet', '--out', 'fit');
   hoplab('generate', scenario('three-drops'), '--with', 'air_drag:c_drag=0.05', '--seed', '7', '--out', 'windy');
   hoplab('diagnose', 'windy', '--effects', 'air_drag,guide_viscous_friction,ground_slope,sensor_delay', '--quiet', '--out', 'diagnose');
