@@ -87,8 +87,8 @@ std::string WorstChannel(const Json& record, const std::string& errors) {
     if (!value.is_number()) continue;
     double sigma = 1.0;
     for (const Json& channel : At(record, "/channels")) {
-      if (TextAt(channel, "/name") == name && channel.at("sigma").is_number())
-        sigma = channel.at("sigma").get<double>();
+      const double stated = NumberAt(channel, "/sigma");
+      if (TextAt(channel, "/name") == name && stated > 0.0) sigma = stated;
     }
     if (value.get<double>() / sigma > most) {
       most = value.get<double>() / sigma;
@@ -371,9 +371,7 @@ Headline HeadlineOf(const Json& record) {
   out.title =
       (known ? kind->title : "hoplab " + command) + (subject.empty() ? "" : " of ") + subject;
   const bool failed = TextAt(record, "/status") == "failed";
-  if (known) {
-    kind->fill(record, out);
-  }
+  if (known) kind->fill(record, out);
   if (out.sentence.empty()) out.sentence = out.title + ".";
   if (failed) {  // an interrupted run may have a result all the same
     const std::string message = TextAt(record, "/message");

@@ -104,8 +104,8 @@ bool HasSurfaces(const Json& record) {
   return figures != record.end() && figures->is_array() &&
          std::any_of(figures->begin(), figures->end(), [](const Json& figure) {
            // One value over a plane is a map.
-           return figure.is_object() && figure.value("kind", "") == "surface" &&
-                  figure.value("columns", Json::array()).size() > 3;
+           return figure.is_object() && figure.value("kind", Json()) == "surface" &&
+                  figure.value("columns", Json()).size() > 3;
          });
 }
 
@@ -174,19 +174,21 @@ std::string ReportPage(const Json& record, const std::map<std::string, std::stri
     return [name] { return std::string(WebAsset(name)); };
   };
   const auto text = [](std::string value) { return [value = std::move(value)] { return value; }; };
-  return Filled(WebAsset("page.html"),
-                {{"title", text(HtmlText(headline.title))},
-                 {"sentence", text(FirmUnits(HtmlText(headline.sentence)))},
-                 {"figures", text(FiguresHtml(record, headline))},
-                 {"status", text(HtmlText(record.value("status", "")))},
-                 {"style", asset("report.css")},
-                 {"plotting", asset("plotly.js")},
-                 {"plotting_3d", text(plotting_3d)},
-                 {"script", asset("report.js")},
-                 {"run", text(run)},
-                 {"tables", [&] { return ScriptJson(PackedTables(files, std::max(0.0, kPageBytes - taken))); }},
-                 {"plotting_license", text(HtmlText(std::string(WebAsset("plotly-license.txt"))))},
-                 {"license", text(HtmlText(std::string(WebAsset("hoplab-license.txt"))))}});
+  return Filled(
+      WebAsset("page.html"),
+      {{"title", text(HtmlText(headline.title))},
+       {"sentence", text(FirmUnits(HtmlText(headline.sentence)))},
+       {"figures", text(FiguresHtml(record, headline))},
+       {"status", text(record.value("status", Json()) == "failed" ? "failed" : "ok")},
+       {"style", asset("report.css")},
+       {"plotting", asset("plotly.js")},
+       {"plotting_3d", text(plotting_3d)},
+       {"script", asset("report.js")},
+       {"run", text(run)},
+       {"tables",
+        [&] { return ScriptJson(PackedTables(files, std::max(0.0, kPageBytes - taken))); }},
+       {"plotting_license", text(HtmlText(std::string(WebAsset("plotly-license.txt"))))},
+       {"license", text(HtmlText(std::string(WebAsset("hoplab-license.txt"))))}});
 }
 
 }  // namespace hoplab

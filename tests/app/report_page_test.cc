@@ -138,6 +138,23 @@ TEST(ReportHeadline, WhatIsMissingIsNotComputedAndNeverZero) {
   }
 }
 
+TEST(ReportPage, ARecordOfWrongTypesIsNoReasonToStop) {
+  for (const char* command :
+       {"check", "fit", "diagnose", "gait", "optimize", "sweep", "simulate", "reproduce"}) {
+    const Json record = {{"command", command},
+                         {"status", 3},
+                         {"parameters", 5},
+                         {"channels", {Json::object(), 1, "x"}},
+                         {"test", {{"rmse", {1}}}},
+                         {"best", {{"parameters", {{"kp", "much"}}}}},
+                         {"figures", {{{"kind", 2}}, 4}},
+                         {"rows", "none"},
+                         {"claims", {1, nullptr}},
+                         {"apex_energies", {{{"energy_J", "x"}}}}};
+    EXPECT_NO_THROW(ReportPage(record, {})) << command;
+  }
+}
+
 TEST(ReportHeadline, OfAFailedRunIsItsMessage) {
   Json record = {{"command", "gait"}, {"scenario", "steep"}, {"status", "failed"}};
   record["message"] = "no fixed point was found near the start";
