@@ -18,6 +18,21 @@ function motionOf(trajectory, rows) {
   };
 }
 
+// A motion that repeats itself, `times` over: the way on goes on, the rest is the same again.
+function repeated(motion, times) {
+  const last = motion.time.length - 1;
+  const [period, advance] = [motion.time[last] - motion.time[0], motion.x[last] - motion.x[0]];
+  const copies = (values, step) => Array.from({length: times}, (_, k) => Array.from(values, (v) => (step ? v + k * step : v))).flat();
+  const steps = {time: period, x: advance, contactX: advance};
+  return Object.fromEntries(Object.entries(motion).map(([name, values]) => [name, copies(values, steps[name])]));
+}
+
+// Steady hops of different length side by side, each repeated until the longest has been seen twice.
+function repeatedTogether(motions) {
+  const lengths = motions.map((m) => m.time[m.time.length - 1] - m.time[0]);
+  return motions.map((m, i) => repeated(m, Math.min(20, Math.ceil((2 * Math.max(...lengths)) / lengths[i]))));
+}
+
 // The state at a time: the row before it, hip and force moved on linearly within a mode.
 function stateAt(motion, time) {
   const times = motion.time;
@@ -214,7 +229,7 @@ class Animation {
       const [px, py] = view.point(x, x * slope);
       parts.push(svg('path', {d: `M${px} ${py}l-4 8`}));
       const label = svg('text', {x: px, y: this.height - 4});
-      label.textContent = `${x.toFixed(step < 0.1 ? 2 : 1)} m`;
+      label.textContent = `${(Math.round(x / step) * step + 0).toFixed(step < 0.1 ? 2 : 1)} m`;
       parts.push(label);
     }
     this.ground.replaceChildren(...parts);

@@ -50,7 +50,7 @@ function gaitReport() {
   }
   const moving = cycles ?? own;
   if (moving && run.mechanism) {
-    section('In motion', animationOf([{label: '', kind: 'after', mechanism: run.mechanism, motion: motionOf(moving, moving.where({}))}]), animationLegend(), paragraph(animationNote, 'note'));
+    section('In motion', animationOf([{label: '', kind: 'after', mechanism: run.mechanism, motion: cycles ? repeated(motionOf(cycles, cycles.where({})), 3) : motionOf(own, own.where({}))}]), animationLegend(), paragraph(animationNote, 'note'));
   }
   const apexes = list(run.apex_speeds);
   const effects = sensitivityPlot(run.d_spectral_radius, run.mechanism?.parameters);

@@ -64,6 +64,13 @@ function searchTable() {
       .map(([name, key, unit]) => [name, value(run.before, key, unit), value(run.best, key, unit), ''])], 'lrrr');
 }
 
+// The best gait in front, the one before behind it.
+function gaitsInMotion(cycles, sets) {
+  const names = sets.map(([name]) => name).reverse();
+  const motions = repeatedTogether(names.map((name) => motionOf(cycles, cycles.where({run: name}))));
+  return names.map((name, i) => ({label: name, kind: i ? 'before' : 'after', mechanism: run.mechanism, motion: motions[i]}));
+}
+
 function optimizeReport() {
   const gaits = run.gaits ?? {};
   section('Before and best', searchTable());
@@ -74,7 +81,7 @@ function optimizeReport() {
     section('The gaits', gaitTable([['before', gaits.before], ['best', gaits.best]]),
       multiplierPlot(sets.map(([name, kind, symbol]) => ({name, kind, symbol, values: gaits[name].multipliers})), 'Multipliers of the return map: inside the unit circle a disturbance dies out, the nearer to 0 the sooner.'),
       cycles ? phasePlot(sets.map(([name, kind]) => ({name, kind, trajectory: cycles, rows: cycles.where({run: name})})), 'The limit cycles.') : undefined,
-      cycles && run.mechanism ? animationOf([...sets].reverse().map(([name]) => ({label: name, kind: name === 'best' || sets.length === 1 ? 'after' : 'before', mechanism: run.mechanism, motion: motionOf(cycles, cycles.where({run: name}))}))) : undefined,
+      cycles && run.mechanism ? animationOf(gaitsInMotion(cycles, sets)) : undefined,
       animationLegend(sets.length > 1), paragraph(animationNote, 'note'));
   }
   section('Robustness', robustnessTable(run.robustness));
