@@ -13,6 +13,7 @@
 #include "app/commands/generate.h"
 #include "app/commands/laws.h"
 #include "app/commands/optimize.h"
+#include "app/commands/report.h"
 #include "app/commands/simulate.h"
 #include "app/commands/sweep.h"
 #include "app/commands/version.h"
@@ -44,6 +45,7 @@ class CommandLine {
     AddSweepCommand(app_, invocation_);
     AddSimulateCommand(app_, invocation_);
     AddGenerateCommand(app_, invocation_);
+    AddReportCommand(app_, invocation_);
     AddLawsCommand(app_, invocation_);
     AddEffectsCommand(app_, invocation_);
     AddVersionCommand(app_, invocation_);

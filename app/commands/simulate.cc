@@ -120,11 +120,12 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
 
   Json record = NewSimulationRecord(settings, scenario, request.law);
   AddSimulation(request, run, settings.sensitivities, record);
+  record["mechanism"] = MechanismRecord(request);
   const bool useless = IsUseless(run.outcome);
   if (useless) SetFailed(record, std::string(SentenceOf(run.outcome)));
-  CsvText trajectory(TrajectoryHeader(false)), events(EventHeader(false));
-  AddTrajectoryRows(request, kTrajectoryRate, "", 0.0, trajectory);
-  AddEventRows(run, "", 0.0, events);
+  CsvText trajectory(TrajectoryHeader({})), events(EventHeader({}));
+  AddTrajectoryRows(request, kTrajectoryRate, {}, 0.0, trajectory);
+  AddEventRows(run, {}, 0.0, events);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
   const std::filesystem::path written = folder.Write({{"run.json", TextOf(record)},
