@@ -13,6 +13,7 @@
 #include "app/commands/generate.h"
 #include "app/commands/laws.h"
 #include "app/commands/optimize.h"
+#include "app/commands/reproduce.h"
 #include "app/commands/simulate.h"
 #include "app/commands/sweep.h"
 #include "app/commands/version.h"
@@ -42,6 +43,7 @@ class CommandLine {
     AddGaitCommand(app_, invocation_);
     AddOptimizeCommand(app_, invocation_);
     AddSweepCommand(app_, invocation_);
+    AddReproduceCommand(app_, invocation_);
     AddSimulateCommand(app_, invocation_);
     AddGenerateCommand(app_, invocation_);
     AddLawsCommand(app_, invocation_);

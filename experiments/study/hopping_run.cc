@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/input_error.h"
 #include "experiments/leg_stiffness.h"
 
 namespace hoplab {
@@ -46,6 +47,21 @@ Scenario CLegScenario(const Study& study, const CaptionSettings& settings) {
 }
 
 }  // namespace
+
+Study StudyOfScenario(const Scenario& scenario, const IntegratorOptions& integrator) {
+  const std::string& place = scenario.origin.place;
+  if (scenario.mechanism.type != MechanismType::kCLeg)
+    throw InputError({place, "mechanism.type", "must be c_leg: the study's hopper has such a leg",
+                      "The straight leg beside it is made from its runs."});
+  if (!scenario.controller)
+    throw InputError({place, "", "must have the key controller",
+                      "Add controller: {kp_N_s: 3, v_des_m_per_s: 1.8}; runs without torque leave "
+                      "it out by themselves."});
+  RequireInitial(scenario);
+  Study study{scenario, integrator};
+  HopperOfScenario(scenario, integrator);  // laws and effects that do not exist are told now
+  return study;
+}
 
 Study WithLaw(const Study& study, Law law) {
   Study other = study;

@@ -17,6 +17,10 @@ struct Study {
   IntegratorOptions integrator;
 };
 
+/// Throws InputError for a scenario that cannot stand for the study: no half-circular leg, no
+/// start, no speed controller.
+Study StudyOfScenario(const Scenario& scenario, const IntegratorOptions& integrator);
+
 /// A straight leg in place of the half-circular one (thesis 6.3.4).
 struct StraightSpringLeg {
   double stiffness_N_per_m;

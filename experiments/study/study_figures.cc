@@ -1,11 +1,11 @@
 #include "experiments/study/study_figures.h"
 
 #include <algorithm>
-#include <array>
-#include <functional>
+#include <cctype>
+#include <cmath>
 
 #include "base/check.h"
-#include "base/text.h"
+#include "base/input_error.h"
 #include "base/units.h"
 
 namespace hoplab {
@@ -171,7 +171,13 @@ CaptionSettings StudyCaptions::Controlled(double damping) {
 
 CaptionSettings StudyCaptions::Straight(const Study& study, double damping) {
   CaptionSettings settings = Controlled(damping);
-  settings.straight = MeanLeg(RunHopping(HopperOfCaption(study, settings), kStanceStep));
+  const StraightSpringLeg leg = MeanLeg(RunHopping(HopperOfCaption(study, settings), kStanceStep));
+  if (std::isnan(leg.rest_length_m))
+    throw InputError(
+        {study.constants.origin.place, "",
+         "its half-circular leg never stands on the ground under the controller",
+         "The straight leg of figures 6.29 to 6.34 is the mean of that leg in stance."});
+  settings.straight = leg;
   return settings;
 }
 
