@@ -19,10 +19,14 @@ constexpr double kRoundoff = 1e-13;
 // Below this determinant psi_f turns more than a thousand times as fast as the input.
 constexpr double kSingularDeterminant = 1e-6;
 constexpr int kRootBits = 52;
+constexpr double kUpended = 1e-6;   // cosine of the pitch of a body that stands on end
 constexpr double kTouching = 1e-6;  // of a leg's diameter above the ground
 constexpr double kBeyond = 0.01;    // past a limit, to be stopped by it
 
 double Square(double x) { return x * x; }
+
+// Of the rear motor's angle by psi_r, M22.
+double MotorRate(const Pose& pose) { return 2.0 + pose.pitch_rate; }
 
 // The root of a function that changes sign in [low, high].
 template <class F>
@@ -125,7 +129,8 @@ PoseOutcome RollingPair::OutcomeOf(const Pose& pose) const {
   const double clearance = lower_hip - legs_.body_depth * std::cos(pose.pitch);
   if (clearance < kTouching * legs_.leg_diameter) return PoseOutcome::kBodyOnGround;
   if (pose.determinant < kSingularDeterminant) return PoseOutcome::kSingular;
-  if (2.0 + pose.pitch_rate <= 0.0) return PoseOutcome::kMotorTurns;
+  if (std::cos(pose.pitch) < kUpended) return PoseOutcome::kCannotClose;
+  if (MotorRate(pose) * MotorRate(start_.pose) <= 0.0) return PoseOutcome::kMotorTurns;
   return PoseOutcome::kReached;
 }
 

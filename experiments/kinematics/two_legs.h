@@ -33,8 +33,9 @@ enum class PoseOutcome {
   kFrontUpright,  // the front leg would: psi_f > 90 deg
   kBodyOnGround,  // a hip, or the underside below it, would be in the ground
   kSingular,      // the front virtual link and the body are in line: the Jacobian is singular
-  kMotorTurns,    // the rear motor's angle has its extreme here: it cannot drive on
-  kCannotClose    // the hips are closer together than their difference of height
+  kMotorTurns,    // the rear motor's angle has its extreme on the way: it cannot drive through
+  kCannotClose    // the body would have to stand on end: it is no longer than the hips' difference
+                  // of height
 };
 std::string_view NameOf(PoseOutcome outcome);
 
