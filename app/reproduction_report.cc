@@ -123,7 +123,12 @@ std::string FigureLines(const std::vector<StudyFigure>& figures, bool colours) {
     if (ends.size() > 2) ends = {std::to_string(ends.size()) + " jumps"};
     table.AddRow({figure.name, figure.title, Join(ends)});
   }
-  return WithHeader(table.Lines(), colours) + "\n";
+  std::string text = WithHeader(table.Lines(), colours);
+  for (const StudyFigure& figure : figures) {
+    if (!figure.numbers.empty())
+      text += "  " + Wrapped(figure.name + ": " + NumbersText(figure.numbers), kIndent) + "\n";
+  }
+  return text + "\n";
 }
 
 }  // namespace

@@ -12,7 +12,9 @@ double AngleAt(const LaserScanRequest& request, int i) {
          (request.start_high - request.start_low) * i / std::max(request.starts - 1, 1);
 }
 
-ScanStart Scan(const LaserScanRequest& request, LegAngles angles) {
+}  // namespace
+
+ScanStart ScanFrom(const LaserScanRequest& request, LegAngles angles) {
   ScanStart scan{.angles = angles};
   const RollingPair pair(request.legs, angles);
   scan.outcome = pair.start().outcome;
@@ -24,13 +26,11 @@ ScanStart Scan(const LaserScanRequest& request, LegAngles angles) {
   return scan;
 }
 
-}  // namespace
-
 std::vector<ScanStart> ScanStarts(const LaserScanRequest& request) {
   const int n = request.starts;
   std::vector<ScanStart> scans(static_cast<std::size_t>(n) * n);
   ParallelFor(n * n, request.jobs, [&](int i) {
-    scans[i] = Scan(request, {AngleAt(request, i / n), AngleAt(request, i % n)});
+    scans[i] = ScanFrom(request, {AngleAt(request, i / n), AngleAt(request, i % n)});
   });
   return scans;
 }

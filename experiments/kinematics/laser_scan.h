@@ -26,6 +26,9 @@ struct ScanStart {
   bool feasible = false;  // the range includes the wanted one
 };
 
+/// One pair.
+ScanStart ScanFrom(const LaserScanRequest& request, LegAngles angles);
+
 /// All pairs, the front angle fastest.
 std::vector<ScanStart> ScanStarts(const LaserScanRequest& request);
 

@@ -197,30 +197,39 @@ Travel TravelOf(const RollingPair& pair) {
 PitchRange PitchRangeOf(const RollingPair& pair, const Travel& travel) {
   PitchRange range;
   if (pair.start().outcome != PoseOutcome::kReached) return range;
-  constexpr int kSamples = 180;
+  constexpr int kSamples = 90;
   constexpr int kMinimumBits = 26;  // half the digits: all that a minimum's place has
-  const auto psi_at = [&](int i) { return travel.low + (travel.high - travel.low) * i / kSamples; };
+  const auto psi_at = [&](int i) {
+    return std::min(travel.low + (travel.high - travel.low) * i / kSamples, travel.high);
+  };
+  // Missing where an end of the travel is not reached by a rounding.
+  const auto pitch_at = [&](double psi) {
+    const PoseResult at = pair.At(psi);
+    return at.outcome == PoseOutcome::kReached ? at.pose.pitch
+                                               : std::numeric_limits<double>::quiet_NaN();
+  };
   // The start is tried by itself: where it stands at a limit it is all there is.
-  for (const double sign : {-1.0, 1.0}) {
-    const auto pitch = [&](double psi) {
-      const PoseResult at = pair.At(std::clamp(psi, travel.low, travel.high));
-      return at.outcome == PoseOutcome::kReached ? -sign * at.pose.pitch
-                                                 : std::numeric_limits<double>::infinity();
-    };
-    double best = -sign * pair.start().pose.pitch;
-    int place = 0;
-    for (int i = 0; i <= kSamples; ++i) {
-      const double value = pitch(psi_at(i));
-      if (value < best) {
-        best = value;
-        place = i;
-      }
-    }
-    const auto [psi, refined] = boost::math::tools::brent_find_minima(
-        pitch, psi_at(std::max(place - 1, 0)), psi_at(std::min(place + 1, kSamples)), kMinimumBits);
-    best = std::min(best, refined);
-    (sign < 0.0 ? range.lowest : range.highest) = -sign * best;
+  range.lowest = range.highest = pair.start().pose.pitch;
+  int lowest = 0, highest = 0;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double pitch = pitch_at(psi_at(i));
+    if (pitch < range.lowest) lowest = i;
+    if (pitch > range.highest) highest = i;
+    range.lowest = std::fmin(range.lowest, pitch);
+    range.highest = std::fmax(range.highest, pitch);
   }
+  const auto refined = [&](int place, double sign) {
+    const auto value = [&](double psi) {
+      const double pitch = pitch_at(psi);
+      return std::isnan(pitch) ? std::numeric_limits<double>::infinity() : sign * pitch;
+    };
+    return sign * boost::math::tools::brent_find_minima(value, psi_at(std::max(place - 1, 0)),
+                                                        psi_at(std::min(place + 1, kSamples)),
+                                                        kMinimumBits)
+                      .second;
+  };
+  range.lowest = std::fmin(range.lowest, refined(lowest, 1.0));
+  range.highest = std::fmax(range.highest, refined(highest, -1.0));
   return range;
 }
 
