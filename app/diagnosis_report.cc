@@ -252,7 +252,7 @@ std::string RemainderLine(const ExtensionReport& e) {
   std::string text = fmt::format("{:.1f} % of the misfit is explained, not all of it ({})",
                                  std::floor(1e3 * e.explained) / 10.0, ChanceText(r.p_value));
   const auto most = std::max_element(
-      r.tests.begin(), r.tests.end(),
+      r.tests.begin() + static_cast<std::ptrdiff_t>(r.candidates), r.tests.end(),
       [](const DetectionTest& a, const DetectionTest& b) { return a.statistic < b.statistic; });
   if (most != r.tests.end() && most->dof > 0)
     text += fmt::format("; a free {} would take up most of the rest", most->name);

@@ -62,6 +62,9 @@ void SendRows(int to, const std::vector<int>& rows) {
   MPI_Send(rows.data(), static_cast<int>(rows.size()), MPI_INT, to, kRows, MPI_COMM_WORLD);
 }
 
+// The checker does not know that MPI_Test, too, ends a request.
+// NOLINTBEGIN(clang-analyzer-optin.mpi.MPI-Checker)
+
 // The same from rank 0 while others may die: false if `stop` ended the wait. `rows` has to outlive
 // that.
 bool TrySendRows(int to, const std::vector<int>& rows, const std::atomic<bool>* stop) {
@@ -70,11 +73,11 @@ bool TrySendRows(int to, const std::vector<int>& rows, const std::atomic<bool>* 
             &request);
   for (int done = 0; done == 0;) {
     if (stop && *stop) return false;
-    // MPI_Test ends the request when it says done, which the checker takes for a missing wait.
-    MPI_Test(&request, &done, MPI_STATUS_IGNORE);  // NOLINT(clang-analyzer-optin.mpi.MPI-Checker)
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
   }
   return true;
 }
+// NOLINTEND(clang-analyzer-optin.mpi.MPI-Checker)
 
 std::vector<int> ReceiveRows() {
   MPI_Status status;

@@ -1,6 +1,7 @@
 #include "fitting/solve.h"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
@@ -215,6 +216,13 @@ SolveResult SolveOnce(const SolveRequest& request) {
   Watch watch(request);
   options.callbacks.push_back(&watch);
   evaluations.ForgetRejected();
+
+  // What Ceres logs of a failed step its summary says as well; it is no user's message.
+  static const bool silent = [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    return true;
+  }();
+  static_cast<void>(silent);
 
   ceres::Solver::Summary summary;
   ceres::Solve(options, &ceres_problem, &summary);

@@ -24,12 +24,14 @@ struct LawTerms {
   bool active = false;
   bool rolling_active = false;
   bool torque_active = false;
+  bool second_order_active = false;
   T hardening{0.0};          // beta [-]
   T rolling{0.0};            // share of the other rolling law [-]
   T tip{0.0};                // share of the tip's rotation [-]
   T torque_bending{0.0};     // share of M24, M25 [-]
   T stiffness_drift{0.0};    // gamma_E [1/s]
   T ground_compliance{0.0};  // c_g [m/N]
+  T second_order{0.0};       // share of M2b under laws without it [-]
   T foot_slip{0.0};          // c_slip [m/(N s)]
 };
 

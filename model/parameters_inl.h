@@ -21,10 +21,12 @@ Parameters<To> ConvertParameters(const Parameters<From>& from) {
   to.law_terms.active = terms.active;
   to.law_terms.rolling_active = terms.rolling_active;
   to.law_terms.torque_active = terms.torque_active;
+  to.law_terms.second_order_active = terms.second_order_active;
   to.law_terms.hardening = To(Value(terms.hardening));
   to.law_terms.rolling = To(Value(terms.rolling));
   to.law_terms.tip = To(Value(terms.tip));
   to.law_terms.torque_bending = To(Value(terms.torque_bending));
+  to.law_terms.second_order = To(Value(terms.second_order));
   to.law_terms.stiffness_drift = To(Value(terms.stiffness_drift));
   to.law_terms.ground_compliance = To(Value(terms.ground_compliance));
   to.law_terms.foot_slip = To(Value(terms.foot_slip));

@@ -1,6 +1,6 @@
 #include "fitting/diagnosis/diagnosis.h"
 
-#include <boost/math/distributions/chi_squared.hpp>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -30,6 +30,7 @@ Detection Detect(const Linearisation& at, std::span<const Candidate> candidates,
   out.p_value = tests.global_p;
   out.chi2 = at.chi2();
   out.degrees_of_freedom = at.degrees_of_freedom();
+  out.candidates = candidates.size();
   for (std::size_t i = 0; i < tests.scores.size(); ++i) {
     const Score& s = tests.scores[i];
     const std::string name =
@@ -49,9 +50,9 @@ Linearisation CandidatesOnly(Linearisation at, int columns) {
 
 // Whether some free force gains more than it must: the chi-square its dimensions reach once in
 // twenty searches over all groups.
-bool FreeForcePays(const Detection& detection, std::size_t candidates) {
-  const std::size_t groups = detection.tests.size() - candidates;
-  for (std::size_t i = candidates; i < detection.tests.size(); ++i) {
+bool FreeForcePays(const Detection& detection) {
+  const std::size_t groups = detection.tests.size() - detection.candidates;
+  for (std::size_t i = detection.candidates; i < detection.tests.size(); ++i) {
     if (detection.tests[i].p_value < 0.05 / static_cast<double>(std::max<std::size_t>(groups, 1)))
       return true;
   }
@@ -69,6 +70,11 @@ std::vector<Movement> MovementsOf(const Extension& null, const Uncertainty& unce
     movements.push_back(std::move(m));
   }
   return movements;
+}
+
+bool Has(const Extension& e, const Candidate& c) {
+  return std::any_of(e.members.begin(), e.members.end(),
+                     [&](const Candidate& m) { return m.effect == c.effect; });
 }
 
 std::string NamesOf(const Extension& e) {
@@ -93,9 +99,9 @@ class Pipeline {
     if (Stopped()) return Finish();
     Stage("measuring on held-out trials");
     d_.before = MeasureHeldOut(d_.null, options_.fit.jobs);
-    if (!d_.naming.best.members.empty()) Extended();
+    if (!d_.naming.best.members.empty()) Extended(candidates);
     if (Stopped()) return Finish();
-    Judge(candidates.size());
+    Judge();
     return Finish();
   }
 
@@ -161,7 +167,6 @@ class Pipeline {
     Stage("refitting with every candidate cause");
     NamingOptions naming;
     naming.max_effects = options_.max_effects;
-    naming.seed = options_.fit.seed;
     naming.jobs = options_.fit.jobs;
     naming.stop = options_.fit.stop;
     if (options_.step) {
@@ -173,7 +178,7 @@ class Pipeline {
   }
 
   // ---- extend, measure
-  void Extended() {
+  void Extended(const std::vector<Candidate>& candidates) {
     const Extension& best = d_.naming.best;
     ExtensionReport report;
     report.uncertainty = AssessUncertainty(best.problem, train_, best.shared, best.starts,
@@ -182,8 +187,14 @@ class Pipeline {
     report.gain =
         CompareHeldOut(d_.null, d_.before, report.after, Seed(kBootstrapStream), &report.left_out);
     report.movements = MovementsOf(d_.null, d_.uncertainty, best);
-    const Linearisation at = LineariseAt(best, basis_.probes, train_, options_.fit.jobs);
-    report.remainder = Detect(at, {}, basis_, Seed(kRemainderStream));
+    std::vector<Candidate> others;
+    for (const Candidate& c : candidates) {
+      if (!Has(best, c)) others.push_back(c);
+    }
+    std::vector<Candidate> all = others;
+    all.insert(all.end(), basis_.probes.begin(), basis_.probes.end());
+    const Linearisation at = LineariseAt(best, all, train_, options_.fit.jobs);
+    report.remainder = Detect(at, others, basis_, Seed(kRemainderStream));
     const double excess = d_.detection.chi2 - d_.detection.degrees_of_freedom;
     const double left = report.remainder.chi2 - report.remainder.degrees_of_freedom;
     report.explained = excess > 0.0 ? std::clamp(1.0 - left / excess, 0.0, 1.0) : 1.0;
@@ -207,7 +218,7 @@ class Pipeline {
   }
 
   // ---- verdict
-  void Judge(std::size_t candidates) {
+  void Judge() {
     const Detection& seen = d_.detection;
     if (seen.p_value > kDetectionLevel) {
       d_.verdict = Verdict::kAdequate;
@@ -215,7 +226,7 @@ class Pipeline {
       return;
     }
     if (!d_.extension) {
-      if (FreeForcePays(seen, candidates)) {
+      if (FreeForcePays(seen)) {
         d_.verdict = Verdict::kUnexplained;
         d_.reason =
             "a free force or reading is needed, and no effect of the catalogue pays for "

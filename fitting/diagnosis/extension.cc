@@ -51,7 +51,6 @@ void Run(Extension& e, const Eigen::VectorXd& null_values, const RefitSettings& 
   e.starts = result.starts;
   e.cost = result.cost;
   e.status = result.status;
-  e.evaluations += result.iterations;
 }
 
 }  // namespace

@@ -19,7 +19,6 @@ struct Extension {
   std::vector<std::array<double, 4>> starts;  // of the train trials
   double cost = 0.0;  // half the sum of squares; its difference is a log-likelihood ratio
   SolveStatus status = SolveStatus::kFailed;
-  int evaluations = 0;  // solver iterations spent
 
   bool ok() const {
     return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit;

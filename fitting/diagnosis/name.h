@@ -16,7 +16,6 @@ inline constexpr double kTestable = 7.85;
 
 struct NamingOptions {
   int max_effects = 4;
-  std::uint64_t seed = 1;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
   /// How far the search is: refits done, and what it does.

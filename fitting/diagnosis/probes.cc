@@ -152,7 +152,7 @@ struct BounceBump {
 };
 
 /// Reading of one coordinate: an offset, or a share of a coordinate.
-enum class Reading { kYOffset, kXOfX, kYOfY, kXOfY, kYOfX };
+enum class Reading { kXOffset, kYOffset, kXOfX, kYOfY, kXOfY, kYOfX };
 template <Reading kReading>
 struct ReadingBump {
   static constexpr std::array kParameters = {
@@ -163,6 +163,7 @@ struct ReadingBump {
   static void ChangeObservation(const T* p, Observation<T>& seen) {
     T &x = seen[Channel::kBodyX], &y = seen[Channel::kBodyY];
     const T was_x = x, was_y = y;
+    if constexpr (kReading == Reading::kXOffset) x += p[0];
     if constexpr (kReading == Reading::kYOffset) y += p[0];
     if constexpr (kReading == Reading::kXOfX) x += p[0] * was_x;
     if constexpr (kReading == Reading::kYOfY) y += p[0] * was_y;
@@ -178,6 +179,16 @@ struct ReadingTime {
   template <class T>
   static void ChangeObservationTime(const T* p, T& t) {
     t *= 1.0 + p[0];
+  }
+};
+
+struct ReadingDelay {
+  static constexpr std::array kParameters = {EffectParameter{"delay", "s", 0, -0.1, 0.1, 0.001}};
+  static constexpr EffectInfo kInfo =
+      InfoOfProbe("probe_delay", EffectKind::kObservation, kParameters);
+  template <class T>
+  static void ChangeObservationTime(const T* p, T& t) {
+    t -= p[0];
   }
 };
 
@@ -259,12 +270,15 @@ ProbeBasis ProbesOf(Law law) {
   b.Group("flight force along y", "", "N", {}, {Probe<BodyPush<false, true>>()});
   b.Group("force against the motion in flight", "speed [m/s]", "N", Values(kSpeed),
           DragBumps(std::make_index_sequence<kSpeed.size()>()));
-  b.Group("reading of body_x", "", "m/m", {},
-          {Probe<ReadingBump<Reading::kXOfX>>(), Probe<ReadingBump<Reading::kXOfY>>()});
+  // An offset along x and a delay are seen through the stated starts alone.
+  b.Group("reading of body_x", "", "m or m/m", {},
+          {Probe<ReadingBump<Reading::kXOffset>>(), Probe<ReadingBump<Reading::kXOfX>>(),
+           Probe<ReadingBump<Reading::kXOfY>>()});
   b.Group("reading of body_y", "", "m or m/m", {},
           {Probe<ReadingBump<Reading::kYOffset>>(), Probe<ReadingBump<Reading::kYOfY>>(),
            Probe<ReadingBump<Reading::kYOfX>>()});
-  b.Group("reading of the clock", "", "s/s", {}, {Probe<ReadingTime>()});
+  b.Group("reading of the clock", "", "s or s/s", {},
+          {Probe<ReadingDelay>(), Probe<ReadingTime>()});
   return b.Take();
 }
 

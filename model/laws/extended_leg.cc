@@ -111,12 +111,13 @@ struct Situation {
 template <class S>
 struct Statics {
   S l, sin, cos, delta, C, A2, F;
+  S soft_F;    // F without leg_hardening, where that is a share of a spring's force
   S tip_miss;  // u/l less the right side of M10 (M10b, M25): 0 at equilibrium
 };
 
 // P: scalar of the parameters, S of the unknowns.
 template <class S, class P>
-Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& phi,
+[[gnu::flatten]] Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& phi,
                      const Situation<S>& at) {
   using std::sqrt;
   const LawTerms<P>& terms = p.law_terms;
@@ -127,12 +128,14 @@ Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& 
                  .C = S(P(0.0)),
                  .A2 = S(P(0.0)),
                  .F = S(P(0.0)),
+                 .soft_F = S(P(0.0)),
                  .tip_miss = S(P(0.0))};
   const S& l = out.l;
   if (law == Law::kStraightLeg) {
     out.delta = p.l0 - l;
     out.C = at.softer / p.k;
-    out.F = out.delta * (P(1.0) + terms.hardening / p.l0 * out.delta) / out.C;
+    out.soft_F = out.delta / out.C;
+    out.F = out.soft_F * (P(1.0) + terms.hardening / p.l0 * out.delta);
     return out;
   }
   const ArcShapes shapes(Value(phi));
@@ -155,23 +158,26 @@ Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& 
   const S N = terms.torque_bending * torque / l;
   S turn = N * (at.softer * (0.5 * r * r * flex * lift(shapes.bending, 2)));
   out.delta = 2.0 * (r * out.sin) - l - r * (N * bending1);
+  // M2b and its slope at the rest radius, by the law or by the share an effect brings in.
+  const bool second_order = law == Law::kLargeDeflection || terms.second_order_active;
+  const P share = law == Law::kLargeDeflection ? P(1.0) : terms.second_order;
+  const P unit = share * (4.0 * r * r * r * r * flex * flex);
+  const S softer2 = at.softer * at.softer;
+  const S C2s = softer2 * (unit * lift(shapes.second_order, 1));
   if (IsElastic(law)) {
     out.C = chord(S(r));
     // M26: hardening takes from C2.
     const P hardening = terms.hardening / r;
     out.A2 = P(-hardening) * (out.C * out.C);
     S A2s = -2.0 * (hardening * (out.C * Cs));
-    if (law == Law::kLargeDeflection) {
-      const P second = 4.0 * r * r * r * r * flex * flex;
-      const S softer2 = at.softer * at.softer;
-      out.A2 = out.A2 + softer2 * (r * second * lift(shapes.second_order, 0));
-      A2s = A2s + softer2 * (second * lift(shapes.second_order, 1));
+    if (second_order) {
+      out.A2 = out.A2 + softer2 * (r * unit * lift(shapes.second_order, 0));
+      A2s = A2s + C2s;
     }
     S C = out.C;
-    if (terms.torque_active && law == Law::kLargeDeflection) {
+    if (terms.torque_active && second_order) {
       const SecondOrderAcross<S> next = SecondOrderAcrossAt(phi, out.sin, out.cos);
-      const P unit = 4.0 * r * r * r * r * flex * flex;
-      const S of_N = at.softer * at.softer * (unit * N);
+      const S of_N = softer2 * (unit * N);
       out.delta = out.delta + r * (of_N * N * next.chord_NN);
       C = C - r * (of_N * next.chord_FN);
       Cs = Cs - 2.0 * (of_N * next.lead_FN);
@@ -183,8 +189,15 @@ Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& 
     // M5, M6 with the share `tip` of M10.
     const S radius = (1.0 - terms.tip) * (0.5 * l / out.sin) + terms.tip * r;
     out.C = chord(radius);
-    out.F = out.delta * (P(1.0) + terms.hardening / r * out.delta) / out.C;
-    out.tip_miss = at.u / l - out.cos + terms.tip * (0.5 * (out.F * Cs) + turn);
+    out.soft_F = out.delta / out.C;
+    if (second_order) {
+      const S grown = radius / r, grown2 = grown * grown;
+      out.A2 = grown * grown2 * grown2 * softer2 * (r * unit * lift(shapes.second_order, 0));
+      out.soft_F = 2.0 * out.delta / (out.C + sqrt(out.C * out.C + 4.0 * (out.A2 * out.delta)));
+    }
+    out.F = out.soft_F + terms.hardening / r * (out.delta * out.delta / out.C);
+    const S turned = 0.5 * (out.F * Cs) + (1.0 / 3.0) * (out.F * out.F * C2s);
+    out.tip_miss = at.u / l - out.cos + terms.tip * (turned + turn);
   }
   return out;
 }
@@ -435,7 +448,9 @@ T ExtendedLeg<T>::StrainEnergy(Mode, const LegLoad<T>& load, const LegConditions
   const T ground = 0.5 * p_.law_terms.ground_compliance * lift * lift;
   if (IsElastic(law_)) return leg.F * leg.F * (0.5 * leg.C + 2.0 / 3.0 * leg.F * leg.A2) + ground;
   const T hardening = p_.law_terms.hardening / (law_ == Law::kStraightLeg ? p_.l0 : p_.r);
-  return leg.delta * leg.delta * (0.5 + hardening * leg.delta / 3.0) / leg.C + ground;
+  const T& F = leg.soft_F;
+  return F * F * (0.5 * leg.C + 2.0 / 3.0 * F * leg.A2) +
+         hardening * leg.delta * leg.delta * leg.delta / (3.0 * leg.C) + ground;
 }
 
 template class ExtendedLeg<double>;

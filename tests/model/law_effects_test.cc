@@ -110,6 +110,38 @@ TEST(Blends, NoSlipWithTipRotationAtOneIsConsistent) {
   }
 }
 
+TEST(Blends, SecondOrderBendingAtOneTurnsTheOtherLawsIntoLargeDeflection) {
+  const std::array from_thesis = {Set("rolling_law", 1.0), Set("tip_rotation", 1.0),
+                                  Set("second_order_bending", 1.0)};
+  const std::array from_no_slip = {Set("tip_rotation", 1.0), Set("second_order_bending", 1.0)};
+  const std::array from_consistent = {Set("second_order_bending", 1.0)};
+  for (const Sequence& s : kSequences) {
+    const SimulationRequest whole = RequestOf(Law::kLargeDeflection, s);
+    SimulationRequest q = RequestOf(Law::kThesis, s);
+    q.effects = from_thesis;
+    EXPECT_LT(Distance(q, whole, s.events), 1e-10) << s.name;
+    q.law = Law::kNoSlip;
+    q.effects = from_no_slip;
+    EXPECT_LT(Distance(q, whole, s.events), 1e-10) << s.name;
+    q.law = Law::kConsistent;
+    q.effects = from_consistent;
+    EXPECT_LT(Distance(q, whole, s.events), 1e-10) << s.name;
+  }
+}
+
+// What leg_hardening's one constant has to stand for: beta r/C^2 of M26 against C2 of M2b.
+TEST(Blends, NoOneHardeningConstantIsSecondOrderBending) {
+  const LegCompliance<double> leg(ThickLegRequest(Law::kConsistent).parameters);
+  const double r = ThickLegRequest(Law::kConsistent).parameters.r;
+  const auto ratio = [&](double phi) {
+    return r * leg.SecondOrder(phi) / (leg.Chord(phi) * leg.Chord(phi));
+  };
+  std::printf("C2 r/C^2 at phi = 2, 2.5, pi: %.3f %.3f %.3f\n", ratio(2.0), ratio(2.5),
+              ratio(std::numbers::pi));
+  EXPECT_NEAR(ratio(2.0), 2.06, 0.01);
+  EXPECT_NEAR(ratio(std::numbers::pi), 0.41, 0.01);
+}
+
 TEST(Blends, RollingLawAtOneTurnsThesisAndNoSlipIntoEachOther) {
   const std::array effects = {Set("rolling_law", 1.0)};
   for (const Sequence& s : kSequences) {
