@@ -32,8 +32,8 @@ Scenario StraightScenario(const Study& study, const CaptionSettings& settings) {
   scenario.mechanism.straight_leg = {settings.straight->rest_length_m,
                                      settings.straight->stiffness_N_per_m,
                                      settings.damping_N_s_per_m};
-  // The chord of a C-leg stands at half its leg angle: the same virtual leg.
-  scenario.touchdown_angle_rad = 0.5 * settings.touchdown_angle_rad;
+  scenario.touchdown_angle_rad =
+      settings.straight->touchdown_angle_rad.value_or(0.5 * settings.touchdown_angle_rad);
   scenario.effects.clear();
   return scenario;
 }

@@ -25,6 +25,9 @@ Study StudyOfScenario(const Scenario& scenario, const IntegratorOptions& integra
 struct StraightSpringLeg {
   double stiffness_N_per_m;
   double rest_length_m;
+  /// From the vertical. By default half the leg angle of the caption: the chord of a half-circular
+  /// leg stands at that, so that both have the same virtual leg.
+  std::optional<double> touchdown_angle_rad = std::nullopt;
 };
 
 /// What a caption states; SI, radians.

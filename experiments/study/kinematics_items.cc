@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kWantedLow = DegToRad(5.0), kWantedHigh = DegToRad(10.0);
 constexpr LegAngles kExample{DegToRad(45.0), DegToRad(75.0)};
-constexpr int kCoarse = 7;  // 10 deg apart, as in figure 3.5
-constexpr int kFine = 31;   // 2 deg apart
+constexpr int kCoarse = 7;    // 10 deg apart, as in figure 3.5
+constexpr int kFine = 31;     // 2 deg apart
 constexpr int kClaimed = 16;  // 4 deg apart
 constexpr int kCurvePoints = 201;
 constexpr double kLevel = 1e-9;  // rad: what rounding leaves of a level body
