@@ -22,9 +22,9 @@ std::string Shown(const StudyNumber& number) {
                                          : Significant(RadToDeg(number.value), 4) + " deg";
   const ReadableUnit unit = number.unit == "Pa" ? ReadableUnitOf(number.value, number.unit)
                                                 : ReadableUnit{1.0, number.unit};
-  const bool whole = unit.unit.empty() && number.value == std::floor(number.value);
-  const std::string value =
-      whole ? Fixed(number.value, 0) : Significant(number.value * unit.factor, 4);
+  const std::string value = std::isnan(number.value)
+                                ? std::string("none")
+                                : fmt::format("{:.4g}", number.value * unit.factor);
   return value + (unit.unit.empty() ? "" : " " + unit.unit);
 }
 
@@ -39,11 +39,15 @@ std::string NumbersText(const std::vector<StudyNumber>& numbers) {
 }
 
 std::string Heading(const std::string& name, const std::string& title, StudyVerdict verdict,
-                    bool colours) {
+                    const std::vector<StudyCheck>& checks, bool colours) {
+  const auto holding = std::count_if(checks.begin(), checks.end(),
+                                     [](const StudyCheck& check) { return check.holds; });
+  const bool reproduced = verdict == StudyVerdict::kReproduced;
   const std::string said(NameOf(verdict));
-  return Styled(name, Emphasis::kBold, colours) + "  " +
-         (verdict == StudyVerdict::kReproduced ? said : Styled(said, Emphasis::kWarning, colours)) +
-         "\n" + std::string(kIndent, ' ') + Wrapped(title, kIndent) + "\n";
+  std::string text = Styled(name, Emphasis::kBold, colours) + "  " +
+                     (reproduced ? said : Styled(said, Emphasis::kWarning, colours));
+  if (!reproduced) text += fmt::format(" ({} of {} checks hold)", holding, checks.size());
+  return text + "\n" + std::string(kIndent, ' ') + Wrapped(title, kIndent) + "\n";
 }
 
 std::string CheckLines(const std::vector<StudyCheck>& checks, bool colours) {
@@ -62,7 +66,7 @@ std::string CheckLines(const std::vector<StudyCheck>& checks, bool colours) {
 
 std::string TableText(const StudyTable& table, bool colours) {
   using enum TextTable::Align;
-  std::string text = Heading(table.name, table.title, table.verdict, colours);
+  std::string text = Heading(table.name, table.title, table.verdict, table.checks, colours);
   text += CheckLines(table.checks, colours);
   text += std::string(kIndent, ' ') + Wrapped(NumbersText(table.statistics), kIndent) + "\n";
   TextTable numbers({kLeft, kLeft, kRight, kRight, kLeft, kLeft});
@@ -90,7 +94,7 @@ std::string WhereAllHold(const StudyClaim& claim) {
 }
 
 std::string ClaimText(const StudyClaim& claim, bool colours) {
-  std::string text = Heading(claim.name, claim.statement, claim.verdict, colours);
+  std::string text = Heading(claim.name, claim.statement, claim.verdict, claim.checks, colours);
   text += CheckLines(claim.checks, colours);
   const std::string pad(kIndent, ' ');
   if (!claim.alternatives.empty()) {

@@ -249,7 +249,7 @@ StudyTable EnergyTable(const Study& study) {
                              grid.percent[i],
                              kEnergyTolerance});
   }
-  AddAgreement("energy", "%", grid.published_percent, grid.percent, table);
+  AddAgreement("energy", "% points", grid.published_percent, grid.percent, table);
   const Agreement agreement = AgreementOf(grid.published_percent, grid.percent);
   const auto cells = static_cast<int>(grid.percent.size());
   table.checks = {{"every jump reaches its next apex",
@@ -257,7 +257,7 @@ StudyTable EnergyTable(const Study& study) {
                    {{"jumps", static_cast<double>(agreement.pairs), ""}}},
                   {"rms difference below 0.23 percentage points",
                    agreement.rms < kEnergyRms,
-                   {{"rms", agreement.rms, "%"}}}};
+                   {{"rms", agreement.rms, "% points"}}}};
   table.verdict = VerdictOf(table.checks, {});
   return table;
 }
