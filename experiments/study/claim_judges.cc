@@ -17,6 +17,7 @@ constexpr double kConsiderable = 0.05;  // of the desired speed: a steady error
 constexpr double kReached = 0.05;       // of the desired speed
 constexpr double kSignificance = 0.05;
 constexpr double kVisibleRise = 1e-3;  // of the stiffness
+constexpr double kPrintedStep = 0.01;  // percentage points: what a printed number can show
 constexpr std::size_t kSteadyApexes = 5;
 
 using Column = double ApexPoint::*;
@@ -290,7 +291,8 @@ std::vector<StudyCheck> JudgeEnergyGain(const std::vector<double>& percent) {
   const bool gains =
       std::all_of(percent.begin(), percent.end(), [](double p) { return p > 100.0; });
   bool shrinks = percent.size() > 1;
-  for (std::size_t i = 1; i < percent.size(); ++i) shrinks = shrinks && percent[i] < percent[i - 1];
+  for (std::size_t i = 1; i < percent.size(); ++i)
+    shrinks = shrinks && percent[i] < percent[i - 1] - kPrintedStep;
   const std::vector<StudyNumber> ends = {
       {"smallest_angle", percent.empty() ? kMissing : percent.front(), "%"},
       {"largest_angle", percent.empty() ? kMissing : percent.back(), "%"}};

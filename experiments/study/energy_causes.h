@@ -6,7 +6,8 @@ namespace hoplab {
 
 /// Where the energy comes from that the law `thesis` gains in an undamped, undriven jump at one
 /// touch-down angle: percent of the energy left, from `thesis` (M5-M7) over each of the two changes
-/// alone to both, which is `consistent`.
+/// alone to both, which is `consistent`. NaN where a jump does not reach its next apex. All but
+/// `study` have a massless leg.
 struct EnergyCauses {
   double study;         // the study's own reading of its law
   double thesis;        // M7, tip not rotating

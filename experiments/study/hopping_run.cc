@@ -59,7 +59,8 @@ Study StudyOfScenario(const Scenario& scenario, const IntegratorOptions& integra
                       "it out by themselves."});
   RequireInitial(scenario);
   Study study{scenario, integrator};
-  HopperOfScenario(scenario, integrator);  // laws and effects that do not exist are told now
+  // Laws and effects that do not exist are told now; a law that is not named is the default one.
+  study.constants.law = NameOf(HopperOfScenario(scenario, integrator).request.law);
   return study;
 }
 

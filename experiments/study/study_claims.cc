@@ -175,6 +175,10 @@ void AddCauses(const Study& study, StudyClaim& claim) {
                    {"mean_removed_by_tip", tip, "% points"},
                    {"largest_integration_error", worst_error, "% points"},
                    {"largest_consistent_error", worst_consistent, "% points"}};
+  if (std::isnan(gain)) {
+    claim.remark = "not every jump on the way from thesis to consistent reaches its next apex";
+    return;
+  }
   claim.remark = fmt::format(
       "the study blames integration along the arc. The law consistent integrates the same arc and "
       "keeps the energy to {:.1e} percentage points, and finer steps change thesis by {:.1e}. What "

@@ -210,6 +210,8 @@ TEST(ClaimJudges, EnergyGain) {
   EXPECT_EQ(Holds(JudgeEnergyGain({103, 102.5, 102})), std::vector<bool>(2, true));
   EXPECT_EQ(Holds(JudgeEnergyGain({103, 101, 99.9})), AllBut(2, 0));
   EXPECT_EQ(Holds(JudgeEnergyGain({103, 103.1, 102})), AllBut(2, 1));
+  EXPECT_EQ(Holds(JudgeEnergyGain({103, 103 - 1e-6, 102})), AllBut(2, 1))
+      << "rounding is no gain that shrinks";
   EXPECT_EQ(Holds(JudgeEnergyGain({103, kNone, 102})), std::vector<bool>(2, false));
   EXPECT_EQ(Holds(JudgeEnergyGain({})), std::vector<bool>(2, false));
 }
