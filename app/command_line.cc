@@ -11,6 +11,7 @@
 #include "app/commands/fit.h"
 #include "app/commands/gait.h"
 #include "app/commands/generate.h"
+#include "app/commands/identify.h"
 #include "app/commands/laws.h"
 #include "app/commands/optimize.h"
 #include "app/commands/report.h"
@@ -45,6 +46,7 @@ class CommandLine {
     AddOptimizeCommand(app_, invocation_);
     AddSweepCommand(app_, invocation_);
     AddReproduceCommand(app_, invocation_);
+    AddIdentifyCommand(app_, invocation_);
     AddSimulateCommand(app_, invocation_);
     AddGenerateCommand(app_, invocation_);
     AddReportCommand(app_, invocation_);

@@ -53,6 +53,7 @@ SimulationRequest RequestOfScenario(const Scenario& scenario,
   SimulationRequest request;
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   request.law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
+  CheckVariant(scenario.mechanism.variant, request.law, scenario.origin.place);
   request.liftoff = LiftoffOfSpec(scenario.mechanism);
   request.parameters =
       ParametersOfSpec(scenario.mechanism, scenario.controller, scenario.touchdown_angle_rad);
@@ -98,6 +99,7 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
 
     SimulationRequest request;
     request.law = law;
+    CheckVariant(plan.mechanism.variant, law, scenario.origin.place);
     request.liftoff = LiftoffOfSpec(plan.mechanism);
     request.parameters =
         ParametersOfSpec(plan.mechanism, plan.controller, plan.touchdown_angle_rad);

@@ -29,6 +29,7 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
     if (controller->torque_limit_N_m) p.torque_limit = *controller->torque_limit_N_m;
   }
   if (mechanism.fall_height_m) p.fall_height = *mechanism.fall_height_m;
+  p.variant = mechanism.variant;
   switch (mechanism.type) {
     case MechanismType::kCLeg:
       p.r = mechanism.c_leg.rest_radius_m;
@@ -86,6 +87,21 @@ Law ResolveLaw(const std::string& name, MechanismKind mechanism, const std::stri
                         : "is not a law hoplab knows",
                     law ? "Choose from " + Join(LawNames(mechanism)) + "."
                         : DidYouMean(name, LawNames(mechanism))});
+}
+
+void CheckVariant(const ThesisVariant& variant, Law law, const std::string& place) {
+  if (law == Law::kThesis) return;
+  ThesisVariant allowed;
+  allowed.torque_sign = variant.torque_sign;  // of every leg
+  for (const VariantKey& key : VariantKeys()) {
+    const int word = key.get(variant);
+    if (word == key.get(allowed)) continue;
+    throw InputError(
+        {place,
+         "mechanism.leg.variant." + std::string(key.key) + " = " + std::string(key.words[word]),
+         "is a reading of the law thesis and this law is " + std::string(NameOf(law)),
+         "Use the law thesis, or remove it."});
+  }
 }
 
 const Effect& ResolveEffect(const std::string& name, const std::string& place) {

@@ -24,6 +24,9 @@ Channel ChannelOfSpec(ChannelId id);
 /// law that does not exist or belongs to another mechanism.
 Law ResolveLaw(const std::string& name, MechanismKind mechanism, const std::string& place);
 
+/// Throws InputError, place `place`, for a variant of another law than `law`.
+void CheckVariant(const ThesisVariant& variant, Law law, const std::string& place);
+
 /// The effect named `name`; throws InputError with the nearest known name.
 const Effect& ResolveEffect(const std::string& name, const std::string& place);
 

@@ -68,6 +68,7 @@ class Builder {
       t.file = t.recording = trial.file;
       t.role = trial.role;
       t.parameters = ParametersOfSpec(trial.mechanism, trial.controller, trial.touchdown_angle_rad);
+      CheckVariant(trial.mechanism.variant, problem_.law, dataset_.origin.place);
       t.liftoff = LiftoffOfSpec(trial.mechanism);
       const std::vector<double>& time = trial.trace.time_s;
       t.begin_s = time.front();

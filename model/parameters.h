@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "base/thesis_variant.h"
+
 namespace hoplab {
 
 /// Which leg (or none) the body hops on.
@@ -70,6 +72,7 @@ struct Parameters {
   bool has_rest_length_step = false;  // greatest compression is an event
   LawTerms<T> law_terms;
   // Settings without derivatives.
+  ThesisVariant variant;  // of the law `thesis`; its torque_sign of every leg
   double torque_limit = std::numeric_limits<double>::infinity();  // T_max [N m]
   double fall_height = std::numeric_limits<double>::quiet_NaN();  // y_min [m]; NaN: the default
   double time_origin = 0.0;  // time of the run's start since the trial's first row [s]

@@ -117,8 +117,8 @@ struct Statics {
 
 // P: scalar of the parameters, S of the unknowns.
 template <class S, class P>
-[[gnu::flatten]] Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& phi,
-                     const Situation<S>& at) {
+[[gnu::flatten]] Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque,
+                                      const S& phi, const Situation<S>& at) {
   using std::sqrt;
   const LawTerms<P>& terms = p.law_terms;
   Statics<S> out{.l = sqrt(at.u * at.u + at.Y * at.Y),
@@ -147,10 +147,11 @@ template <class S, class P>
   const P slide = p.kappa / (2.0 * p.G * p.A);
   const P& r = p.r;
   // Chord compliance of an arc of another radius, and its derivative dC/ds at the rest radius.
-  const auto chord = [&](const auto& radius) {
-    return at.softer * (radius * radius * radius * (flex * lift(shapes.bending, 0)) +
-                        radius * (stretch * lift(shapes.axial, 0))) +
-           radius * (slide * lift(shapes.shear, 0));
+  const auto chord = [&](const S& radius, const ArcShapes& of, const S& arc) {
+    const auto shape = [&](const auto& derivatives) { return Lift(arc, derivatives.data(), 0); };
+    return at.softer * (radius * radius * radius * (flex * shape(of.bending)) +
+                        radius * (stretch * shape(of.axial))) +
+           radius * (slide * shape(of.shear));
   };
   const S bending1 = at.softer * (r * r * flex * lift(shapes.bending, 1));
   S Cs = bending1 + at.softer * (stretch * lift(shapes.axial, 1)) + slide * lift(shapes.shear, 1);
@@ -165,7 +166,7 @@ template <class S, class P>
   const S softer2 = at.softer * at.softer;
   const S C2s = softer2 * (unit * lift(shapes.second_order, 1));
   if (IsElastic(law)) {
-    out.C = chord(S(r));
+    out.C = chord(S(r), shapes, phi);
     // M26: hardening takes from C2.
     const P hardening = terms.hardening / r;
     out.A2 = P(-hardening) * (out.C * out.C);
@@ -187,12 +188,18 @@ template <class S, class P>
     out.tip_miss = at.u / l - out.cos + out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + turn;
   } else {
     // M5, M6 with the share `tip` of M10.
-    const S radius = (1.0 - terms.tip) * (0.5 * l / out.sin) + terms.tip * r;
-    out.C = chord(radius);
+    const ThesisVariant variant = law == Law::kThesis ? p.variant : ThesisVariant();
+    const bool at_rest = variant.stiffness_radius == ThesisVariant::StiffnessRadius::kRest;  // M35
+    const S radius = at_rest ? S(r) : S((1.0 - terms.tip) * (0.5 * l / out.sin) + terms.tip * r);
+    const bool at_theta = variant.stiffness_angle == ThesisVariant::StiffnessAngle::kTheta;  // M36
+    const S arc = at_theta ? phi : S(0.5 * (phi + S(P(kPi))));
+    const ArcShapes bent = at_theta ? shapes : ArcShapes(Value(arc));
+    out.C = chord(radius, bent, arc);
     out.soft_F = out.delta / out.C;
     if (second_order) {
       const S grown = radius / r, grown2 = grown * grown;
-      out.A2 = grown * grown2 * grown2 * softer2 * (r * unit * lift(shapes.second_order, 0));
+      out.A2 =
+          grown * grown2 * grown2 * softer2 * (r * unit * Lift(arc, bent.second_order.data(), 0));
       out.soft_F = 2.0 * out.delta / (out.C + sqrt(out.C * out.C + 4.0 * (out.A2 * out.delta)));
     }
     out.F = out.soft_F + terms.hardening / r * (out.delta * out.delta / out.C);
@@ -345,6 +352,14 @@ ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const LegConditions<T>& at
   return {solved(by_u0), solved(by_rest)};
 }
 
+// What dphi/dt is multiplied by in M7, with r_d = l/(2 sin(phi/2)), or in its readings M32, M33.
+template <class T>
+T RadiusOfM7(const T& r, const ThesisVariant& variant, const Statics<T>& leg) {
+  const bool at_rest = variant.rolling_radius == ThesisVariant::RollingRadius::kRest;
+  const T radius = at_rest ? T(2.0 * r * leg.sin * leg.cos) : T(leg.l * leg.cos);
+  return variant.angle_rate == ThesisVariant::AngleRate::kTheta ? radius : T(0.5 * radius);
+}
+
 template <class T>
 T Softer(const Parameters<T>& p, const T& time) {
   return 1.0 / (1.0 + p.law_terms.stiffness_drift * (time + p.time_origin));
@@ -394,16 +409,20 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
 
   // M27: dx_c/dt = rho dphi/dt, the foot's creeping added by the caller.
   const T& blend = p_.law_terms.rolling;
-  const T full = p_.r, flat = leg.l * leg.cos;  // M8, M11; M7 with r_d = l/(2 sin(phi/2))
+  const ThesisVariant variant = law_ == Law::kThesis ? p_.variant : ThesisVariant();
+  const T full = p_.r, flat = RadiusOfM7(p_.r, variant, leg);  // M8, M11; M7
   const T rho = law_ == Law::kThesis ? T((1.0 - blend) * flat + blend * full)
                                      : T((1.0 - blend) * full + blend * flat);
   const T beyond = IsElastic(law_) ? T(rho - full) : rho;  // X0 moves by what is not rolled off
   const ArcRate<T> rate = RateOfArc(p_, law_, at, z, phi, Y, softer);
-  load.slip_gain = 1.0 / (1.0 - beyond * rate.along_u0);
+  if (variant.rolling == ThesisVariant::Rolling::kImplicit)
+    load.slip_gain = 1.0 / (1.0 - beyond * rate.along_u0);
   load.contact_rate = load.slip_gain * beyond * (rate.rest - rate.along_u0 * z[kVx]);
-  if (!IsElastic(law_)) {
-    const T dl = w + load.u * load.contact_rate / load.l;
-    load.damping_rate = (1.0 - p_.law_terms.tip) * dl + p_.law_terms.tip * w;
+  if (!IsElastic(law_) && variant.damping_rate != ThesisVariant::DampingRate::kHip) {  // M34
+    T seen = w + load.u * load.contact_rate / load.l;
+    if (variant.damping_rate == ThesisVariant::DampingRate::kDeflection)
+      seen -= p_.r * leg.cos * (rate.rest + rate.along_u0 * (load.contact_rate - z[kVx]));
+    load.damping_rate = (1.0 - p_.law_terms.tip) * seen + p_.law_terms.tip * w;
   }
   return load;
 }

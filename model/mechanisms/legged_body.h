@@ -56,6 +56,7 @@ class LeggedBody {
                       (IsZero(parameters.slope) || !effects.HasTouchdownAngle())),
         extended_(p_.law_terms.active),
         may_pull_(p_.law_terms.torque_active),
+        torque_lift_(p_.variant.torque_sign == ThesisVariant::TorqueSign::kPrinted ? -1.0 : 1.0),
         inertia_(p_),
         leg_(p_),
         controller_(p_),
@@ -302,18 +303,19 @@ class LeggedBody {
     z[kVx] = velocity.x;
     z[kVy] = velocity.y;
   }
-  // F e + (T/l) n, the bracket of M13 and M14; by reaction, the ground's force on the leg.
+  // F e + (T/l) n, the bracket of M13 and M14 (M37); by reaction, the ground's force on the leg.
   Vector2<T> HipForce(const LegLoad<T>& load, const T& torque) const {
     const T chord = ChordForce(load) / load.l;
     const T normal = torque / (load.l * load.l);
-    return {normal * load.y - chord * load.u, chord * load.y + normal * load.u};
+    return {normal * load.y - chord * load.u, chord * load.y + torque_lift_ * normal * load.u};
   }
 
   Parameters<T> p_;
   ActiveEffects<T> effects_;
   LiftoffRule liftoff_;
   bool has_body_force_, has_chord_force_, has_hip_torque_, has_quick_lag_, flies_freely_, extended_;
-  bool may_pull_;  // for a moment after touch-down, bent by the hip torque
+  bool may_pull_;       // for a moment after touch-down, bent by the hip torque
+  double torque_lift_;  // sign of the torque's vertical force: 1, or -1 (M37)
   Inertia<T> inertia_;
   LegT<T> leg_;
   SpeedController<T> controller_;

@@ -77,7 +77,7 @@ TEST(BadDataset, AKeyOfAnotherMechanismIsToldWhoseItIs) {
       ErrorWithYaml("rest_radius_m: 0.09", "rest_length_m: 0.09"),
       "hops/dataset.yaml:8: mechanism.leg.rest_length_m; unknown key: it belongs to a "
       "straight_leg and this mechanism is a c_leg. Known: rest_radius_m, E_Pa, G_Pa, width_m, "
-      "thickness_m, second_moment_m4, area_m2, shear_factor, damping_N_s_per_m.");
+      "thickness_m, second_moment_m4, area_m2, shear_factor, damping_N_s_per_m, variant.");
 }
 
 TEST(BadDataset, ACLegNeedsATouchdownAngle) {
