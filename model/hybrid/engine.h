@@ -117,7 +117,7 @@ class Engine {
         crossing = {immediate, t_};
         EmitRows(row_time, t_);
       } else if (!Advance(row_time, at_start, crossing)) {
-        return Outcome::kIntegrationFailed;
+        return out_.steps >= max_steps_ ? Outcome::kStepLimit : Outcome::kIntegrationFailed;
       }
       if (crossing.guard < 0) return Outcome::kCompleted;  // horizon
 
@@ -223,7 +223,7 @@ class Engine {
 
   template <class RowTime>
   Crossing FlyBallistic(const RowTime& row_time) requires(kDim >= 4) {
-    const BallisticFlight<T> flight = system_.Ballistic(z_.data());
+    const auto flight = system_.Ballistic(z_.data());
     const Crossing crossing = flight.Next(t_, settings_.horizon, z_.data());
     for (; next_row_ < rows(); ++next_row_) {
       const T time = row_time(next_row_);
@@ -352,7 +352,7 @@ class Engine {
     while (before < rows() && Value(row_time(before)) < 0.0) ++before;
     if constexpr (kDim >= 4) {
       if (system_.IsBallistic(mode_)) {
-        const BallisticFlight<T> flight = system_.Ballistic(z_.data());
+        const auto flight = system_.Ballistic(z_.data());
         for (next_row_ = 0; next_row_ < before; ++next_row_) {
           const T time = row_time(next_row_);
           std::array<T, kDim> z = z_;
