@@ -46,6 +46,8 @@ class ToeMassBody {
         gravity_x_(-body_.inertia().weight_along / parameters.m),
         gravity_y_(-body_.inertia().weight_down / parameters.m) {
     swing_.StartSearch(Mode::kToe, nullptr);
+    const T upright[] = {T(0.0), T(1.0), T(0.0), T(0.0), T(0.0)};
+    length_ = swing_.RestChord(swing_.Load(Mode::kToe, upright));
   }
 
   template <class Other>
@@ -63,9 +65,8 @@ class ToeMassBody {
     using std::cos;
     using std::sin;
     const T theta = body_.TouchdownAngle(z);
-    const T length = swing_.RestChord(SwingLoadOf(T(0.0), T(1.0)));
-    z[kToeX] = z[kX] + length * sin(theta);
-    z[kToeY] = z[kY] - length * cos(theta);
+    z[kToeX] = z[kX] + length_ * sin(theta);
+    z[kToeY] = z[kY] - length_ * cos(theta);
     z[kToeVx] = z[kVx];
     z[kToeVy] = z[kVy];
   }
@@ -202,8 +203,7 @@ class ToeMassBody {
     seen[Channel::kBodyVx] = z[kVx];
     seen[Channel::kBodyVy] = z[kVy];
     seen[Channel::kLegAngle] = s.theta;
-    seen[Channel::kLegLength] =
-        body_.leg().ShownLength(s.theta) * s.load.l / swing_.RestChord(s.load);
+    seen[Channel::kLegLength] = body_.leg().ShownLength(s.theta) * s.load.l / length_;
     seen[Channel::kGroundForceX] = seen[Channel::kGroundForceY] = T(0.0);
     seen[Channel::kHipTorque] = s.torque;
     seen[Channel::kContact] = T(0.0);
@@ -257,25 +257,43 @@ class ToeMassBody {
     return kEvents[static_cast<int>(flight_)][i];
   }
 
-  // The leg with its toe as a contact: what it carries does not know whether that is held.
-  LegLoad<T> SwingLoad(const T& t, const T* z) const {
-    const T held[] = {z[kX], z[kY] - z[kToeY], z[kVx] - z[kToeVx], z[kVy] - z[kToeVy], z[kToeX]};
-    if (extended_) return swing_.extended().Load(Mode::kToe, held, {t, T(0.0)});
-    return swing_.Load(Mode::kToe, held);
+  // The hip over a toe that stands at (u, 0): a state for the law of a leg on its toe, which does
+  // not know whether that is held.
+  using HipOverToe = std::array<T, kLegStateSize>;
+  HipOverToe Relative(const T* z) const {
+    HipOverToe hip = {T(0.0), z[kY] - z[kToeY], z[kVx] - z[kToeVx], z[kVy] - z[kToeVy],
+                      z[kToeX] - z[kX]};
+    if (flight_ == Flight::kFirst) TakeRoundingOut(z, hip);
+    return hip;
   }
-  LegLoad<T> SwingLoadOf(const T& u, const T& y) const {
-    const T held[] = {T(0.0), y, T(0.0), T(0.0), u};
-    return swing_.Load(Mode::kToe, held);
+  // A leg still relaxed to rounding is taken to be so: a sensitivity that is zero but for rounding
+  // would otherwise be noise, which no step can follow.
+  void TakeRoundingOut(const T* z, HipOverToe& hip) const {
+    constexpr double kRounding = 1e-13;  // m, m/s
+    const double theta = Value(body_.TouchdownAngle(z)), length = Value(length_);
+    const std::array<double, kLegStateSize> rest = {0.0, length * std::cos(theta), 0.0, 0.0,
+                                                    length * std::sin(theta)};
+    for (int i = 0; i < kLegStateSize; ++i) {
+      if (std::abs(Value(hip[i]) - rest[i]) > kRounding) return;
+    }
+    for (int i = 0; i < kLegStateSize; ++i) hip[i] = Chain(hip[i], rest[i], 1.0);
   }
+  LegLoad<T> SwingLoad(const T& t, const HipOverToe& hip) const {
+    if (extended_) return swing_.extended().Load(Mode::kToe, hip.data(), {t, T(0.0)});
+    return swing_.Load(Mode::kToe, hip.data());
+  }
+  LegLoad<T> SwingLoad(const T& t, const T* z) const { return SwingLoad(t, Relative(z)); }
   static T LegAngle(const T* z) {
     using std::atan2;
     return atan2(z[kToeX] - z[kX], z[kY] - z[kToeY]);
   }
   Swing SwingAt(const T& t, const T* z) const {
-    Swing s{SwingLoad(t, z), LegAngle(z), T(0.0), {}};
+    using std::atan2;
+    const HipOverToe over = Relative(z);
+    Swing s{SwingLoad(t, over), atan2(over[kContact], over[kY]), T(0.0), {}};
     const LegLoad<T>& load = s.load;
-    const T vx = z[kVx] - z[kToeVx], vy = z[kVy] - z[kToeVy];
-    const T rate = -(load.y * vx + load.u * vy) / (load.l * load.l);                    // dtheta/dt
+    // dtheta/dt
+    const T rate = -(load.y * over[kVx] + load.u * over[kVy]) / (load.l * load.l);
     s.torque = p_.kd_place * rate - p_.kp_place * (body_.TouchdownAngle(z) - s.theta);  // M41
     if (body_.effects().HasHipTorque()) {
       const HipMotion<T> hip{s.torque, rate, t, z[kVx], load.u / load.l};
@@ -289,7 +307,7 @@ class ToeMassBody {
   T ReachDown(const T* z) const {
     const LegLoad<T> load = SwingLoad(T(0.0), z);
     const T rest = body_.leg().TouchdownHeight(LegAngle(z));
-    return body_.effects().ContactHeight(rest * load.l / swing_.RestChord(load));
+    return body_.effects().ContactHeight(rest * load.l / length_);
   }
   // M45: the chord lifts the toe's weight.
   T LiftoffGuard(const LegLoad<T>& load) const {
@@ -302,7 +320,7 @@ class ToeMassBody {
     const T theta = LegAngle(z);
     const LegLoad<T> load = SwingLoad(t, z);
     const auto& leg = body_.leg();
-    const T stretch = load.l / swing_.RestChord(load) - 1.0;
+    const T stretch = load.l / length_ - 1.0;
     const T ahead = stretch * leg.ShownLength(theta) * sin(leg.ChordAngle(theta));
     const ResetResult landed = body_.Land(theta, t, z, [&](T* at) { at[kContact] += ahead; });
     for (int i = kToeY; i < kToeStateSize; ++i) z[i] = T(0.0);
@@ -336,6 +354,7 @@ class ToeMassBody {
   LegT<T> swing_;
   bool extended_, falls_freely_;
   T gravity_x_, gravity_y_;
+  T length_;  // chord of the unloaded leg to its toe [m]
   Flight flight_ = Flight::kFirst;
   bool may_pull_ = true;
 };

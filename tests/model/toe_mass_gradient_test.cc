@@ -33,15 +33,16 @@ std::vector<Case> Cases() {
     q.parameters.v_des = 1.4;
     cases.push_back({name + "_controlled", q, hop + " " + hop});
     if (law == Law::kStraightLeg) continue;
-    q = ToeMassRequest(law);
+    // A heavy toe, so that its placement is seen in the apex already.
+    q = WithToeMass(ToeMassRequest(law), 0.05, 60.0);
     q.parameters.theta_td = Degrees(8.0);
     q.initial[2] = 0.7;
     cases.push_back({name + "_rolling_toe", q, "touchdown rolling_to_toe liftoff apex"});
-    q = ToeMassRequest(law);
+    q = WithToeMass(ToeMassRequest(law), 0.05, 60.0);
     q.parameters.theta_td = Degrees(-10.0);
     q.initial[2] = 0.3;
     cases.push_back({name + "_toe", q, hop});
-    q = ToeMassRequest(law);
+    q = WithToeMass(ToeMassRequest(law), 0.05, 60.0);
     q.parameters.theta_td = Degrees(-2.0);
     q.initial = {0.0, 0.25, -0.5, -0.1};
     cases.push_back({name + "_toe_rolling", q, "touchdown toe_to_rolling liftoff apex"});

@@ -34,7 +34,7 @@ TEST_P(ToeMass, FlightKeepsHorizontalMomentumAndFallsWithTheWeightOfBoth) {
   EXPECT_NEAR(p1[0], p0[0], 1e-11);
   EXPECT_NEAR(p1[1] - p0[1], -weight * (b.end_time - a.end_time), 1e-11);
   // It is not each for itself: the toe was swung forward.
-  EXPECT_GT(std::abs(b.final_state[6] - a.final_state[6]), 0.1);
+  EXPECT_GT(std::abs(b.final_state[6] - a.final_state[6]), 0.02);
 }
 
 TEST_P(ToeMass, FlightIsThatOfTwoBodiesOnASpringAndATorque) {
@@ -160,7 +160,9 @@ TEST_P(ConservativeToeMass, RollingStanceKeepsTheEnergyOfHipAndLeg) {
     return Energy(massless, run.final_mode, std::span(run.final_state).first(5));
   };
   const double landed = hip_energy(1e-12);
-  for (double after : {0.01, 0.03, 0.05}) EXPECT_NEAR(hip_energy(after), landed, 1e-9) << after;
+  for (double after : {0.01, 0.025, 0.04}) {
+    EXPECT_NEAR(hip_energy(after), landed, 1e-9) << after;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Law, ConservativeToeMass,
@@ -184,14 +186,13 @@ TEST_P(ToeMass, LeavesTheGroundWhenTheChordLiftsTheToesWeight) {
 
 TEST_P(ToeMass, LiftoffLeavesTheLegTouchingTheGroundWithItsToeAtRest) {
   const SimulationRequest q = ToeMassRequest(GetParam());
-  const Trajectory run = Simulate(EndedAfter(q, EventKind::kLiftoff, 0.0));
+  const Trajectory run = Simulate(EndedAfter(q, EventKind::kLiftoff, 1e-9));
   const auto& z = run.final_state;
   ASSERT_EQ(run.final_mode, Mode::kFlight);
-  EXPECT_EQ(z[6], 0.0);
-  EXPECT_EQ(z[7], 0.0);
+  EXPECT_LT(std::hypot(z[6], z[7]), 1e-6);
   const double l = std::hypot(z[0] - z[4], z[1] - z[5]);
   const double lowest = z[4] > z[0] && q.law != Law::kStraightLeg ? 0.5 * (z[1] + z[5] - l) : z[5];
-  EXPECT_NEAR(lowest, 0.0, 1e-15);
+  EXPECT_NEAR(lowest, 0.0, 1e-9);
 }
 
 TEST_P(ToeMass, LandsAtTheAngleItsLegHasNotAtTheCommandedOne) {
