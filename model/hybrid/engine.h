@@ -50,6 +50,7 @@ class Engine {
         sink_(sink),
         out_(out),
         max_steps_(options.max_steps),
+        explicit_(options.kind != IntegratorKind::kCvodes),
         stepper_(options, Rhs(&system_, &mode_)) {}
 
   /// Runs from `z0` in `mode` at time 0. `row_time(i)` is the time row i was really read at, as T:
@@ -252,8 +253,9 @@ class Engine {
     if (!flight && stance_step_ > 0.0) first = stance_step_;
     stepper_.Start(t_, y.data(), std::min(first, remaining));
     bool first_step = true;
+    const double longest = LongestStep();
     while (true) {
-      double limit = settings_.horizon;
+      double limit = std::min(settings_.horizon, stepper_.t1() + longest);
       if constexpr (!decltype(stepper_)::kReadsInsideStep) limit = NextRowLimit(row_time, limit);
       if (out_.steps >= max_steps_ || stepper_.Step(limit) == StepStatus::kFailed) {
         TakeStepperState();
@@ -284,6 +286,13 @@ class Engine {
     }
   }
 
+  // The step an explicit solver must not exceed where the state alone does not steer it there [s].
+  double LongestStep() const {
+    if constexpr (requires { system_.LongestStep(mode_, T(t_), CurrentZ()); }) {
+      if (explicit_ && kWidth > 0) return system_.LongestStep(mode_, T(t_), CurrentZ());
+    }
+    return std::numeric_limits<double>::infinity();
+  }
   const T* CurrentZ() const { return z_.data(); }
   void TakeStepperState() {
     Rhs::Unpack(stepper_.y1(), z_.data());
@@ -392,6 +401,7 @@ class Engine {
   Trajectory& out_;
   Mode mode_ = Mode::kFlight;
   long max_steps_;
+  bool explicit_;  // the solver is
   Stepper<kSize, kDim, Rhs> stepper_;
   std::array<T, kDim> z_;
   double t_ = 0.0, segment_begin_ = 0.0, stance_step_ = 0.0;

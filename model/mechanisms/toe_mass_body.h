@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "model/mechanisms/legged_body.h"
 
@@ -185,6 +186,27 @@ class ToeMassBody {
     double step = std::min(0.01, 0.1 * std::sqrt(toe / Value(body_.leg().Stiffness(load))));
     if (Value(p_.d) > 0.0) step = std::min(step, 0.1 * toe / Value(p_.d));
     return step;
+  }
+
+  /// While a relaxed leg falls the state does not feel how stiff it is, its sensitivities do: the
+  /// time in which the toe answers to being moved or pushed off its place [s].
+  double LongestStep(Mode mode, const T& t, const T* z) const {
+    if (mode != Mode::kFlight || flight_ != Flight::kFirst)
+      return std::numeric_limits<double>::infinity();
+    constexpr double kSmall = 1e-6;  // m, m/s
+    T rest[kDim], answer[kDim], moved[kDim];
+    Derivative(mode, t, z, rest);
+    double rate = 0.0;
+    for (int i = kToeX; i < kToeStateSize; ++i) {
+      std::copy_n(z, kDim, moved);
+      moved[i] += kSmall;
+      Derivative(mode, t, moved, answer);
+      const double change =
+          std::hypot(Value(answer[kToeVx] - rest[kToeVx]), Value(answer[kToeVy] - rest[kToeVy])) /
+          kSmall;
+      rate = std::max(rate, i < kToeVx ? std::sqrt(change) : change);
+    }
+    return 1.0 / rate;
   }
 
   /// What the sensors see, before the observation effects. The ground carries the toe's weight; in
