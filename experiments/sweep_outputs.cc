@@ -161,7 +161,9 @@ SweepRow ComputeSweepRow(const Hopper& hopper, const std::vector<const SweepOutp
   const bool complete = IsComplete(results.run.outcome);
   if (complete) results.convergence = ConvergenceTimeOf(ApexSpeeds(results.run));
   ReadSamples(results);
-  if (wanted(&SweepOutput::needs_fixed_point)) results.steady = SteadyHop(hopper);
+  // A leg with a toe mass has no return map of speed and height alone.
+  if (wanted(&SweepOutput::needs_fixed_point))
+    results.steady = hopper.request.parameters.m_toe > 0.0 ? FixedPoint{} : SteadyHop(hopper);
 
   SweepRow row;
   row.outcome = std::string(NameOf(results.run.outcome));
