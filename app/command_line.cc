@@ -14,6 +14,8 @@
 #include "app/commands/identify.h"
 #include "app/commands/laws.h"
 #include "app/commands/optimize.h"
+#include "app/commands/report.h"
+#include "app/commands/reproduce.h"
 #include "app/commands/simulate.h"
 #include "app/commands/sweep.h"
 #include "app/commands/version.h"
@@ -43,9 +45,11 @@ class CommandLine {
     AddGaitCommand(app_, invocation_);
     AddOptimizeCommand(app_, invocation_);
     AddSweepCommand(app_, invocation_);
+    AddReproduceCommand(app_, invocation_);
     AddIdentifyCommand(app_, invocation_);
     AddSimulateCommand(app_, invocation_);
     AddGenerateCommand(app_, invocation_);
+    AddReportCommand(app_, invocation_);
     AddLawsCommand(app_, invocation_);
     AddEffectsCommand(app_, invocation_);
     AddVersionCommand(app_, invocation_);

@@ -2,7 +2,10 @@
 
 #include <cmath>
 
+#include "app/diagnosis_words.h"
+#include "app/fit_report.h"
 #include "app/record_parts.h"
+#include "app/trial_tables.h"
 
 namespace hoplab {
 namespace {
@@ -348,6 +351,7 @@ Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument
   const Candidate* caused_by =
       cause ? &d.naming.candidates[static_cast<std::size_t>(*cause)].candidate : nullptr;
   record["verdict"] = failure.empty() ? Json(NameOf(d.verdict)) : Json(nullptr);
+  record["sentence"] = failure.empty() ? OrNull(VerdictSentence(d)) : Json(nullptr);
   record["reason"] = OrNull(d.reason);
   record["cause"] = caused_by ? Json(caused_by->effect->info.name) : Json(nullptr);
   record["only_in_trial"] = caused_by ? OrNull(caused_by->only_recording) : Json(nullptr);
@@ -376,6 +380,13 @@ Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument
       d.gate.certificate.columns.empty() ? std::nullopt
                                          : std::optional<GradientCertificate>(d.gate.certificate));
   record["channels"] = ChannelsRecord(d.problem);
+  const bool determined = !d.uncertainty.parameters.empty();
+  record["sentences"] = {
+      {"determined",
+       determined ? Json(DeterminedLine(d.problem, d.uncertainty, "")) : Json(nullptr)},
+      {"gradients", CertificateLine(d.gate.certificate)}};
+  record["mechanism"] =
+      FittedMechanismRecord({&d.problem, &d.null.shared, &d.before.trials, "before"});
   record["fitted"] = d.by_hop ? "single hops" : "whole traces";
   record["notes"] = d.notes;
   record["interrupted"] = d.interrupted;

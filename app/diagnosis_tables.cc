@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "app/csv.h"
+#include "app/trajectory_tables.h"
+#include "app/trial_tables.h"
 
 namespace hoplab {
 namespace {
@@ -106,10 +108,10 @@ std::string Residuals(const Diagnosis& d) {
   return csv.text();
 }
 
-// Evidence for the effects of the extension at the null fit, row by row; an effect of one trial
-// only counts there.
+// Evidence for the effects of the extension at the null fit, row by row and summed up since the
+// trial's first; an effect of one trial only counts there.
 std::string Evidence(const Diagnosis& d) {
-  CsvText csv({"effect", "parameter", "trial", "time_s", "channel", "mode", "evidence"});
+  CsvText csv({"effect", "parameter", "trial", "time_s", "channel", "mode", "running", "evidence"});
   const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
   for (const Candidate& member : d.naming.best.members) {
     int column = 0;
@@ -120,17 +122,22 @@ std::string Evidence(const Diagnosis& d) {
     if (column + member.parameter_count() > d.null_at.columns.cols()) continue;
     for (int k = 0; k < member.parameter_count(); ++k) {
       const Eigen::VectorXd evidence = RunningEvidence(d.null_at, column + k);
+      double running = 0.0;
+      int running_trial = -1;
       for (int row = 0; row < d.null_at.rows(); ++row) {
         const RowLabel& label = d.null_at.labels[static_cast<std::size_t>(row)];
         const TrialProblem& trial = train[static_cast<std::size_t>(label.trial)];
         if (label.of == RowLabel::Of::kPrior) continue;
         if (!member.only_recording.empty() && member.only_recording != trial.recording) continue;
+        running = evidence[row] + (label.trial == running_trial ? running : 0.0);
+        running_trial = label.trial;
         csv.Cell(member.effect->info.name)
             .Cell(member.effect->info.parameters[k].name)
             .Cell(trial.file)
             .Cell(trial.begin_s + label.time)
             .Cell(ChannelNameOf(d.problem, label.channel))
             .Cell(NameOf(label.mode))
+            .Cell(running)
             .Cell(evidence[row])
             .EndRow();
       }
@@ -163,6 +170,28 @@ std::string EnergyTable(const EnergyLedger& ledger) {
   return csv.text();
 }
 
+// The model as it was and, if there is one, the extended one, on every trial.
+std::vector<AssessedModel> ModelsOf(const Diagnosis& d) {
+  std::vector<AssessedModel> models = {{&d.problem, &d.null.shared, &d.before.trials, "before"}};
+  if (d.extension) {
+    const Extension& best = d.naming.best;
+    models.push_back({&best.problem, &best.shared, &d.extension->after.trials, "after"});
+  }
+  return models;
+}
+
+std::string Trajectories(const Diagnosis& d) {
+  CsvText csv(TrajectoryHeader(TrialLabels(true)));
+  for (const AssessedModel& model : ModelsOf(d)) AddTrialTrajectories(model, csv);
+  return csv.text();
+}
+
+std::string Events(const Diagnosis& d) {
+  CsvText csv(EventHeader(TrialLabels(true)));
+  for (const AssessedModel& model : ModelsOf(d)) AddTrialEvents(model, csv);
+  return csv.text();
+}
+
 }  // namespace
 
 std::map<std::string, std::string> DiagnosisTables(const DiagnosisRun& run) {
@@ -170,7 +199,11 @@ std::map<std::string, std::string> DiagnosisTables(const DiagnosisRun& run) {
   std::map<std::string, std::string> tables;
   if (!d.naming.candidates.empty()) tables["candidates.csv"] = Candidates(d);
   if (!d.localisation.cells.empty()) tables["misfit.csv"] = Misfit(d);
-  if (!d.before.trials.empty()) tables["residuals.csv"] = Residuals(d);
+  if (!d.before.trials.empty()) {
+    tables["residuals.csv"] = Residuals(d);
+    tables["trajectories.csv"] = Trajectories(d);
+    tables["events.csv"] = Events(d);
+  }
   if (!d.naming.best.members.empty()) tables["evidence.csv"] = Evidence(d);
   if (d.free_forces) tables["forces.csv"] = Forces(*d.free_forces);
   if (!run.energy.hops.empty()) tables["energy.csv"] = EnergyTable(run.energy);

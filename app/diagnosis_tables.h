@@ -7,9 +7,10 @@
 
 namespace hoplab {
 
-/// The CSVs behind a diagnosis' plots by file name: candidates, misfit, residuals, evidence (for
-/// the effects of the extension), forces (where free ones were reconstructed), energy. Times are
-/// those of the dataset's own files. What was not reached is left out.
+/// The CSVs behind a diagnosis' plots by file name: candidates, misfit, residuals, trajectories
+/// and events (of the model before and after), evidence (for the effects of the extension), forces
+/// (where free ones were reconstructed), energy. Times are those of the dataset's own files. What
+/// was not reached is left out.
 std::map<std::string, std::string> DiagnosisTables(const DiagnosisRun& run);
 
 }  // namespace hoplab

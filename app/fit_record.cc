@@ -1,6 +1,8 @@
 #include "app/fit_record.h"
 
+#include "app/fit_report.h"
 #include "app/record_parts.h"
+#include "app/trial_tables.h"
 
 namespace hoplab {
 namespace {
@@ -37,6 +39,17 @@ Json ProfilesRecord(const FitRun& run) {
          {"points", points}});
   }
   return out;
+}
+
+// What the terminal says in words, for the report to say the same.
+Json FitSentences(const FitRun& run) {
+  const bool assessed = run.uncertainty.has_value();
+  const bool misfit = assessed && run.uncertainty->misfit;
+  return {{"misfit", misfit ? Json(MisfitLine(*run.uncertainty)) : Json(nullptr)},
+          {"determined",
+           assessed ? Json(DeterminedLine(run.problem, *run.uncertainty, "")) : Json(nullptr)},
+          {"gradients", CertificateLine(run.certificate)},
+          {"remarks", TrialRemarks(run)}};
 }
 
 }  // namespace
@@ -79,6 +92,10 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
       assessed ? MatrixRecord(run.problem, run.uncertainty->correlation) : Json(nullptr);
   record["profiles"] = ProfilesRecord(run);
   record["channels"] = ChannelsRecord(run.problem);
+  record["sentences"] = FitSentences(run);
+  record["mechanism"] = run.has_result ? FittedMechanismRecord({&run.problem, &run.fit.shared,
+                                                                &run.trials, ""})
+                                       : Json(nullptr);
   record["fitted"] = run.by_hop ? "single hops" : "whole traces";
   record["warnings"] = run.check.warnings;
   record["notes"] = run.check.notes;

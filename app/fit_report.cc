@@ -94,14 +94,29 @@ std::string ErrorLine(const FitRun& run, const RoleErrors& errors) {
   return parts.empty() ? "contact times only" : Join(parts);
 }
 
-std::string MisfitLine(const Uncertainty& u, bool between) {
+std::string LoadingsText(const FitProblem& problem, const WeakDirection& weak) {
+  std::vector<std::string> parts;
+  std::string only;
+  for (int i = 0; i < problem.shared_count(); ++i) {
+    if (std::abs(weak.loadings[i]) < kSmallLoading) continue;
+    only = problem.shared[i].name;
+    parts.push_back(fmt::format("{:+.2f} {}", weak.loadings[i], only));
+  }
+  if (parts.size() == 1) return only;
+  return Join(parts, " ");
+}
+
+}  // namespace
+
+std::string MisfitLine(const Uncertainty& u) {
+  const bool between = std::any_of(u.parameters.begin(), u.parameters.end(),
+                                   [](const auto& p) { return p.ci95_between_trials.has_value(); });
   return fmt::format(
       "the model misses more than the noise (chi2 {} per sample, 1 expected): the interval from "
       "noise alone is too narrow{}",
       Significant(u.chi2_per_dof, 3), between ? ", go by the one beside it" : "");
 }
 
-// Trials whose simulation did not reach the end of their data, and legs bent beyond the law.
 std::vector<std::string> TrialRemarks(const FitRun& run) {
   std::vector<std::string> remarks;
   for (const TrialErrors& t : run.trials) {
@@ -121,20 +136,6 @@ std::vector<std::string> TrialRemarks(const FitRun& run) {
   }
   return remarks;
 }
-
-std::string LoadingsText(const FitProblem& problem, const WeakDirection& weak) {
-  std::vector<std::string> parts;
-  std::string only;
-  for (int i = 0; i < problem.shared_count(); ++i) {
-    if (std::abs(weak.loadings[i]) < kSmallLoading) continue;
-    only = problem.shared[i].name;
-    parts.push_back(fmt::format("{:+.2f} {}", weak.loadings[i], only));
-  }
-  if (parts.size() == 1) return only;
-  return Join(parts, " ");
-}
-
-}  // namespace
 
 std::string DeterminedLine(const FitProblem& problem, const Uncertainty& uncertainty,
                            const std::string& at) {
@@ -191,12 +192,7 @@ std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
   text += WithHeader(ParameterLines(run), colours) + "\n";
 
   const Uncertainty& u = *run.uncertainty;
-  if (u.misfit) {
-    const bool between = std::any_of(u.parameters.begin(), u.parameters.end(), [](const auto& p) {
-      return p.ci95_between_trials.has_value();
-    });
-    text += Labelled("misfit", MisfitLine(u, between), colours);
-  }
+  if (u.misfit) text += Labelled("misfit", MisfitLine(u), colours);
   text += Labelled("determined", DeterminedLine(run.problem, u, ""), colours);
   for (const TrialRole role : {TrialRole::kTrain, TrialRole::kTest}) {
     text += Labelled(role == TrialRole::kTrain ? "train error" : "test error",

@@ -2,12 +2,10 @@
 
 #include "app/csv.h"
 #include "app/trajectory_tables.h"
-#include "fitting/trial_evaluator.h"
+#include "app/trial_tables.h"
 
 namespace hoplab {
 namespace {
-
-constexpr double kTrajectoryRate = 500.0;  // Hz
 
 std::string Residuals(const FitRun& run) {
   CsvText csv({"trial", "time_s", "channel", "measured", "simulated", "whitened"});
@@ -51,29 +49,14 @@ std::string Hops(const FitRun& run) {
 }
 
 std::string Events(const FitRun& run) {
-  CsvText csv(EventHeader(true));
-  for (std::size_t i = 0; i < run.trials.size(); ++i) {
-    AddEventRows(run.trials[i].trajectory, run.trials[i].file, run.problem.trials[i].begin_s, csv);
-  }
+  CsvText csv(EventHeader(TrialLabels(false)));
+  AddTrialEvents({&run.problem, &run.fit.shared, &run.trials, ""}, csv);
   return csv.text();
 }
 
 std::string Trajectories(const FitRun& run) {
-  CsvText csv(TrajectoryHeader(true));
-  for (std::size_t i = 0; i < run.trials.size(); ++i) {
-    const TrialProblem& trial = run.problem.trials[i];
-    SimulationRequest request;
-    request.law = run.problem.law;
-    request.liftoff = trial.liftoff;
-    request.parameters = trial.parameters;
-    std::vector<EffectSetting> effects = run.problem.effects;
-    ApplyShared(run.problem, trial, run.fit.shared, request.parameters, effects);
-    request.effects = effects;
-    request.initial = run.trials[i].start;
-    request.horizon = trial.row_times.back();
-    request.integrator = run.problem.integrator;
-    AddTrajectoryRows(request, kTrajectoryRate, trial.file, run.problem.trials[i].begin_s, csv);
-  }
+  CsvText csv(TrajectoryHeader(TrialLabels(false)));
+  AddTrialTrajectories({&run.problem, &run.fit.shared, &run.trials, ""}, csv);
   return csv.text();
 }
 

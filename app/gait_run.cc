@@ -6,9 +6,11 @@
 
 #include "app/console.h"
 #include "app/csv.h"
+#include "app/gait_tables.h"
 #include "app/quantity.h"
 #include "app/simulation_record.h"
 #include "app/text_table.h"
+#include "app/trajectory_tables.h"
 #include "app/usage_error.h"
 #include "base/input_error.h"
 #include "base/text.h"
@@ -29,7 +31,7 @@ std::vector<std::string> ParameterNames(const Hopper& hopper) {
 }
 
 SensitivityDirection DirectionOf(const Hopper& hopper, const std::string& name) {
-  return ResolveDirection(name, MechanismOf(hopper.request.law), hopper.effects);
+  return ResolveDirection(name, MechanismOf(hopper.request.law), LegMass::kNone, hopper.effects);
 }
 
 std::string Multiplier(const std::complex<double>& m) {
@@ -131,6 +133,24 @@ std::string CountedText(const GaitRun& run) {
                      run.counted->band == ConvergenceTime::Band::kTwoPercent ? "* (2 %)" : "");
 }
 
+// The branch as CSV.
+std::string BranchTable(const GaitRun& run) {
+  CsvText csv({run.along->name, "vx_m_per_s", "y_m", "spectral_radius", "multiplier_1_re",
+               "multiplier_1_im", "multiplier_2_re", "multiplier_2_im", "stable",
+               "sequence_changed", "near_grazing", "events"});
+  for (const BranchPoint& point : run.branch.points) {
+    const FixedPoint& p = point.fixed_point;
+    csv.Cell(point.parameter).Cell(p.state[0]).Cell(p.state[1]).Cell(p.spectral_radius);
+    for (const std::complex<double>& m : p.multipliers) csv.Cell(m.real()).Cell(m.imag());
+    csv.Cell(p.stable() ? 1.0 : 0.0)
+        .Cell(point.sequence_changed ? 1.0 : 0.0)
+        .Cell(point.near_grazing ? 1.0 : 0.0)
+        .Cell(EventSequence(p.hop));
+    csv.EndRow();
+  }
+  return csv.text();
+}
+
 }  // namespace
 
 AlongRange ParseAlong(const std::string& text) {
@@ -178,7 +198,8 @@ GaitRun RunGait(const Hopper& hopper, const GaitOptions& options) {
   ReturnMap map(hopper);
   run.point = SearchFixedPoint(map, run.start);
   const Trajectory own = Simulate(RequestOf(hopper));
-  if (IsComplete(own.outcome)) run.counted = ConvergenceTimeOf(ApexSpeeds(own));
+  run.apexes = ApexSpeeds(own);
+  if (IsComplete(own.outcome)) run.counted = ConvergenceTimeOf(run.apexes);
   if (!run.point.found()) return run;
   run.prediction = PredictHops(run.point, run.start);
   stage("differentiating the spectral radius");
@@ -220,6 +241,10 @@ void AddGait(const GaitRun& run, Json& record) {
   record["stable"] = found ? Json(p.stable()) : Json(nullptr);
   record["conserves_energy"] = found ? Json(p.conserves_energy) : Json(nullptr);
   record["events"] = EventSequence(p.hop);
+  record["mechanism"] = MechanismRecord(RequestOf(run.hopper));
+  record["apex_speeds"] = Json::array();
+  for (const ApexSpeed& apex : run.apexes)
+    record["apex_speeds"].push_back({{"time_s", apex.time}, {"vx_m_per_s", apex.vx}});
   record["max_flexure"] = found ? NumberOrNull(p.hop.max_flexure) : nullptr;
   record["iterations"] = p.iterations;
   record["residual"] = NumberOrNull(p.residual);
@@ -227,21 +252,14 @@ void AddGait(const GaitRun& run, Json& record) {
   record["branch"] = BranchRecord(run);
 }
 
-std::string BranchTable(const GaitRun& run) {
-  CsvText csv({run.along->name, "vx_m_per_s", "y_m", "spectral_radius", "multiplier_1_re",
-               "multiplier_1_im", "multiplier_2_re", "multiplier_2_im", "stable",
-               "sequence_changed", "near_grazing", "events"});
-  for (const BranchPoint& point : run.branch.points) {
-    const FixedPoint& p = point.fixed_point;
-    csv.Cell(point.parameter).Cell(p.state[0]).Cell(p.state[1]).Cell(p.spectral_radius);
-    for (const std::complex<double>& m : p.multipliers) csv.Cell(m.real()).Cell(m.imag());
-    csv.Cell(p.stable() ? 1.0 : 0.0)
-        .Cell(point.sequence_changed ? 1.0 : 0.0)
-        .Cell(point.near_grazing ? 1.0 : 0.0)
-        .Cell(EventSequence(p.hop));
-    csv.EndRow();
-  }
-  return csv.text();
+std::map<std::string, std::string> GaitTables(const GaitRun& run) {
+  constexpr double kLongest = 30.0;  // s
+  std::map<std::string, std::string> tables = {
+      {"trajectory.csv", OwnRunTable(run.hopper, kLongest)}};
+  if (run.point.found())
+    tables["cycles.csv"] = CycleTable({{"steady hop", &run.hopper, &run.point}});
+  if (run.along && !run.branch.points.empty()) tables["branch.csv"] = BranchTable(run);
+  return tables;
 }
 
 std::string GaitReport(const std::string& name, const GaitRun& run, bool colours) {

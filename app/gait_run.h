@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct GaitRun {
   std::vector<std::string> parameters;  // names of what the spectral radius is differentiated by
   std::vector<SpectralRadiusRate> rates;
   std::optional<ConvergenceTime> counted;  // in the scenario's own run, where it runs to its end
+  std::vector<ApexSpeed> apexes;           // of that run
   std::optional<AlongRange> along;
   Branch branch;
   bool interrupted = false;
@@ -48,8 +50,9 @@ GaitRun RunGait(const Hopper& hopper, const GaitOptions& options);
 
 /// Keys of a gait in run.json.
 void AddGait(const GaitRun& run, Json& record);
-/// The branch as CSV.
-std::string BranchTable(const GaitRun& run);
+/// The CSVs behind a gait's plots by file name: trajectory (the scenario's own run), cycles (the
+/// steady hop), branch (where a parameter was followed).
+std::map<std::string, std::string> GaitTables(const GaitRun& run);
 /// What the command prints.
 std::string GaitReport(const std::string& name, const GaitRun& run, bool colours);
 

@@ -6,8 +6,10 @@
 
 #include "app/console.h"
 #include "app/csv.h"
+#include "app/gait_tables.h"
 #include "app/quantity.h"
 #include "app/text_table.h"
+#include "app/trajectory_tables.h"
 
 namespace hoplab {
 namespace {
@@ -60,6 +62,16 @@ Json StepsRecord(const std::vector<SearchStep>& steps) {
                        {"score", NumberOrNull(step.score)}});
   }
   return history;
+}
+
+Json VariablesRecord(const OptimizeRun& run) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < run.problem.variables.size(); ++i) {
+    const SearchVariable& v = run.problem.variables[i];
+    out.push_back(
+        {{"name", v.name}, {"low", v.low}, {"high", v.high}, {"before", run.scenario_x[i]}});
+  }
+  return out;
 }
 
 // "0.71 s after 2 hops", "falls (fell_no_return)".
@@ -118,6 +130,7 @@ void AddOptimize(const OptimizeRun& run, Json& record) {
   const GainSearchResult& result = run.result;
   record["objective"] = NameOf(run.problem.objective);
   record["algorithm"] = NameOf(run.options.algorithm);
+  record["variables"] = VariablesRecord(run);
   record["best"] = run.has_result() ? PointRecord(run, result.best) : Json(nullptr);
   record["before"] = PointRecord(run, run.before);
   record["evaluations"] = result.evaluations;
@@ -133,6 +146,10 @@ void AddOptimize(const OptimizeRun& run, Json& record) {
   record["robustness"] = {
       {"before", RobustnessRecord(run.before_robustness)},
       {"best", run.has_result() ? RobustnessRecord(run.best_robustness) : Json(nullptr)}};
+  record["gaits"] = {{"before", GaitPointRecord(run.before_gait)},
+                     {"best", GaitPointRecord(run.best_gait)}};
+  const Hopper before = run.problem.hopper_at(run.scenario_x);
+  record["mechanism"] = MechanismRecord(RequestOf(before));
 }
 
 std::string MapTable(const OptimizeRun& run) {
@@ -164,6 +181,17 @@ std::string HistoryTable(const OptimizeRun& run) {
     }
   }
   return csv.text();
+}
+
+std::string CyclesTable(const OptimizeRun& run) {
+  const Hopper before = run.problem.hopper_at(run.scenario_x);
+  std::vector<LabelledGait> gaits = {{"before", &before, &run.before_gait}};
+  Hopper best;
+  if (run.has_result()) {
+    best = run.problem.hopper_at(run.result.best.x);
+    gaits.push_back({"best", &best, &run.best_gait});
+  }
+  return CycleTable(gaits);
 }
 
 std::string OptimizeReport(const std::string& name, const OptimizeRun& run, bool colours) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/run_record.h"
+#include "optimize/fixed_point.h"
 #include "optimize/gain_search.h"
 #include "optimize/robustness.h"
 
@@ -17,6 +18,7 @@ struct OptimizeRun {
   std::vector<double> scenario_x;  // the scenario's own values of the variables
   SearchPoint before;              // the scenario as it stands
   Robustness before_robustness, best_robustness;
+  FixedPoint before_gait, best_gait;  // steady hops, not found where there are none
   std::vector<MapCell> map;
 
   /// A point that converges within the constraints was found.
@@ -30,6 +32,8 @@ void AddOptimize(const OptimizeRun& run, Json& record);
 /// The objective map, and the history of all seeds, as CSV.
 std::string MapTable(const OptimizeRun& run);
 std::string HistoryTable(const OptimizeRun& run);
+/// The steady hops before and best, from apex to apex, as CSV.
+std::string CyclesTable(const OptimizeRun& run);
 /// What the command prints.
 std::string OptimizeReport(const std::string& name, const OptimizeRun& run, bool colours);
 

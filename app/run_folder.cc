@@ -4,7 +4,11 @@
 #include <charconv>
 #include <cstdio>
 
+#include "app/report_page.h"
 #include "base/atomic_file.h"
+#include "base/input_error.h"
+#include "base/text.h"
+#include "datasets/text_file.h"
 
 namespace hoplab {
 namespace {
@@ -13,6 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kParent = "runs";
 constexpr const char* kMarker = "run.json";
+constexpr const char* kReport = "report.html";
+constexpr std::uint64_t kMaxFileBytes = 2ULL << 30;
 
 // A dataset's name as part of a file name: nothing that means something to a shell or a path.
 std::string FileNameOf(const std::string& name) {
@@ -56,7 +62,9 @@ fs::path RunFolder::NextFree() const {
 }
 
 fs::path RunFolder::Write(const std::map<std::string, std::string>& files) const {
+  const std::string report = ReportPage(Json::parse(files.at(kMarker)), files);
   const auto fill = [&](const fs::path& folder) {
+    WriteFileAtomically(folder / kReport, report);
     for (const auto& [name, content] : files) WriteFileAtomically(folder / name, content);
   };
   if (options_.out) {
@@ -74,6 +82,38 @@ fs::path RunFolder::Write(const std::map<std::string, std::string>& files) const
       if (attempt == kAttempts || !fs::exists(folder)) throw;
     }
   }
+}
+
+StoredRun ReadRunFolder(const fs::path& folder) {
+  const fs::path marker = folder / kMarker;
+  std::error_code error;
+  if (!fs::is_regular_file(marker, error)) {
+    throw InputError({Printable(folder.string(), 200), "", "is no run folder: it has no run.json",
+                      "Give a folder that fit, diagnose or another command wrote."});
+  }
+  StoredRun run;
+  run.record = Json::parse(ReadFileBytes(marker, kMaxFileBytes), nullptr, false);
+  if (run.record.is_discarded() || !run.record.is_object()) {
+    throw InputError({Printable(marker.string(), 200), "", "is no JSON object; it was damaged",
+                      "Write the run anew."});
+  }
+  const auto schema = run.record.find("schema");
+  if (schema == run.record.end() || *schema != kRunSchema || !run.record.contains("command")) {
+    const std::string found = schema == run.record.end() ? "absent" : schema->dump();
+    throw InputError({Printable(marker.string(), 200) + ": schema", Printable(found),
+                      std::string("must be ") + kRunSchema, "Another program wrote this file."});
+  }
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".csv" && entry.is_regular_file())
+      run.files[entry.path().filename().string()] = ReadFileBytes(entry.path(), kMaxFileBytes);
+  }
+  return run;
+}
+
+fs::path WriteReport(const fs::path& folder, const StoredRun& run) {
+  fs::path file = folder / kReport;
+  WriteFileAtomically(file, ReportPage(run.record, run.files), {.force = true});
+  return file;
 }
 
 }  // namespace hoplab

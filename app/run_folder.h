@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "app/run_record.h"
+
 namespace hoplab {
 
 /// Where the outcome of a command goes.
@@ -13,13 +15,15 @@ struct RunFolderOptions {
   bool force = false;                        // replace a run that stands there
 };
 
-/// A folder with run.json and the tables behind its plots; it appears whole or not at all.
+/// A folder with run.json, the tables behind its plots and report.html; it appears whole or not at
+/// all.
 class RunFolder {
  public:
   /// Throws InputError if the place is taken: called before the work is done.
   RunFolder(RunFolderOptions options, const std::string& name, const std::string& command);
 
-  /// Writes files by name; returns where they are. Throws InputError if that is not possible.
+  /// Writes files by name, run.json among them, and the report they make; returns where they are.
+  /// Throws InputError if that is not possible.
   std::filesystem::path Write(const std::map<std::string, std::string>& files) const;
 
   /// Where a command that can be interrupted and resumed keeps what it has so far: beside the
@@ -32,5 +36,17 @@ class RunFolder {
   RunFolderOptions options_;
   std::string stem_;  // "rig-drops-fit"
 };
+
+/// What a run folder holds.
+struct StoredRun {
+  Json record;                               // run.json
+  std::map<std::string, std::string> files;  // its CSVs by name
+};
+
+/// Throws InputError for a folder that no command of hoplab wrote, or that was damaged.
+StoredRun ReadRunFolder(const std::filesystem::path& folder);
+
+/// Writes report.html of a stored run into its folder, over the one that is there; returns where.
+std::filesystem::path WriteReport(const std::filesystem::path& folder, const StoredRun& run);
 
 }  // namespace hoplab

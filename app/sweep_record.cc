@@ -57,6 +57,7 @@ void AddSweep(const SweepPlan& plan, const SweepRows& rows, Json& record) {
   for (const SweepOutput* output : plan.outputs()) column(output->name, output->unit);
   column(kOutcome, "");
   column(kReason, "");
+  record["keys"] = plan.keys();
   record["rows"] = Json::array();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i]) continue;

@@ -1,9 +1,14 @@
 #include "app/trajectory_tables.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace hoplab {
 namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<Channel> AllChannels() {
   std::vector<Channel> channels;
@@ -11,41 +16,98 @@ std::vector<Channel> AllChannels() {
   return channels;
 }
 
+double GroundSlope(const SimulationRequest& request) {
+  double slope = request.parameters.slope;
+  for (const EffectSetting& setting : request.effects) {
+    if (setting.effect->info.name == "ground_slope") slope += setting.values[0];
+  }
+  return slope;
+}
+
+Mode ModeAt(const Trajectory& run, double time) {
+  const auto after =
+      std::find_if(run.segments.begin(), run.segments.end(),
+                   [time](const Segment& segment) { return time < segment.end; });
+  return after == run.segments.end() ? run.final_mode : after->mode;
+}
+
+struct ContactPoint {
+  double x = kNaN, y = kNaN;  // m
+};
+
+// The ground's force F acts at the contact, r from the hip with |r| = l, and balances the hip
+// torque: r x F = l |F| sin(angle from r to F) = T. F pushes the hip away, so r.F < 0.
+ContactPoint ContactOf(const double* row) {
+  const auto at = [row](Channel c) { return row[static_cast<int>(c)]; };
+  const double fx = at(Channel::kGroundForceX), fy = at(Channel::kGroundForceY);
+  const double force = std::hypot(fx, fy), length = at(Channel::kLegLength);
+  if (!(force > 0.0) || !(length > 0.0)) return {};
+  const double sine = std::clamp(at(Channel::kHipTorque) / (length * force), -1.0, 1.0);
+  const double angle = std::atan2(fy, fx) - (std::numbers::pi - std::asin(sine));
+  return {at(Channel::kBodyX) + length * std::cos(angle),
+          at(Channel::kBodyY) + length * std::sin(angle)};
+}
+
+double ContactArc(Mode mode, bool has_arc, double leg_angle, double slope) {
+  if (!has_arc) return kNaN;
+  if (mode == Mode::kRolling) return std::numbers::pi - (leg_angle - slope);
+  return mode == Mode::kToe ? std::numbers::pi : kNaN;
+}
+
+// The times of a grid from 0 to the end of a run.
+std::vector<double> Grid(double rate_hz, double end) {
+  std::vector<double> times;
+  for (long row = 0; static_cast<double>(row) / rate_hz <= end; ++row)
+    times.push_back(static_cast<double>(row) / rate_hz);
+  return times;
+}
+
 }  // namespace
 
-std::vector<std::string> TrajectoryHeader(bool with_trial) {
-  std::vector<std::string> header;
-  if (with_trial) header.emplace_back("trial");
+std::vector<std::string> TrajectoryHeader(const RunLabels& names) {
+  std::vector<std::string> header = names;
   header.emplace_back("time_s");
   for (const Channel channel : AllChannels()) header.emplace_back(NameOf(channel));
+  for (const char* name : {"contact_x_m", "contact_y_m", "contact_arc_rad", "mode"})
+    header.emplace_back(name);
   return header;
 }
 
-void AddTrajectoryRows(SimulationRequest request, double rate_hz, const std::string& trial,
+void AddTrajectoryRows(SimulationRequest request, double rate_hz, const RunLabels& labels,
                        double time_offset_s, CsvText& csv) {
   // Where the run ends is not known beforehand, and a horizon may be far longer.
   request.row_times = {};
   request.directions = {};
-  const double end = Simulate(request).end_time;
-  std::vector<double> times;
-  for (long row = 0; static_cast<double>(row) / rate_hz <= end; ++row)
-    times.push_back(static_cast<double>(row) / rate_hz);
+  const std::vector<double> times = Grid(rate_hz, Simulate(request).end_time);
   const std::vector<Channel> channels = AllChannels();
   request.row_times = times;
   request.channels = channels;
-  const Trajectory run = Simulate(request);
+  const Trajectory seen = Simulate(request);
+  // The leg stands where it stands, whatever the sensors say.
+  std::vector<EffectSetting> physical(request.effects.begin(), request.effects.end());
+  std::erase_if(physical,
+                [](const auto& e) { return e.effect->info.kind == EffectKind::kObservation; });
+  const bool sensed = physical.size() < request.effects.size();
+  const double slope = GroundSlope(request);
+  const bool has_arc = MechanismOf(request.law) == MechanismKind::kCLeg;
+  request.effects = physical;
+  const Trajectory truth = sensed ? Simulate(request) : seen;
   for (std::size_t row = 0; row < times.size(); ++row) {
-    if (!trial.empty()) csv.Cell(trial);
+    for (const std::string& label : labels) csv.Cell(label);
     csv.Cell(times[row] + time_offset_s);
     for (std::size_t c = 0; c < channels.size(); ++c)
-      csv.Cell(run.samples[row * channels.size() + c]);
-    csv.EndRow();
+      csv.Cell(seen.samples[row * channels.size() + c]);
+    const double* state = &truth.samples[row * channels.size()];
+    const Mode mode = ModeAt(truth, times[row]);
+    const ContactPoint contact = ContactOf(state);
+    csv.Cell(contact.x).Cell(contact.y);
+    csv.Cell(ContactArc(mode, has_arc, state[static_cast<int>(Channel::kLegAngle)], slope));
+    csv.Cell(NameOf(mode)).EndRow();
   }
 }
 
-std::vector<std::string> EventHeader(bool with_trial) {
-  std::vector<std::string> header;
-  if (with_trial) header.emplace_back("trial");
+std::vector<std::string> EventHeader(const RunLabels& names) {
+  std::vector<std::string> header = names;
   for (const char* name :
        {"time_s", "event", "mode_before", "mode_after", "x_m", "y_m", "vx_m_per_s", "vy_m_per_s",
         "vx_after_m_per_s", "vy_after_m_per_s", "crossing_rate_per_s"})
@@ -53,10 +115,10 @@ std::vector<std::string> EventHeader(bool with_trial) {
   return header;
 }
 
-void AddEventRows(const Trajectory& trajectory, const std::string& trial, double time_offset_s,
+void AddEventRows(const Trajectory& trajectory, const RunLabels& labels, double time_offset_s,
                   CsvText& csv) {
   for (const Event& e : trajectory.events) {
-    if (!trial.empty()) csv.Cell(trial);
+    for (const std::string& label : labels) csv.Cell(label);
     csv.Cell(e.time + time_offset_s)
         .Cell(NameOf(e.kind))
         .Cell(NameOf(e.mode_before))
@@ -65,6 +127,18 @@ void AddEventRows(const Trajectory& trajectory, const std::string& trial, double
       csv.Cell(v);
     csv.EndRow();
   }
+}
+
+Json MechanismRecord(const SimulationRequest& request) {
+  const MechanismKind mechanism = MechanismOf(request.law);
+  Json parameters = Json::object();
+  for (const ParameterId id : ParametersOf(mechanism))
+    parameters[std::string(InfoOf(id).name)] = NumberOrNull(Field(request.parameters, id));
+  if (mechanism == MechanismKind::kBall)
+    parameters["radius"] = NumberOrNull(request.parameters.radius);
+  return {{"type", NameOf(mechanism)},
+          {"ground_slope_rad", NumberOrNull(GroundSlope(request))},
+          {"parameters", parameters}};
 }
 
 }  // namespace hoplab

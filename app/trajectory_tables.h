@@ -4,21 +4,31 @@
 #include <vector>
 
 #include "app/csv.h"
+#include "app/run_record.h"
 #include "model/simulate.h"
 
 namespace hoplab {
 
-/// Columns of a simulated run: `trial` first if there are several, then time_s and every channel.
-std::vector<std::string> TrajectoryHeader(bool with_trial);
+/// What stands before the columns of a simulated run where a table holds several: the names of
+/// these columns, or one run's values in them, as "trial" or "train-1.csv".
+using RunLabels = std::vector<std::string>;
 
-/// Simulates `request` on a grid of `rate_hz` up to its end and adds the rows, all channels. Times
-/// are shifted by `time_offset_s`. `trial` empty: no such column.
-void AddTrajectoryRows(SimulationRequest request, double rate_hz, const std::string& trial,
+/// Columns of a simulated run: labels, time_s, every channel, then how the leg stands: contact_x_m,
+/// contact_y_m, contact_arc_rad, mode.
+std::vector<std::string> TrajectoryHeader(const RunLabels& names);
+
+/// Simulates `request` on a grid of `rate_hz` up to its end and adds the rows. Times are shifted by
+/// `time_offset_s`. The channels are what the sensors see; contact point and arc are the leg's own,
+/// empty in flight and for a ball, the arc (hip to contact) also for a straight leg.
+void AddTrajectoryRows(SimulationRequest request, double rate_hz, const RunLabels& labels,
                        double time_offset_s, CsvText& csv);
 
 /// Columns of a list of events, and its rows.
-std::vector<std::string> EventHeader(bool with_trial);
-void AddEventRows(const Trajectory& trajectory, const std::string& trial, double time_offset_s,
+std::vector<std::string> EventHeader(const RunLabels& names);
+void AddEventRows(const Trajectory& trajectory, const RunLabels& labels, double time_offset_s,
                   CsvText& csv);
+
+/// What hops, for whoever draws it: {type, ground_slope_rad, parameters: {name: SI value}}.
+Json MechanismRecord(const SimulationRequest& request);
 
 }  // namespace hoplab

@@ -131,6 +131,12 @@ void ReadLegOptions(const YamlCursor& cursor, MechanismSpec* mechanism) {
     mechanism->liftoff = static_cast<LiftoffSpec>(liftoff->Choice({"zero_force", "rest_length"}));
   mechanism->fall_height_m = cursor.OptionalNumber("fall_height_m", NonNegative(100, "m"));
   mechanism->toe_mass_kg = cursor.OptionalNumber("toe_mass_kg", NonNegative(1e6, "kg"));
+  if (mechanism->toe_mass_kg.value_or(0) > 0 && mechanism->liftoff == LiftoffSpec::kRestLength)
+    cursor.Required("liftoff", "")
+        .Fail(
+            "is a rule for massless legs: a toe with a mass leaves the ground when the leg lifts "
+            "it",
+            "Remove liftoff or toe_mass_kg.");
   const std::optional<YamlCursor> placement = cursor.Optional("placement");
   if (!placement) return;
   if (!mechanism->toe_mass_kg)

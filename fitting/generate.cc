@@ -1,5 +1,6 @@
 #include "fitting/generate.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/input_error.h"
@@ -67,7 +68,12 @@ SimulationRequest RequestOfScenario(const Scenario& scenario,
 GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions& options) {
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
-  const std::vector<EffectSetting> effects = ResolveEffects(scenario.effects, law);
+  const std::vector<GenerateTrial> trials = TrialsOfScenario(scenario);
+  const bool any_toe_mass = std::any_of(
+      trials.begin(), trials.end(),
+      [](const GenerateTrial& trial) { return LegMassOfSpec(trial.mechanism) == LegMass::kAtToe; });
+  const std::vector<EffectSetting> effects =
+      ResolveEffects(scenario.effects, law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone);
   const std::vector<ChannelSpec> channels = ChannelsOf(scenario, options);
   const double horizon = HorizonOf(scenario);
   const double rate =
@@ -89,7 +95,6 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
 
   std::vector<Channel> wanted;
   for (const ChannelSpec& c : channels) wanted.push_back(ChannelOfSpec(c.id));
-  const std::vector<GenerateTrial> trials = TrialsOfScenario(scenario);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const GenerateTrial& plan = trials[i];
     const StateSpec truth = plan.initial ? *plan.initial : RequireInitial(scenario);

@@ -50,6 +50,10 @@ struct Parameters {
   T theta_td{0.0};  // commanded touch-down leg angle [rad]
   // Legs.
   T d{0.0};  // leg damping [N s/m]
+  // Legs with a mass at the toe (M40-M46); 0: a massless leg.
+  T m_toe{0.0};     // toe mass [kg]
+  T kp_place{0.0};  // placement gain [N m/rad]
+  T kd_place{0.0};  // placement damping [N m s/rad]
   // C-leg.
   T r{0.1};      // rest radius [m]
   T E{1.0};      // Young's modulus [Pa]
@@ -96,7 +100,10 @@ enum class ParameterId {
   kRestLength,
   kRestitution,
   kTangentialLoss,
-  kRadius
+  kRadius,
+  kToeMass,
+  kKpPlace,
+  kKdPlace
 };
 
 /// Name, unit and physical range of a parameter.
@@ -114,6 +121,8 @@ const ParameterInfo& InfoOf(ParameterId id);
 std::optional<ParameterId> FindParameter(std::string_view name);
 /// Parameters that mean something for a mechanism, the ones fitted by default first.
 std::span<const ParameterId> ParametersOf(MechanismKind mechanism);
+/// What a leg with a mass at its toe has besides; never free unless asked for.
+std::span<const ParameterId> ToeParameters();
 /// Parameters that are free unless asked otherwise.
 std::span<const ParameterId> FreeByDefault(MechanismKind mechanism);
 
@@ -155,6 +164,12 @@ T& Field(Parameters<T>& p, ParameterId id) {
       return p.tangential_loss;
     case ParameterId::kRadius:
       return p.radius;
+    case ParameterId::kToeMass:
+      return p.m_toe;
+    case ParameterId::kKpPlace:
+      return p.kp_place;
+    case ParameterId::kKdPlace:
+      return p.kd_place;
   }
   return p.m;  // unreachable: every enumerator is listed above
 }

@@ -65,8 +65,8 @@ ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
   if (!failure.empty()) SetFailed(record, failure);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
-  std::map<std::string, std::string> files = {{"run.json", TextOf(record)}};
-  if (run.along && !run.branch.points.empty()) files["branch.csv"] = BranchTable(run);
+  std::map<std::string, std::string> files = GaitTables(run);
+  files["run.json"] = TextOf(record);
   const std::string written = folder.Write(files).string();
   if (settings.json) {
     console.out << TextOf(record);

@@ -103,7 +103,9 @@ void Assess(OptimizeRun& run, const OptimizeSettings& settings, Progress& progre
   robustness.seed = settings.seed;
   robustness.jobs = run.options.jobs;
   run.before_robustness = AssessRobustness(run.problem.hopper_at(run.scenario_x), robustness);
+  run.before_gait = SteadyHop(run.problem.hopper_at(run.scenario_x));
   if (!run.has_result()) return;
+  run.best_gait = SteadyHop(run.problem.hopper_at(run.result.best.x));
   run.best_robustness = AssessRobustness(run.problem.hopper_at(run.result.best.x), robustness);
   if (settings.map_size == 0 || run.result.interrupted) return;
   progress.Stage("mapping the objective");
@@ -153,7 +155,8 @@ ExitCode RunOptimizeCommand(const OptimizeSettings& settings, Console& console) 
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
   std::map<std::string, std::string> files = {{"run.json", TextOf(record)},
-                                              {"history.csv", HistoryTable(run)}};
+                                              {"history.csv", HistoryTable(run)},
+                                              {"cycles.csv", CyclesTable(run)}};
   if (!run.map.empty()) files["map.csv"] = MapTable(run);
   const std::string written = folder.Write(files).string();
   if (settings.json) {

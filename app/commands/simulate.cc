@@ -31,7 +31,8 @@ struct SimulateSettings {
 
 // Nothing was simulated that could be looked at.
 bool IsUseless(Outcome outcome) {
-  return outcome == Outcome::kStartsInGround || outcome == Outcome::kIntegrationFailed;
+  return outcome == Outcome::kStartsInGround || outcome == Outcome::kIntegrationFailed ||
+         outcome == Outcome::kStepLimit;
 }
 
 std::string Report(const Scenario& scenario, const SimulationRequest& request,
@@ -110,22 +111,25 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
   const RunFolder folder(place, scenario.name, "simulate");
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
-  const std::vector<EffectSetting> effects = ResolveEffects(scenario.effects, law);
+  const std::vector<EffectSetting> effects =
+      ResolveEffects(scenario.effects, law, LegMassOfSpec(scenario.mechanism));
   SimulationRequest request = RequestOfScenario(scenario, effects);
   request.integrator = IntegratorOptionsOf(settings.integrator, settings.tolerance);
   std::vector<SensitivityDirection> directions;
   for (const std::string& name : settings.sensitivities)
-    directions.push_back(ResolveDirection(name, mechanism, effects));
+    directions.push_back(
+        ResolveDirection(name, mechanism, LegMassOfSpec(scenario.mechanism), effects));
   request.directions = directions;
   const Trajectory run = Simulate(request);
 
   Json record = NewSimulationRecord(settings, scenario, request.law);
   AddSimulation(request, run, settings.sensitivities, record);
+  record["mechanism"] = MechanismRecord(request);
   const bool useless = IsUseless(run.outcome);
   if (useless) SetFailed(record, std::string(SentenceOf(run.outcome)));
-  CsvText trajectory(TrajectoryHeader(false)), events(EventHeader(false));
-  AddTrajectoryRows(request, kTrajectoryRate, "", 0.0, trajectory);
-  AddEventRows(run, "", 0.0, events);
+  CsvText trajectory(TrajectoryHeader({})), events(EventHeader({}));
+  AddTrajectoryRows(request, kTrajectoryRate, {}, 0.0, trajectory);
+  AddEventRows(run, {}, 0.0, events);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
   const std::filesystem::path written = folder.Write({{"run.json", TextOf(record)},

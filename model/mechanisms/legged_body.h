@@ -133,6 +133,10 @@ class LeggedBody {
     const LegLoad<T> load = Load(mode, t, z);
     g[0] =
         liftoff_ == LiftoffRule::kZeroForce ? ChordForce(load) : T(leg_.RestChord(load) - load.l);
+    StanceGuards(mode, load, z, g);
+  }
+  /// Those of stance but for lift-off, g[0].
+  void StanceGuards(Mode mode, const LegLoad<T>& load, const T* z, T* g) const {
     leg_.OwnGuards(mode, load, g + 1);
     g += 1 + leg_.OwnGuardCount(mode);
     g[0] = z[kY] - y_min_;
@@ -144,20 +148,12 @@ class LeggedBody {
   ResetResult Reset(Mode mode, int i, const T& t, T* z) {
     const EventKind event = Guard(mode, i).event;
     switch (event) {
-      case EventKind::kTouchdown: {
-        const T theta = TouchdownAngle(z);
-        const Mode stance = leg_.Land(theta, z);
-        ApplyLanding(theta, z);
-        controller_.Enter(Value(z[kVx]));
-        if constexpr (kLagged) z[kMotorTorque] = controller_.Torque(z[kVx]);
-        return {extended_ ? leg_.Settle(stance, z, Conditions(t, z)) : stance};
-      }
+      case EventKind::kTouchdown:
+        return Land(TouchdownAngle(z), t, z, [](T*) {});
       case EventKind::kLiftoff:
         if (effects_.HasLiftoffVelocity()) ApplyLiftoff(Load(mode, t, z), z);
         z[kContact] = T(0.0);
-        if (Value(z[kVy]) <= 0.0 && Value(z[kY] - TouchdownHeight(z)) < 0.0)
-          return {Mode::kFlight, Outcome::kFellNoReturn};
-        return {Mode::kFlight};
+        return LeftGround(z);
       case EventKind::kApex:
         if (Value(z[kY] - TouchdownHeight(z)) < 0.0) return {mode, Outcome::kFellNoReturn};
         return {mode};
@@ -233,6 +229,61 @@ class LeggedBody {
 
   const LegT<T>& leg() const { return leg_; }
   const SpeedController<T>& controller() const { return controller_; }
+  const Inertia<T>& inertia() const { return inertia_; }
+  const ActiveEffects<T>& effects() const { return effects_; }
+  const T& lowest_hip() const { return y_min_; }
+
+  // What a body on a leg with a toe mass asks, and does otherwise.
+
+  /// Stance begins at leg angle `theta`; `move(z)` moves the contact from where an unloaded leg
+  /// would have it.
+  template <class Move>
+  ResetResult Land(const T& theta, const T& t, T* z, const Move& move) {
+    const Mode stance = leg_.Land(theta, z);
+    move(z);
+    ApplyLanding(theta, z);
+    controller_.Enter(Value(z[kVx]));
+    if constexpr (kLagged) z[kMotorTorque] = controller_.Torque(z[kVx]);
+    return {extended_ ? leg_.Settle(stance, z, Conditions(t, z)) : stance};
+  }
+  /// Flight began: does it lead back to touch-down height?
+  ResetResult LeftGround(const T* z) const {
+    if (Value(z[kVy]) <= 0.0 && Value(z[kY] - TouchdownHeight(z)) < 0.0)
+      return {Mode::kFlight, Outcome::kFellNoReturn};
+    return {Mode::kFlight};
+  }
+  LegLoad<T> Load(Mode mode, const T& t, const T* z) const {
+    if (extended_) return leg_.extended().Load(mode, z, Conditions(t, z));
+    return leg_.Load(mode, z);
+  }
+  /// Force along the chord [N], positive pushes the hip away.
+  T ChordForce(const LegLoad<T>& load) const {
+    T force = load.elastic_force - p_.d * load.damping_rate;  // M6, M12
+    if (has_chord_force_) {
+      const T rest = leg_.RestChord(load);
+      force += effects_.ChordForce(
+          {load.elastic_force, leg_.Stiffness(load), load.damping_rate, T((rest - load.l) / rest)});
+    }
+    return force;
+  }
+  /// Leg angle the touch-down is commanded at.
+  T TouchdownAngle(const T* z) const {
+    return effects_.TouchdownAngle(z[kVx], p_.theta_td) - p_.slope;
+  }
+  /// Height of the hip at which a leg at that angle meets the ground [m].
+  T TouchdownHeight(const T* z) const {
+    return effects_.ContactHeight(leg_.TouchdownHeight(TouchdownAngle(z)));
+  }
+  Vector2<T> BodyForce(Mode mode, const T& t, const T* z) const {
+    return effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy], mode != Mode::kFlight});
+  }
+  /// What a lift-off does to the velocity.
+  void ApplyLiftoff(const LegLoad<T>& load, T* z) const {
+    Vector2<T> velocity{z[kVx], z[kVy]};
+    effects_.ChangeLiftoffVelocity({{-load.u / load.l, load.y / load.l}}, velocity);
+    z[kVx] = velocity.x;
+    z[kVy] = velocity.y;
+  }
 
  private:
   // The torque that bends the leg; friction at the hip, which would have to know the load first, is
@@ -242,32 +293,10 @@ class LeggedBody {
     if (has_hip_torque_) effects_.AddHipTorque({torque, T(0.0), t, z[kVx]}, torque);
     return {t, torque};
   }
-  LegLoad<T> Load(Mode mode, const T& t, const T* z) const {
-    if (extended_) return leg_.extended().Load(mode, z, Conditions(t, z));
-    return leg_.Load(mode, z);
-  }
   // What the motor gives: its command, or with a lag long enough to integrate a state.
   T MotorTorque(const T* z) const {
     if constexpr (kLagged) return z[kMotorTorque];
     return controller_.Torque(z[kVx]);
-  }
-  T TouchdownAngle(const T* z) const {
-    return effects_.TouchdownAngle(z[kVx], p_.theta_td) - p_.slope;
-  }
-  T TouchdownHeight(const T* z) const {
-    return effects_.ContactHeight(leg_.TouchdownHeight(TouchdownAngle(z)));
-  }
-  Vector2<T> BodyForce(Mode mode, const T& t, const T* z) const {
-    return effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy], mode != Mode::kFlight});
-  }
-  T ChordForce(const LegLoad<T>& load) const {
-    T force = load.elastic_force - p_.d * load.damping_rate;  // M6, M12
-    if (has_chord_force_) {
-      const T rest = leg_.RestChord(load);
-      force += effects_.ChordForce(
-          {load.elastic_force, leg_.Stiffness(load), load.damping_rate, T((rest - load.l) / rest)});
-    }
-    return force;
   }
   // Torque on the hip: the motor's, and what effects add.
   T HipTorque(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const {
@@ -293,13 +322,6 @@ class LeggedBody {
     const T alpha = leg_.ChordAngle(theta);
     Vector2<T> velocity{z[kVx], z[kVy]};
     effects_.ChangeLandingVelocity({{-sin(alpha), cos(alpha)}}, velocity);
-    z[kVx] = velocity.x;
-    z[kVy] = velocity.y;
-  }
-  // What a lift-off does to it.
-  void ApplyLiftoff(const LegLoad<T>& load, T* z) const {
-    Vector2<T> velocity{z[kVx], z[kVy]};
-    effects_.ChangeLiftoffVelocity({{-load.u / load.l, load.y / load.l}}, velocity);
     z[kVx] = velocity.x;
     z[kVy] = velocity.y;
   }

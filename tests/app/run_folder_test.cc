@@ -27,6 +27,7 @@ TEST(RunFolder, AllFilesAppearAtOnce) {
   const RunFolder folder({temp.path() / "deep" / "run"}, "drops", "fit");
   EXPECT_EQ(folder.Write({{"run.json", "{}"}, {"a.csv", "x\n"}}), temp.path() / "deep" / "run");
   EXPECT_EQ(ReadText(temp.path() / "deep" / "run" / "a.csv"), "x\n");
+  EXPECT_TRUE(std::filesystem::exists(temp.path() / "deep" / "run" / "report.html"));
   EXPECT_EQ(testing::CountEntries(temp.path() / "deep"), 1);
 }
 

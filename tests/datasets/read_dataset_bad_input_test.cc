@@ -106,6 +106,24 @@ TEST(BadDataset, APlacementControllerNeedsAToeMass) {
       "torque. Add toe_mass_kg or remove this block.");
 }
 
+TEST(BadDataset, AToeWithAMassHasItsOwnRuleOfLiftoff) {
+  EXPECT_EQ(ErrorWithYaml("  leg:\n", "  liftoff: rest_length\n  toe_mass_kg: 0.02\n  leg:\n"),
+            "hops/dataset.yaml:7: mechanism.liftoff = rest_length; is a rule for massless legs: a "
+            "toe with a mass leaves the ground when the leg lifts it. Remove liftoff or "
+            "toe_mass_kg.");
+  EXPECT_EQ(ErrorWithYaml("  leg:\n", "  liftoff: rest_length\n  toe_mass_kg: 0\n  leg:\n"), "");
+}
+
+TEST(BadDataset, AToeMassAndItsGainsAreNoLessThanZeroAndKnownByName) {
+  EXPECT_EQ(ErrorWithYaml("  leg:\n", "  toe_mass_kg: -0.01\n  leg:\n"),
+            "hops/dataset.yaml:7: mechanism.toe_mass_kg = -0.01; must be in [0, 1e+06] kg.");
+  EXPECT_EQ(
+      ErrorWithYaml("  leg:\n", "  toe_mass_kg: 0.01\n  placement: {kp_N_m_per_rad: 1}\n  leg:\n"),
+      "hops/dataset.yaml:8: mechanism.placement; must have the key kd_N_m_s_per_rad. Add "
+      "kd_N_m_s_per_rad: a number in [0, 1e+06] N m s/rad.");
+  EXPECT_EQ(ErrorWithYaml("  leg:\n", "  toe_mass_g: 10\n  leg:\n"), "");
+}
+
 // ---- units in names
 
 TEST(BadDataset, AModulusInGigapascalIsToldHowTheKeyIsWritten) {

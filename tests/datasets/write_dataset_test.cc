@@ -43,7 +43,8 @@ MechanismSpec AnyMechanism(MechanismType type, RandomStream* random) {
   }
   if (random->Normal() > 0) mechanism.liftoff = LiftoffSpec::kRestLength;
   if (random->Normal() > 0) mechanism.fall_height_m = Any(random);
-  if (random->Normal() > 0) mechanism.toe_mass_kg = Any(random);
+  if (random->Normal() > 0 && mechanism.liftoff == LiftoffSpec::kZeroForce)
+    mechanism.toe_mass_kg = Any(random);
   if (mechanism.toe_mass_kg && random->Normal() > 0)
     mechanism.placement = PlacementSpec{Any(random), Any(random)};
   for (const VariantKey& key : VariantKeys()) {

@@ -1,0 +1,37 @@
+# cmake -D OUTPUT=assets.cc -D FILES=name=path,... -P embed.cmake: the files as a C++ source that
+# defines WebAsset (web/assets.h).
+string(REPLACE "," ";" FILES "${FILES}")
+set(texts "")
+set(cases "")
+set(number 0)
+foreach(entry IN LISTS FILES)
+  string(REGEX MATCH "^([^=]+)=(.+)$" matched "${entry}")
+  set(name ${CMAKE_MATCH_1})
+  file(READ ${CMAKE_MATCH_2} content)
+  string(FIND "${content}" ")~hoplab~\"" clash)
+  if(NOT clash EQUAL -1)
+    message(FATAL_ERROR "${name} holds the mark that ends a text")
+  endif()
+  string(APPEND texts "constexpr char kText${number}[] = R\"~hoplab~(${content})~hoplab~\";\n")
+  string(APPEND cases
+    "  if (name == \"${name}\") return {kText${number}, sizeof kText${number} - 1};\n")
+  math(EXPR number "${number} + 1")
+endforeach()
+file(WRITE ${OUTPUT} "// Written by cmake; do not edit.
+#include \"web/assets.h\"
+
+#include \"base/check.h\"
+
+namespace hoplab {
+namespace {
+
+${texts}
+}  // namespace
+
+std::string_view WebAsset(std::string_view name) {
+${cases}  HOPLAB_CHECK(false && \"no such asset\");
+  return {};
+}
+
+}  // namespace hoplab
+")
