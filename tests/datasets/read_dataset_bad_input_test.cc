@@ -111,17 +111,22 @@ TEST(BadDataset, AToeWithAMassHasItsOwnRuleOfLiftoff) {
             "hops/dataset.yaml:7: mechanism.liftoff = rest_length; is a rule for massless legs: a "
             "toe with a mass leaves the ground when the leg lifts it. Remove liftoff or "
             "toe_mass_kg.");
-  EXPECT_EQ(ErrorWithYaml("  leg:\n", "  liftoff: rest_length\n  toe_mass_kg: 0\n  leg:\n"), "");
+  EXPECT_EQ(ErrorWithYaml("  leg:\n", "  liftoff: rest_length\n  toe_mass_kg: 0\n  leg:\n"),
+            "(no error)");
 }
 
 TEST(BadDataset, AToeMassAndItsGainsAreNoLessThanZeroAndKnownByName) {
   EXPECT_EQ(ErrorWithYaml("  leg:\n", "  toe_mass_kg: -0.01\n  leg:\n"),
-            "hops/dataset.yaml:7: mechanism.toe_mass_kg = -0.01; must be in [0, 1e+06] kg.");
+            "hops/dataset.yaml:7: mechanism.toe_mass_kg = -0.01; must be in [0, 1e6] kg. "
+            "Check the sign.");
   EXPECT_EQ(
       ErrorWithYaml("  leg:\n", "  toe_mass_kg: 0.01\n  placement: {kp_N_m_per_rad: 1}\n  leg:\n"),
       "hops/dataset.yaml:8: mechanism.placement; must have the key kd_N_m_s_per_rad. Add "
-      "kd_N_m_s_per_rad: a number in [0, 1e+06] N m s/rad.");
-  EXPECT_EQ(ErrorWithYaml("  leg:\n", "  toe_mass_g: 10\n  leg:\n"), "");
+      "kd_N_m_s_per_rad: a number in [0, 1e6] N m s/rad.");
+  EXPECT_EQ(
+      ErrorWithYaml("  leg:\n", "  toe_mass_g: 10\n  leg:\n"),
+      "hops/dataset.yaml:7: mechanism.toe_mass_g; is written toe_mass_kg: the unit in its name "
+      "does not belong to it. Rename it to toe_mass_kg and give the value in kg.");
 }
 
 // ---- units in names
