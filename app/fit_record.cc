@@ -92,9 +92,9 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
   record["profiles"] = ProfilesRecord(run);
   record["channels"] = ChannelsRecord(run.problem);
   record["sentences"] = FitSentences(run);
-  record["mechanism"] = run.has_result ? FittedMechanismRecord({&run.problem, &run.fit.shared,
-                                                                &run.trials, ""})
-                                       : Json(nullptr);
+  record["mechanism"] =
+      run.has_result ? FittedMechanismRecord({&run.problem, &run.fit.shared, &run.trials, ""})
+                     : Json(nullptr);
   record["fitted"] = run.by_hop ? "single hops" : "whole traces";
   record["warnings"] = run.check.warnings;
   record["notes"] = run.check.notes;

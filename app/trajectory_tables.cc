@@ -25,9 +25,8 @@ double GroundSlope(const SimulationRequest& request) {
 }
 
 Mode ModeAt(const Trajectory& run, double time) {
-  const auto after =
-      std::find_if(run.segments.begin(), run.segments.end(),
-                   [time](const Segment& segment) { return time < segment.end; });
+  const auto after = std::find_if(run.segments.begin(), run.segments.end(),
+                                  [time](const Segment& segment) { return time < segment.end; });
   return after == run.segments.end() ? run.final_mode : after->mode;
 }
 
