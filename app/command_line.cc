@@ -11,9 +11,11 @@
 #include "app/commands/fit.h"
 #include "app/commands/gait.h"
 #include "app/commands/generate.h"
+#include "app/commands/identify.h"
 #include "app/commands/laws.h"
 #include "app/commands/optimize.h"
 #include "app/commands/report.h"
+#include "app/commands/reproduce.h"
 #include "app/commands/simulate.h"
 #include "app/commands/sweep.h"
 #include "app/commands/version.h"
@@ -43,6 +45,8 @@ class CommandLine {
     AddGaitCommand(app_, invocation_);
     AddOptimizeCommand(app_, invocation_);
     AddSweepCommand(app_, invocation_);
+    AddReproduceCommand(app_, invocation_);
+    AddIdentifyCommand(app_, invocation_);
     AddSimulateCommand(app_, invocation_);
     AddGenerateCommand(app_, invocation_);
     AddReportCommand(app_, invocation_);

@@ -60,6 +60,7 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
   header.command = "fit";
   header.dataset = dataset.name;
   header.law = std::string(NameOf(run.problem.law));
+  header.variant = dataset.mechanism.variant;
   header.seed = options.fit.seed;
   header.options =
       OptionsRecord(run.problem, {dataset_argument, &options.problem, &options.fit, options.span});

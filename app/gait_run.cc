@@ -31,7 +31,7 @@ std::vector<std::string> ParameterNames(const Hopper& hopper) {
 }
 
 SensitivityDirection DirectionOf(const Hopper& hopper, const std::string& name) {
-  return ResolveDirection(name, MechanismOf(hopper.request.law), hopper.effects);
+  return ResolveDirection(name, MechanismOf(hopper.request.law), LegMass::kNone, hopper.effects);
 }
 
 std::string Multiplier(const std::complex<double>& m) {

@@ -22,9 +22,18 @@ Json NewRecord(const RecordHeader& header) {
           {"message", ""},
           {"dataset", OrNull(header.dataset)},
           {"law", OrNull(header.law)},
+          {"law_variant",
+           header.variant == ThesisVariant() ? Json(nullptr) : VariantRecord(header.variant)},
           {"seed", OrNull(header.seed)},
           {"options", header.options},
           {"seconds", nullptr}};
+}
+
+Json VariantRecord(const ThesisVariant& variant) {
+  Json record = Json::object();
+  for (const VariantKey& key : VariantKeys())
+    record[std::string(key.key)] = key.words[key.get(variant)];
+  return record;
 }
 
 Json FailureRecord(const std::string& command, const std::string& message) {

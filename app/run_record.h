@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "base/thesis_variant.h"
+
 namespace hoplab {
 
 /// Keeps keys in the order in which they were put.
@@ -18,12 +20,16 @@ struct RecordHeader {
   std::string command;
   std::optional<std::string> dataset;  // its name, or the scenario's
   std::optional<std::string> law;
+  ThesisVariant variant;  // `law_variant` of the record; null there where it is the default
   std::optional<std::uint64_t> seed;
   Json options = Json::object();  // the whole resolved configuration, `jobs` and places left out
 };
 
 /// A record of status "ok" with the common keys; what is absent is null. `seconds` is null.
 Json NewRecord(const RecordHeader& header);
+
+/// The words of a variant by its keys.
+Json VariantRecord(const ThesisVariant& variant);
 
 /// What a command prints with --json when it ended before it had anything to record.
 Json FailureRecord(const std::string& command, const std::string& message);

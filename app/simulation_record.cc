@@ -43,13 +43,16 @@ Json SensitivitiesRecord(const Trajectory& run, const std::vector<std::string>& 
 }  // namespace
 
 SensitivityDirection ResolveDirection(const std::string& name, MechanismKind mechanism,
-                                      const std::vector<EffectSetting>& effects) {
+                                      LegMass mass, const std::vector<EffectSetting>& effects) {
   std::vector<std::string> known;
   for (std::size_t i = 0; i < kStartNames.size(); ++i) {
     if (name == kStartNames[i]) return SensitivityDirection::InitialState(static_cast<int>(i));
     known.emplace_back(kStartNames[i]);
   }
-  for (const ParameterId id : ParametersOf(mechanism)) {
+  const auto of = ParametersOf(mechanism), toe = ToeParameters();
+  std::vector<ParameterId> ids(of.begin(), of.end());
+  if (mass == LegMass::kAtToe) ids.insert(ids.end(), toe.begin(), toe.end());
+  for (const ParameterId id : ids) {
     if (name == InfoOf(id).name) return SensitivityDirection::Parameter(id);
     known.emplace_back(InfoOf(id).name);
   }

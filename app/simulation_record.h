@@ -13,7 +13,7 @@ namespace hoplab {
 /// A direction `--sensitivities` names: x0, y0, vx0, vy0, a parameter of the mechanism or
 /// effect.parameter of an effect that acts. Throws InputError with the nearest known name.
 SensitivityDirection ResolveDirection(const std::string& name, MechanismKind mechanism,
-                                      const std::vector<EffectSetting>& effects);
+                                      LegMass mass, const std::vector<EffectSetting>& effects);
 
 /// Total energy at each apex [J], the start being the first of them: (time [s], energy).
 std::vector<std::pair<double, double>> ApexEnergies(const SimulationRequest& request,

@@ -21,6 +21,7 @@
 #include "bench/problems.h"
 #include "bench/report.h"
 #include "bench/rig_fit.h"
+#include "bench/study_cell.h"
 
 namespace hoplab::bench {
 namespace {
@@ -61,6 +62,7 @@ class Comparison {
     AddProblems();
     AddSimulations();
     fit_ = timer_.Add("fit", [this] { fit_ok_ = fit_ok_ && FitRigDrops().ok; });
+    cell_ = timer_.Add("cell", [this] { cell_ok_ = cell_ok_ && RunStudyCell(); });
     const std::vector<PeerProgram> programs = {FindScipy(), FindOctave()};
     for (const PeerProgram& p : programs) {
       if (p.interpreter.empty()) Note("Left out, not installed: " + p.name + ".");
@@ -164,7 +166,10 @@ class Comparison {
     }
     report_.fit = timer_.timing(fit_);
     AddBound("fit of rig-drops, one start, E and d", report_.fit.Median(), 2.0, true, "s");
+    AddBound("a cell of table 6.1, 15 s of hopping", 1e3 * timer_.timing(cell_).Median(), 10.0,
+             true, "ms");
     if (!fit_ok_) Fail("The fit of rig-drops did not end at an optimum.");
+    if (!cell_ok_) Fail("A cell of table 6.1 did not hop for its 15 s.");
   }
 
   void CollectProblem(const Problem& problem) {
@@ -235,8 +240,8 @@ class Comparison {
   std::filesystem::path scratch_;
   std::vector<Problem> problems_;
   std::vector<Simulation> simulations_;
-  int fit_ = 0;
-  bool fit_ok_ = true, failed_ = false;
+  int fit_ = 0, cell_ = 0;
+  bool fit_ok_ = true, cell_ok_ = true, failed_ = false;
 };
 
 /// Puts `text` between the two marker lines of `file`.

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "base/thesis_variant.h"
+
 namespace hoplab {
 
 // What a dataset or a scenario says about the hopper, in SI units and radians. Plain values: the
@@ -61,6 +63,7 @@ struct MechanismSpec {
   std::optional<double> fall_height_m;  // absent: the mechanism's own default
   std::optional<double> toe_mass_kg;    // absent: massless leg
   std::optional<PlacementSpec> placement;
+  ThesisVariant variant;  // under `leg` in the file; a straight leg has its torque_sign only
   CLegSpec c_leg;
   StraightLegSpec straight_leg;
   BallSpec ball;

@@ -27,10 +27,11 @@ bool Has(const YamlCursor& cursor, const Names& keys) {
 }
 
 const Names& LegKeys(MechanismType type) {
-  static const Names kCLeg = {"rest_radius_m", "E_Pa",         "G_Pa",
-                              "width_m",       "thickness_m",  "second_moment_m4",
-                              "area_m2",       "shear_factor", "damping_N_s_per_m"};
-  static const Names kStraight = {"rest_length_m", "stiffness_N_per_m", "damping_N_s_per_m"};
+  static const Names kCLeg = {
+      "rest_radius_m",    "E_Pa",    "G_Pa",         "width_m",           "thickness_m",
+      "second_moment_m4", "area_m2", "shear_factor", "damping_N_s_per_m", "variant"};
+  static const Names kStraight = {"rest_length_m", "stiffness_N_per_m", "damping_N_s_per_m",
+                                  "variant"};
   static const Names kBall = {"radius_m", "restitution", "tangential_loss"};
   return type == MechanismType::kCLeg ? kCLeg : type == MechanismType::kBall ? kBall : kStraight;
 }
@@ -106,11 +107,36 @@ BallSpec ReadBall(const YamlCursor& cursor) {
   return ball;
 }
 
+// The readings of the published law under `variant` of a leg's block.
+ThesisVariant ReadVariant(const YamlCursor& leg, MechanismType type) {
+  ThesisVariant variant;
+  const std::optional<YamlCursor> block = leg.Optional("variant");
+  if (!block) return variant;
+  Names known;
+  for (const VariantKey& key : VariantKeys()) known.emplace_back(key.key);
+  block->AllowOnly(known);
+  for (const VariantKey& key : VariantKeys()) {
+    const std::optional<YamlCursor> value = block->Optional(key.key);
+    if (!value) continue;
+    if (type == MechanismType::kStraightLeg && key.key != "torque_sign")
+      value->FailAtKey("a straight leg neither rolls nor bends: it has no such variant",
+                       "Remove it; a straight leg knows torque_sign alone.");
+    key.set(variant, static_cast<int>(value->Choice({key.words.begin(), key.words.end()})));
+  }
+  return variant;
+}
+
 void ReadLegOptions(const YamlCursor& cursor, MechanismSpec* mechanism) {
   if (const auto liftoff = cursor.Optional("liftoff"))
     mechanism->liftoff = static_cast<LiftoffSpec>(liftoff->Choice({"zero_force", "rest_length"}));
   mechanism->fall_height_m = cursor.OptionalNumber("fall_height_m", NonNegative(100, "m"));
   mechanism->toe_mass_kg = cursor.OptionalNumber("toe_mass_kg", NonNegative(1e6, "kg"));
+  if (mechanism->toe_mass_kg.value_or(0) > 0 && mechanism->liftoff == LiftoffSpec::kRestLength)
+    cursor.Required("liftoff", "")
+        .Fail(
+            "is a rule for massless legs: a toe with a mass leaves the ground when the leg lifts "
+            "it",
+            "Remove liftoff or toe_mass_kg.");
   const std::optional<YamlCursor> placement = cursor.Optional("placement");
   if (!placement) return;
   if (!mechanism->toe_mass_kg)
@@ -173,7 +199,10 @@ MechanismSpec ReadMechanism(const YamlCursor& cursor) {
       mechanism.ball = ReadBall(block);
       break;
   }
-  if (!is_ball) ReadLegOptions(cursor, &mechanism);
+  if (!is_ball) {
+    mechanism.variant = ReadVariant(block, mechanism.type);
+    ReadLegOptions(cursor, &mechanism);
+  }
   return mechanism;
 }
 

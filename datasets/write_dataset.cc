@@ -78,6 +78,21 @@ void AddCLeg(const CLegSpec& leg, Fields* fields) {
   add("damping_N_s_per_m", leg.damping_N_s_per_m);
 }
 
+// All keys of a variant, {rolling: implicit, ...}: written over another one it replaces all of it.
+std::string VariantText(const ThesisVariant& variant) {
+  std::string text = "{";
+  for (const VariantKey& key : VariantKeys()) {
+    if (text.size() > 1) text += ", ";
+    text += std::string(key.key) + ": " + std::string(key.words[key.get(variant)]);
+  }
+  return text + "}";
+}
+// A straight leg takes one of them only.
+std::string TorqueSignText(const ThesisVariant& variant) {
+  const VariantKey& key = VariantKeys().back();
+  return "{" + std::string(key.key) + ": " + std::string(key.words[key.get(variant)]) + "}";
+}
+
 Fields MechanismFields(const MechanismSpec& m) {
   Fields fields = {{"", "type", MechanismTypeName(m.type)},
                    {"", "body_mass_kg", FormatDouble(m.body_mass_kg)},
@@ -98,6 +113,11 @@ Fields MechanismFields(const MechanismSpec& m) {
     fields.push_back({"leg", "rest_length_m", FormatDouble(leg.rest_length_m)});
     fields.push_back({"leg", "stiffness_N_per_m", FormatDouble(leg.stiffness_N_per_m)});
     fields.push_back({"leg", "damping_N_s_per_m", FormatDouble(leg.damping_N_s_per_m)});
+  }
+  if (m.variant != ThesisVariant()) {
+    const bool is_c_leg = m.type == MechanismType::kCLeg;
+    fields.push_back(
+        {"leg", "variant", is_c_leg ? VariantText(m.variant) : TorqueSignText(m.variant)});
   }
   if (m.placement) {
     fields.push_back({"placement", "kp_N_m_per_rad", FormatDouble(m.placement->kp_N_m_per_rad)});

@@ -11,9 +11,11 @@ Hopper HopperOfScenario(const Scenario& scenario, const IntegratorOptions& integ
   Scenario stopping = scenario;
   if (!stopping.stop.time_s && !stopping.stop.hops) stopping.stop.time_s = kUsualHorizon;
   Hopper hopper;
-  hopper.effects = ResolveEffects(
-      scenario.effects, ResolveLaw(scenario.law.value_or(""), MechanismOfSpec(scenario.mechanism),
-                                   scenario.law_origin.place));
+  hopper.effects =
+      ResolveEffects(scenario.effects,
+                     ResolveLaw(scenario.law.value_or(""), MechanismOfSpec(scenario.mechanism),
+                                scenario.law_origin.place),
+                     LegMassOfSpec(scenario.mechanism));
   hopper.request = RequestOfScenario(stopping, hopper.effects);
   hopper.request.effects = {};  // the hopper's own are put in place where it runs
   hopper.request.integrator = integrator;
@@ -25,6 +27,13 @@ Hopper LeggedHopperOfScenario(const Scenario& scenario, const IntegratorOptions&
     throw InputError({scenario.origin.place, "mechanism.type = ball",
                       "has no gait: what bounces has no steady hop to come back to",
                       "Use c_leg or straight_leg."});
+  }
+  if (LegMassOfSpec(scenario.mechanism) == LegMass::kAtToe) {
+    throw InputError(
+        {scenario.origin.place, "mechanism.toe_mass_kg",
+         "speed and height at an apex do not tell the next ones of a leg that swings: its "
+         "gait is no return map of these two",
+         "Leave toe_mass_kg out, or look at runs with simulate and sweep."});
   }
   return HopperOfScenario(scenario, integrator);
 }

@@ -69,6 +69,7 @@ SweepPlan::SweepPlan(const ScenarioDocument& document, const IntegratorOptions& 
     throw InputError({scenario.sweep->origin.place, std::string((*gait)->name),
                       "does not exist for a ball", "Remove it from sweep.outputs."});
   law_ = HopperOfScenario(scenario, integrator).request.law;
+  variant_ = scenario.mechanism.variant;
   Layout(*scenario.sweep, seed);
   Fingerprint(integrator);
 }

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "base/input_error.h"
 #include "base/text.h"
-#include "model/leg_compliance.h"
+#include "experiments/leg_stiffness.h"
 #include "optimize/convergence_time.h"
 #include "optimize/search_point.h"
 
@@ -31,22 +30,11 @@ struct Results {
   double torque_max = kMissing;                               // N m
 };
 
-// M3 at a contact arc; `thesis` and `no_slip` take the deformed radius r_d = l/(2 cos alpha), which
-// is l/2 on the toe.
-double StiffnessAt(const SimulationRequest& request, double leg_angle, double length) {
-  const Parameters<double>& p = request.parameters;
-  if (request.law == Law::kStraightLeg) return p.k;
-  const double theta = std::max(leg_angle, 0.0);  // below 0 the toe carries: phi stays pi
-  const bool deformed = request.law == Law::kThesis || request.law == Law::kNoSlip;
-  const double radius = deformed ? length / (2.0 * std::cos(0.5 * theta)) : p.r;
-  return 1.0 / LegCompliance<double>(p, radius).Chord(std::numbers::pi - theta);
-}
-
 void ReadSamples(Results& results) {
   const std::vector<double>& samples = results.run.samples;
   for (std::size_t row = 0; row + kSampled.size() <= samples.size(); row += kSampled.size()) {
     if (samples[row] != 1.0) continue;  // in flight, or past the end
-    const double stiffness = StiffnessAt(results.request, samples[row + 1], samples[row + 2]);
+    const double stiffness = StanceStiffness(results.request, samples[row + 1], samples[row + 2]);
     results.stiffness_min = std::fmin(results.stiffness_min, stiffness);
     results.stiffness_max = std::fmax(results.stiffness_max, stiffness);
     results.torque_max = std::fmax(results.torque_max, std::abs(samples[row + 3]));
@@ -173,7 +161,9 @@ SweepRow ComputeSweepRow(const Hopper& hopper, const std::vector<const SweepOutp
   const bool complete = IsComplete(results.run.outcome);
   if (complete) results.convergence = ConvergenceTimeOf(ApexSpeeds(results.run));
   ReadSamples(results);
-  if (wanted(&SweepOutput::needs_fixed_point)) results.steady = SteadyHop(hopper);
+  // A leg with a toe mass has no return map of speed and height alone.
+  if (wanted(&SweepOutput::needs_fixed_point))
+    results.steady = hopper.request.parameters.m_toe > 0.0 ? FixedPoint{} : SteadyHop(hopper);
 
   SweepRow row;
   row.outcome = std::string(NameOf(results.run.outcome));

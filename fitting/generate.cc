@@ -1,5 +1,6 @@
 #include "fitting/generate.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/input_error.h"
@@ -53,6 +54,7 @@ SimulationRequest RequestOfScenario(const Scenario& scenario,
   SimulationRequest request;
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   request.law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
+  CheckVariant(scenario.mechanism.variant, request.law, scenario.origin.place);
   request.liftoff = LiftoffOfSpec(scenario.mechanism);
   request.parameters =
       ParametersOfSpec(scenario.mechanism, scenario.controller, scenario.touchdown_angle_rad);
@@ -66,7 +68,12 @@ SimulationRequest RequestOfScenario(const Scenario& scenario,
 GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions& options) {
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
-  const std::vector<EffectSetting> effects = ResolveEffects(scenario.effects, law);
+  const std::vector<GenerateTrial> trials = TrialsOfScenario(scenario);
+  const bool any_toe_mass = std::any_of(
+      trials.begin(), trials.end(),
+      [](const GenerateTrial& trial) { return LegMassOfSpec(trial.mechanism) == LegMass::kAtToe; });
+  const std::vector<EffectSetting> effects =
+      ResolveEffects(scenario.effects, law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone);
   const std::vector<ChannelSpec> channels = ChannelsOf(scenario, options);
   const double horizon = HorizonOf(scenario);
   const double rate =
@@ -88,7 +95,6 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
 
   std::vector<Channel> wanted;
   for (const ChannelSpec& c : channels) wanted.push_back(ChannelOfSpec(c.id));
-  const std::vector<GenerateTrial> trials = TrialsOfScenario(scenario);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const GenerateTrial& plan = trials[i];
     const StateSpec truth = plan.initial ? *plan.initial : RequireInitial(scenario);
@@ -98,6 +104,7 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
 
     SimulationRequest request;
     request.law = law;
+    CheckVariant(plan.mechanism.variant, law, scenario.origin.place);
     request.liftoff = LiftoffOfSpec(plan.mechanism);
     request.parameters =
         ParametersOfSpec(plan.mechanism, plan.controller, plan.touchdown_angle_rad);

@@ -29,6 +29,12 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
     if (controller->torque_limit_N_m) p.torque_limit = *controller->torque_limit_N_m;
   }
   if (mechanism.fall_height_m) p.fall_height = *mechanism.fall_height_m;
+  p.variant = mechanism.variant;
+  p.m_toe = mechanism.toe_mass_kg.value_or(0.0);
+  if (mechanism.placement) {
+    p.kp_place = mechanism.placement->kp_N_m_per_rad;
+    p.kd_place = mechanism.placement->kd_N_m_s_per_rad;
+  }
   switch (mechanism.type) {
     case MechanismType::kCLeg:
       p.r = mechanism.c_leg.rest_radius_m;
@@ -56,6 +62,10 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
 LiftoffRule LiftoffOfSpec(const MechanismSpec& mechanism) {
   return mechanism.liftoff == LiftoffSpec::kRestLength ? LiftoffRule::kRestLength
                                                        : LiftoffRule::kZeroForce;
+}
+
+LegMass LegMassOfSpec(const MechanismSpec& mechanism) {
+  return mechanism.toe_mass_kg.value_or(0.0) > 0.0 ? LegMass::kAtToe : LegMass::kNone;
 }
 
 MechanismKind MechanismOfSpec(const MechanismSpec& mechanism) {
@@ -88,6 +98,21 @@ Law ResolveLaw(const std::string& name, MechanismKind mechanism, const std::stri
                         : DidYouMean(name, LawNames(mechanism))});
 }
 
+void CheckVariant(const ThesisVariant& variant, Law law, const std::string& place) {
+  if (law == Law::kThesis) return;
+  ThesisVariant allowed;
+  allowed.torque_sign = variant.torque_sign;  // of every leg
+  for (const VariantKey& key : VariantKeys()) {
+    const int word = key.get(variant);
+    if (word == key.get(allowed)) continue;
+    throw InputError(
+        {place,
+         "mechanism.leg.variant." + std::string(key.key) + " = " + std::string(key.words[word]),
+         "is a reading of the law thesis and this law is " + std::string(NameOf(law)),
+         "Use the law thesis, or remove it."});
+  }
+}
+
 const Effect& ResolveEffect(const std::string& name, const std::string& place) {
   if (const Effect* effect = FindEffect(name)) return *effect;
   std::vector<std::string> known;
@@ -96,8 +121,12 @@ const Effect& ResolveEffect(const std::string& name, const std::string& place) {
                     DidYouMean(name, known) + " `hoplab effects` lists them."});
 }
 
-void CheckApplies(const Effect& effect, Law law, const std::string& place) {
-  if (AppliesTo(effect, law)) return;
+void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place) {
+  if (AppliesTo(effect, law, mass)) return;
+  if (AppliesTo(effect, law)) {
+    throw InputError({place, "effect " + std::string(effect.info.name),
+                      "does not apply to a leg with a toe mass", "Leave it or toe_mass_kg out."});
+  }
   const MechanismKind mechanism = MechanismOf(law);
   const std::span<const Law> laws = LawsOf(mechanism);
   const bool to_another =
@@ -109,11 +138,12 @@ void CheckApplies(const Effect& effect, Law law, const std::string& place) {
                     "`hoplab effects` says which do."});
 }
 
-std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law) {
+std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,
+                                          LegMass mass) {
   std::vector<EffectSetting> settings;
   for (const EffectSpec& spec : specs) {
     const Effect& effect = ResolveEffect(spec.name, spec.origin.place);
-    CheckApplies(effect, law, spec.origin.place);
+    CheckApplies(effect, law, mass, spec.origin.place);
     EffectSetting setting = EffectSetting::Null(effect);
     for (const NamedNumber& given : spec.parameters) {
       const std::optional<int> index = effect.FindParameter(given.name);

@@ -15,6 +15,7 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
                                     const std::optional<ControllerSpec>& controller,
                                     double touchdown_angle_rad);
 LiftoffRule LiftoffOfSpec(const MechanismSpec& mechanism);
+LegMass LegMassOfSpec(const MechanismSpec& mechanism);
 MechanismKind MechanismOfSpec(const MechanismSpec& mechanism);
 std::array<double, 4> StateOfSpec(const StateSpec& state);
 StateSpec SpecOfState(const std::array<double, 4>& state);
@@ -24,14 +25,18 @@ Channel ChannelOfSpec(ChannelId id);
 /// law that does not exist or belongs to another mechanism.
 Law ResolveLaw(const std::string& name, MechanismKind mechanism, const std::string& place);
 
+/// Throws InputError, place `place`, for a variant of another law than `law`.
+void CheckVariant(const ThesisVariant& variant, Law law, const std::string& place);
+
 /// The effect named `name`; throws InputError with the nearest known name.
 const Effect& ResolveEffect(const std::string& name, const std::string& place);
 
-/// Throws InputError if the effect means nothing under the law.
-void CheckApplies(const Effect& effect, Law law, const std::string& place);
+/// Throws InputError if the effect means nothing under the law, or on a leg with that mass.
+void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place);
 
 /// Effects with their values as a scenario gives them; parameters not given stay null. Throws
-/// InputError for unknown names, values out of bounds, an effect that this law cannot have.
-std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law);
+/// InputError for unknown names, values out of bounds, an effect that this law or leg cannot have.
+std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,
+                                          LegMass mass);
 
 }  // namespace hoplab

@@ -22,10 +22,14 @@ constexpr std::array<double, 4> kStartScale = {0.01, 0.01, 0.05, 0.05};
 // Priors tighter than this pin a component: the optimiser still sees a well-scaled variable.
 constexpr double kTightest = 1e-9;
 
-std::vector<std::string> KnownParameterNames(MechanismKind mechanism) {
-  std::vector<std::string> names;
-  for (ParameterId id : ParametersOf(mechanism)) names.emplace_back(InfoOf(id).name);
-  return names;
+std::vector<ParameterId> ParametersOf(const FitProblem& problem) {
+  const auto of = hoplab::ParametersOf(MechanismOf(problem.law));
+  std::vector<ParameterId> ids(of.begin(), of.end());
+  if (problem.leg_mass() == LegMass::kAtToe) {
+    const auto toe = ToeParameters();
+    ids.insert(ids.end(), toe.begin(), toe.end());
+  }
+  return ids;
 }
 
 // Damping at which a leg of this stiffness loses a few percent of its energy: the size of a change
@@ -68,6 +72,7 @@ class Builder {
       t.file = t.recording = trial.file;
       t.role = trial.role;
       t.parameters = ParametersOfSpec(trial.mechanism, trial.controller, trial.touchdown_angle_rad);
+      CheckVariant(trial.mechanism.variant, problem_.law, dataset_.origin.place);
       t.liftoff = LiftoffOfSpec(trial.mechanism);
       const std::vector<double>& time = trial.trace.time_s;
       t.begin_s = time.front();
@@ -251,11 +256,19 @@ class Builder {
 
   ParameterId KnownParameter(const std::string& name, const std::string& place) const {
     const std::optional<ParameterId> id = FindParameter(name);
-    const auto of = ParametersOf(mechanism_);
+    const std::vector<ParameterId> of = ParametersOf(problem_);
     if (id && std::find(of.begin(), of.end(), *id) != of.end()) return *id;
+    const auto toe = ToeParameters();
+    if (id && mechanism_ != MechanismKind::kBall &&
+        std::find(toe.begin(), toe.end(), *id) != toe.end()) {
+      throw InputError({place, name, "belongs to a leg with a toe mass, and this one has none",
+                        "Add toe_mass_kg to the mechanism."});
+    }
+    std::vector<std::string> names;
+    for (ParameterId own : of) names.emplace_back(InfoOf(own).name);
     throw InputError({place, Printable(name),
                       "is not a parameter of the mechanism " + std::string(NameOf(mechanism_)),
-                      DidYouMean(name, KnownParameterNames(mechanism_))});
+                      DidYouMean(name, names)});
   }
 
   // Place of an effect's parameter, the effect joining the problem if it is new.
@@ -273,7 +286,7 @@ class Builder {
   }
 
   int EffectIndex(const Effect& effect, const std::string& place) {
-    CheckApplies(effect, problem_.law, place);
+    CheckApplies(effect, problem_.law, problem_.leg_mass(), place);
     for (std::size_t i = 0; i < problem_.effects.size(); ++i) {
       if (problem_.effects[i].effect == &effect) return static_cast<int>(i);
     }
@@ -346,6 +359,12 @@ class Builder {
 };
 
 }  // namespace
+
+LegMass FitProblem::leg_mass() const {
+  const bool any = std::any_of(trials.begin(), trials.end(),
+                               [](const TrialProblem& t) { return t.parameters.m_toe > 0.0; });
+  return any ? LegMass::kAtToe : LegMass::kNone;
+}
 
 std::vector<std::string> FitProblem::shared_names() const {
   std::vector<std::string> names;

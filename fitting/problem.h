@@ -72,6 +72,8 @@ struct FitProblem {
   IntegratorOptions integrator;
   std::vector<std::string> notes;  // what was decided on the way, for the reader
 
+  /// Whether the leg has a mass at its toe in any trial.
+  LegMass leg_mass() const;
   int shared_count() const { return static_cast<int>(shared.size()); }
   std::vector<std::string> shared_names() const;
 };

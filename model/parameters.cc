@@ -12,7 +12,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using enum ParameterId;
 
-constexpr std::array<ParameterInfo, 17> kParameters = {{
+constexpr std::array<ParameterInfo, 20> kParameters = {{
     {kE, "E", "Pa", 1e3, 1e13},
     {kG, "G", "Pa", 1e3, 1e13},
     {kD, "d", "N s/m", 0.0, 1e5},
@@ -30,12 +30,16 @@ constexpr std::array<ParameterInfo, 17> kParameters = {{
     {kRestitution, "restitution", "-", 0.0, 1.0},
     {kTangentialLoss, "tangential_loss", "-", -1.0, 2.0},
     {kRadius, "radius", "m", 0.0, 1e2},
+    {kToeMass, "m_toe", "kg", 1e-6, 1e6},
+    {kKpPlace, "kp_place", "N m/rad", 0.0, 1e6},
+    {kKdPlace, "kd_place", "N m s/rad", 0.0, 1e6},
 }};
 
 constexpr std::array kCLegParameters = {
     kE, kD, kG, kM, kR, kGravity, kKp, kVDes, kThetaTd, kSecondMoment, kArea, kShearFactor};
 constexpr std::array kStraightLegParameters = {kStiffness, kD,  kRestLength, kM,
                                                kGravity,   kKp, kVDes,       kThetaTd};
+constexpr std::array kToeParameters = {kToeMass, kKpPlace, kKdPlace};
 constexpr std::array kBallParameters = {kRestitution, kTangentialLoss, kM, kGravity, kRadius};
 
 constexpr std::array kCLegLaws = {Law::kLargeDeflection, Law::kConsistent, Law::kNoSlip,
@@ -88,6 +92,8 @@ std::span<const ParameterId> ParametersOf(MechanismKind mechanism) {
   }
   return {};
 }
+
+std::span<const ParameterId> ToeParameters() { return kToeParameters; }
 
 std::span<const ParameterId> FreeByDefault(MechanismKind mechanism) {
   return ParametersOf(mechanism).first(2);

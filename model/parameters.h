@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "base/thesis_variant.h"
+
 namespace hoplab {
 
 /// Which leg (or none) the body hops on.
@@ -48,6 +50,10 @@ struct Parameters {
   T theta_td{0.0};  // commanded touch-down leg angle [rad]
   // Legs.
   T d{0.0};  // leg damping [N s/m]
+  // Legs with a mass at the toe (M40-M46); 0: a massless leg.
+  T m_toe{0.0};     // toe mass [kg]
+  T kp_place{0.0};  // placement gain [N m/rad]
+  T kd_place{0.0};  // placement damping [N m s/rad]
   // C-leg.
   T r{0.1};      // rest radius [m]
   T E{1.0};      // Young's modulus [Pa]
@@ -70,6 +76,7 @@ struct Parameters {
   bool has_rest_length_step = false;  // greatest compression is an event
   LawTerms<T> law_terms;
   // Settings without derivatives.
+  ThesisVariant variant;  // of the law `thesis`; its torque_sign of every leg
   double torque_limit = std::numeric_limits<double>::infinity();  // T_max [N m]
   double fall_height = std::numeric_limits<double>::quiet_NaN();  // y_min [m]; NaN: the default
   double time_origin = 0.0;  // time of the run's start since the trial's first row [s]
@@ -93,7 +100,10 @@ enum class ParameterId {
   kRestLength,
   kRestitution,
   kTangentialLoss,
-  kRadius
+  kRadius,
+  kToeMass,
+  kKpPlace,
+  kKdPlace
 };
 
 /// Name, unit and physical range of a parameter.
@@ -111,6 +121,8 @@ const ParameterInfo& InfoOf(ParameterId id);
 std::optional<ParameterId> FindParameter(std::string_view name);
 /// Parameters that mean something for a mechanism, the ones fitted by default first.
 std::span<const ParameterId> ParametersOf(MechanismKind mechanism);
+/// What a leg with a mass at its toe has besides; never free unless asked for.
+std::span<const ParameterId> ToeParameters();
 /// Parameters that are free unless asked otherwise.
 std::span<const ParameterId> FreeByDefault(MechanismKind mechanism);
 
@@ -152,6 +164,12 @@ T& Field(Parameters<T>& p, ParameterId id) {
       return p.tangential_loss;
     case ParameterId::kRadius:
       return p.radius;
+    case ParameterId::kToeMass:
+      return p.m_toe;
+    case ParameterId::kKpPlace:
+      return p.kp_place;
+    case ParameterId::kKdPlace:
+      return p.kd_place;
   }
   return p.m;  // unreachable: every enumerator is listed above
 }

@@ -30,6 +30,7 @@ Parameters<To> ConvertParameters(const Parameters<From>& from) {
   to.law_terms.stiffness_drift = To(Value(terms.stiffness_drift));
   to.law_terms.ground_compliance = To(Value(terms.ground_compliance));
   to.law_terms.foot_slip = To(Value(terms.foot_slip));
+  to.variant = from.variant;
   to.time_origin = from.time_origin;
   to.torque_limit = from.torque_limit;
   to.fall_height = from.fall_height;

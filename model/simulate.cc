@@ -12,7 +12,7 @@ struct Automaton {
   double (*energy)(const SimulationRequest&, Mode, std::span<const double>);
 };
 
-Automaton AutomatonOf(Law law) {
+Automaton MasslessAutomatonOf(Law law) {
   switch (law) {
     case Law::kThesis:
       return {RunThesis, EnergyThesis};
@@ -30,6 +30,29 @@ Automaton AutomatonOf(Law law) {
   return {};
 }
 
+Automaton ToeMassAutomatonOf(Law law) {
+  switch (law) {
+    case Law::kThesis:
+      return {RunToeMassThesis, EnergyToeMassThesis};
+    case Law::kNoSlip:
+      return {RunToeMassNoSlip, EnergyToeMassNoSlip};
+    case Law::kConsistent:
+      return {RunToeMassConsistent, EnergyToeMassConsistent};
+    case Law::kLargeDeflection:
+      return {RunToeMassLargeDeflection, EnergyToeMassLargeDeflection};
+    case Law::kStraightLeg:
+      return {RunToeMassStraightLeg, EnergyToeMassStraightLeg};
+    case Law::kBall:
+      break;
+  }
+  return MasslessAutomatonOf(law);
+}
+
+Automaton AutomatonOf(const SimulationRequest& request) {
+  return request.parameters.m_toe > 0.0 ? ToeMassAutomatonOf(request.law)
+                                        : MasslessAutomatonOf(request.law);
+}
+
 }  // namespace
 
 void Simulate(const SimulationRequest& request, Trajectory& out) {
@@ -40,7 +63,7 @@ void Simulate(const SimulationRequest& request, Trajectory& out) {
   const std::size_t cells = request.row_times.size() * request.channels.size();
   out.samples.assign(cells, kMissing);
   out.sensitivities.assign(cells * request.directions.size(), kMissing);
-  AutomatonOf(request.law).run(request, out);
+  AutomatonOf(request).run(request, out);
 }
 
 Trajectory Simulate(const SimulationRequest& request) {
@@ -50,7 +73,7 @@ Trajectory Simulate(const SimulationRequest& request) {
 }
 
 double Energy(const SimulationRequest& request, Mode mode, std::span<const double> state) {
-  return AutomatonOf(request.law).energy(request, mode, state);
+  return AutomatonOf(request).energy(request, mode, state);
 }
 
 }  // namespace hoplab

@@ -31,10 +31,11 @@ struct SensitivityDirection {
   }
 };
 
-/// What to simulate. The run starts in flight at time 0.
+/// What to simulate. The run starts in flight at time 0; with `parameters.m_toe` > 0 its leg is
+/// relaxed at the touch-down angle and moves with the hip.
 struct SimulationRequest {
   Law law = Law::kLargeDeflection;
-  LiftoffRule liftoff = LiftoffRule::kZeroForce;
+  LiftoffRule liftoff = LiftoffRule::kZeroForce;  // of a massless leg
   Parameters<double> parameters;
   std::span<const EffectSetting> effects;
   std::array<double, 4> initial{};  // x, y [m], vx, vy [m/s]
@@ -54,7 +55,8 @@ void Simulate(const SimulationRequest& request, Trajectory& out);
 Trajectory Simulate(const SimulationRequest& request);
 
 /// Total energy [J] of a state (x, y, vx, vy, contact) in a mode, strain energy included; state as
-/// in Trajectory::final_state, in world W.
+/// in Trajectory::final_state, in world W. Of a leg with a toe mass in flight the toe's state
+/// follows; absent: the leg as a run starts with it.
 double Energy(const SimulationRequest& request, Mode mode, std::span<const double> state);
 
 }  // namespace hoplab

@@ -31,9 +31,10 @@ struct Segment {
 /// `samples` is row-major [row][channel]; rows past the end of the run are NaN.
 /// `sensitivities` is row-major [row][channel][direction].
 /// Everything is in world W, but that the contact coordinate counts along a sloping ground.
-/// `final_state`, its derivatives `final_sensitivities` ([component][direction]) and its rate along
-/// the flow `final_rate` belong to the fixed time `end_time`. Of a run that ends at an event, the
-/// derivative along that event (on a Poincare section) is S + final_rate dt_event/dp.
+/// `final_state` (LegState, of a leg with a toe mass ToeState), its derivatives
+/// `final_sensitivities` ([component][direction]) and its rate along the flow `final_rate` belong
+/// to the fixed time `end_time`. Of a run that ends at an event, the derivative along that event
+/// (on a Poincare section) is S + final_rate dt_event/dp.
 struct Trajectory {
   Outcome outcome = Outcome::kCompleted;
   double end_time = 0.0;  // s

@@ -72,19 +72,22 @@ Json RecordOf(const Effect& effect) {
           {"sentence", effect.info.sentence},
           {"mechanisms", mechanisms},
           {"laws", laws},
+          {"massless_leg_only", effect.info.massless_leg_only},
           {"dissipative", effect.info.dissipative},
           {"parameters", parameters}};
 }
 
-// "ball only", "laws thesis, no_slip"; empty where it goes with everything.
+// "ball only", "laws thesis, no_slip", "massless legs only"; empty where it goes with everything.
 std::string RestrictionOf(const Effect& effect) {
   const EffectInfo& info = effect.info;
   if (!info.only_laws.empty()) {
     std::vector<std::string> names;
     for (const Law law : info.only_laws) names.emplace_back(NameOf(law));
-    return (names.size() == 1 ? "law " : "laws ") + Join(names);
+    return (names.size() == 1 ? "law " : "laws ") + Join(names) +
+           (info.massless_leg_only ? ", massless" : "");
   }
   if (info.for_legs && info.for_ball) return "";
+  if (info.massless_leg_only) return "massless legs only";
   return info.for_legs ? "legs only" : "ball only";
 }
 
@@ -139,7 +142,9 @@ void PrintOne(const Effect& effect, Console& console) {
   }
   std::vector<std::string> laws;
   for (const Law law : LawsWith(effect)) laws.emplace_back(NameOf(law));
-  console.out << Labelled("laws", Join(laws), colours)
+  console.out << Labelled("laws",
+                          Join(laws) + (info.massless_leg_only ? "; not with a toe mass" : ""),
+                          colours)
               << Labelled("energy",
                           info.dissipative ? "only ever taken away" : "may be put in or taken away",
                           colours)

@@ -23,10 +23,11 @@ struct GaitSettings {
   bool force = false, json = false, quiet = false;
 };
 
-Json NewGaitRecord(const GaitSettings& settings, const std::string& name, Law law) {
+Json NewGaitRecord(const GaitSettings& settings, const Scenario& scenario, Law law) {
   RecordHeader header;
   header.command = "gait";
   header.law = std::string(NameOf(law));
+  header.variant = scenario.mechanism.variant;
   header.options = {{"scenario", settings.scenario.scenario},
                     {"set", settings.scenario.set},
                     {"with", settings.scenario.with},
@@ -35,7 +36,7 @@ Json NewGaitRecord(const GaitSettings& settings, const std::string& name, Law la
                     {"relative_tolerance", settings.tolerance},
                     {"absolute_tolerance", 0.1 * settings.tolerance}};
   Json record = NewRecord(header);
-  record["scenario"] = name;
+  record["scenario"] = scenario.name;
   return record;
 }
 
@@ -57,7 +58,7 @@ ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
   const GaitRun run = RunGait(hopper, options);
   progress.Clear();
 
-  Json record = NewGaitRecord(settings, scenario.name, hopper.request.law);
+  Json record = NewGaitRecord(settings, scenario, hopper.request.law);
   AddGait(run, record);
   const std::string failure =
       run.interrupted ? "interrupted; the branch ends where it was stopped" : run.Failure();

@@ -18,13 +18,17 @@ constexpr std::array kMechanisms = {MechanismKind::kCLeg, MechanismKind::kStraig
 Json ParameterRecords(MechanismKind mechanism) {
   Json out = Json::array();
   const auto free = FreeByDefault(mechanism);
-  for (const ParameterId id : ParametersOf(mechanism)) {
+  const auto add = [&](ParameterId id, bool needs_toe_mass) {
     const ParameterInfo& info = InfoOf(id);
     out.push_back({{"name", info.name},
                    {"unit", info.unit},
                    {"bounds", Json::array({info.lower, info.upper})},
-                   {"free_by_default", std::find(free.begin(), free.end(), id) != free.end()}});
-  }
+                   {"free_by_default", std::find(free.begin(), free.end(), id) != free.end()},
+                   {"needs_toe_mass", needs_toe_mass}});
+  };
+  for (const ParameterId id : ParametersOf(mechanism)) add(id, false);
+  if (mechanism != MechanismKind::kBall)
+    for (const ParameterId id : ToeParameters()) add(id, true);
   return out;
 }
 
@@ -54,14 +58,21 @@ ExitCode RunLaws(const LawsSettings& settings, Console& console) {
       console.out << "  " << name << SentenceOf(law) << '\n';
     }
     console.out << "  parameters:       ";
-    const char* separator = "";
-    for (const ParameterId id : ParametersOf(mechanism)) {
-      const ParameterInfo& info = InfoOf(id);
-      console.out << separator << info.name;
-      if (info.unit != "-") console.out << " [" << info.unit << ']';
-      separator = ", ";
-    }
+    const auto list = [&](std::span<const ParameterId> ids) {
+      const char* separator = "";
+      for (const ParameterId id : ids) {
+        const ParameterInfo& info = InfoOf(id);
+        console.out << separator << info.name;
+        if (info.unit != "-") console.out << " [" << info.unit << ']';
+        separator = ", ";
+      }
+    };
+    list(ParametersOf(mechanism));
     console.out << "; the first two are fitted by default\n";
+    if (mechanism == MechanismKind::kBall) continue;
+    console.out << "  with toe_mass_kg: ";
+    list(ToeParameters());
+    console.out << '\n';
   }
   return ExitCode::kDone;
 }

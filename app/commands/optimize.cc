@@ -71,11 +71,12 @@ double OwnValue(const Scenario& scenario, const ScenarioDocument& document,
                     "State one: the search is compared with it."});
 }
 
-Json NewOptimizeRecord(const OptimizeSettings& settings, const std::string& name, Law law,
+Json NewOptimizeRecord(const OptimizeSettings& settings, const Scenario& scenario, Law law,
                        const OptimizeRun& run) {
   RecordHeader header;
   header.command = "optimize";
   header.law = std::string(NameOf(law));
+  header.variant = scenario.mechanism.variant;
   header.seed = settings.seed;
   Json over = Json::object();
   for (const SearchVariable& v : run.problem.variables) over[v.name] = {v.low, v.high};
@@ -92,7 +93,7 @@ Json NewOptimizeRecord(const OptimizeSettings& settings, const std::string& name
                     {"relative_tolerance", settings.tolerance},
                     {"absolute_tolerance", 0.1 * settings.tolerance}};
   Json record = NewRecord(header);
-  record["scenario"] = name;
+  record["scenario"] = scenario.name;
   return record;
 }
 
@@ -147,7 +148,7 @@ ExitCode RunOptimizeCommand(const OptimizeSettings& settings, Console& console) 
   progress.Clear();
 
   const Law law = run.problem.hopper_at(run.scenario_x).request.law;
-  Json record = NewOptimizeRecord(settings, scenario.name, law, run);
+  Json record = NewOptimizeRecord(settings, scenario, law, run);
   AddOptimize(run, record);
   const std::string failure = run.Failure();
   if (!failure.empty()) SetFailed(record, failure);

@@ -31,7 +31,8 @@ struct SimulateSettings {
 
 // Nothing was simulated that could be looked at.
 bool IsUseless(Outcome outcome) {
-  return outcome == Outcome::kStartsInGround || outcome == Outcome::kIntegrationFailed;
+  return outcome == Outcome::kStartsInGround || outcome == Outcome::kIntegrationFailed ||
+         outcome == Outcome::kStepLimit;
 }
 
 std::string Report(const Scenario& scenario, const SimulationRequest& request,
@@ -89,6 +90,7 @@ Json NewSimulationRecord(const SimulateSettings& settings, const Scenario& scena
   RecordHeader header;
   header.command = "simulate";
   header.law = std::string(NameOf(law));
+  header.variant = scenario.mechanism.variant;
   header.options = {{"scenario", settings.scenario.scenario},
                     {"set", settings.scenario.set},
                     {"with", settings.scenario.with},
@@ -109,12 +111,14 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
   const RunFolder folder(place, scenario.name, "simulate");
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
-  const std::vector<EffectSetting> effects = ResolveEffects(scenario.effects, law);
+  const std::vector<EffectSetting> effects =
+      ResolveEffects(scenario.effects, law, LegMassOfSpec(scenario.mechanism));
   SimulationRequest request = RequestOfScenario(scenario, effects);
   request.integrator = IntegratorOptionsOf(settings.integrator, settings.tolerance);
   std::vector<SensitivityDirection> directions;
   for (const std::string& name : settings.sensitivities)
-    directions.push_back(ResolveDirection(name, mechanism, effects));
+    directions.push_back(
+        ResolveDirection(name, mechanism, LegMassOfSpec(scenario.mechanism), effects));
   request.directions = directions;
   const Trajectory run = Simulate(request);
 

@@ -11,10 +11,8 @@ namespace {
 const Effect& Applicable(const FitProblem& problem, const std::string& name,
                          const std::string& place) {
   const Effect& effect = ResolveEffect(name, place);
-  if (AppliesTo(effect, problem.law)) return effect;
-  throw InputError({place, "effect " + name,
-                    "does not apply to the law " + std::string(NameOf(problem.law)),
-                    "`hoplab effects` says which do."});
+  CheckApplies(effect, problem.law, problem.leg_mass(), place);
+  return effect;
 }
 
 bool Simulates(const FitProblem& problem, const Effect& effect) {
@@ -40,7 +38,8 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
   };
   std::vector<Candidate> candidates;
   for (const Effect* effect : AllEffects()) {
-    if (!AppliesTo(*effect, problem.law) || Simulates(problem, *effect)) continue;
+    if (!AppliesTo(*effect, problem.law, problem.leg_mass()) || Simulates(problem, *effect))
+      continue;
     if (holds(without, effect) || (!only.empty() && !holds(only, effect))) continue;
     candidates.push_back({effect});
   }

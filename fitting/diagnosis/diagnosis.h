@@ -33,7 +33,7 @@ inline constexpr double kDetectionLevel = 0.01;
 /// Share of the misfit's excess over noise an extension must explain to name a cause while some
 /// misfit remains: then what remains is seen, but of no consequence. With 0.9 one in five wrong
 /// names of an effect outside the catalogue passed in spite of what it left.
-inline constexpr double kExplained = 0.98;
+inline constexpr double kExplained = 0.95;
 
 struct DiagnosisOptions {
   ProblemOptions problem;

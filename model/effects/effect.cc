@@ -25,8 +25,9 @@ std::optional<int> Effect::FindParameter(std::string_view name) const {
   return std::nullopt;
 }
 
-bool AppliesTo(const Effect& effect, Law law) {
+bool AppliesTo(const Effect& effect, Law law, LegMass mass) {
   const EffectInfo& info = effect.info;
+  if (mass == LegMass::kAtToe && info.massless_leg_only) return false;
   if (!(MechanismOf(law) == MechanismKind::kBall ? info.for_ball : info.for_legs)) return false;
   return info.only_laws.empty() ||
          std::find(info.only_laws.begin(), info.only_laws.end(), law) != info.only_laws.end();

@@ -39,6 +39,8 @@ struct EffectInfo {
   /// Its term turns over within a narrow band of speed. At null the state's steps do not see it, so
   /// the sensitivities must steer the step too.
   bool sharp = false;
+  /// Means nothing, or is not modelled, on a leg with a mass at its toe.
+  bool massless_leg_only = false;
   std::span<const EffectParameter> parameters;
   std::span<const Law> only_laws = {};  // of those mechanisms' laws; empty: all of them
 };
@@ -60,7 +62,8 @@ struct ChordMotion {
   T compression;    // (l0 - l)/l0 [-]
 };
 
-/// A driven hip in stance at one instant, for torques on it.
+/// A driven hip in stance at one instant, for torques on it; a hip that places a toe with a mass is
+/// driven in flight too.
 template <class T>
 struct HipMotion {
   T motor_torque;  // what the motor gives: M15, clipped and lagged [N m]
@@ -134,8 +137,11 @@ struct Effect {
   std::optional<int> FindParameter(std::string_view name) const;
 };
 
-/// Whether an effect means anything under a law.
-bool AppliesTo(const Effect& effect, Law law);
+/// Whether a leg has a mass at its toe.
+enum class LegMass { kNone, kAtToe };
+
+/// Whether an effect means anything under a law, on such a leg.
+bool AppliesTo(const Effect& effect, Law law, LegMass mass = LegMass::kNone);
 
 /// Every effect there is, by name. One entry per file in model/effects (cmake writes the list).
 std::span<const Effect* const> AllEffects();

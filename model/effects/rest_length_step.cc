@@ -16,6 +16,7 @@ struct RestLengthStep {
       .for_legs = true,
       .for_ball = false,
       .dissipative = false,
+      .massless_leg_only = true,
       .parameters = kParameters,
       .only_laws = kLaws};
 

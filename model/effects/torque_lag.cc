@@ -15,6 +15,7 @@ struct TorqueLag {
       .for_legs = true,
       .for_ball = false,
       .dissipative = false,
+      .massless_leg_only = true,
       .parameters = kParameters};
 
   template <class T>

@@ -72,6 +72,8 @@ std::string_view NameOf(Outcome outcome) {
       return "came_to_rest";
     case Outcome::kEventLimit:
       return "event_limit";
+    case Outcome::kStepLimit:
+      return "step_limit";
     case Outcome::kIntegrationFailed:
       return "integration_failed";
   }
@@ -104,6 +106,8 @@ std::string_view SentenceOf(Outcome outcome) {
       return "the bounces crowded together: it came to rest";
     case Outcome::kEventLimit:
       return "more events than a hop trace has";
+    case Outcome::kStepLimit:
+      return "needs more solver steps than allowed: a stiff leg, try the integrator cvodes";
     case Outcome::kIntegrationFailed:
       return "the solver could not go on: the state left the domain of the leg law";
   }

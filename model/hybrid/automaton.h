@@ -40,6 +40,7 @@ enum class Outcome {
   kChattering,        // two events undo each other at one instant
   kCameToRest,        // bounces crowd together
   kEventLimit,        // more events than any hop trace has
+  kStepLimit,         // more integrator steps than allowed: stiff for an explicit solver
   kIntegrationFailed  // the solver cannot go on: state or law left their domain
 };
 std::string_view NameOf(Outcome outcome);

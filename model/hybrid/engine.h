@@ -50,6 +50,7 @@ class Engine {
         sink_(sink),
         out_(out),
         max_steps_(options.max_steps),
+        explicit_(options.kind != IntegratorKind::kCvodes),
         stepper_(options, Rhs(&system_, &mode_)) {}
 
   /// Runs from `z0` in `mode` at time 0. `row_time(i)` is the time row i was really read at, as T:
@@ -117,7 +118,7 @@ class Engine {
         crossing = {immediate, t_};
         EmitRows(row_time, t_);
       } else if (!Advance(row_time, at_start, crossing)) {
-        return Outcome::kIntegrationFailed;
+        return out_.steps >= max_steps_ ? Outcome::kStepLimit : Outcome::kIntegrationFailed;
       }
       if (crossing.guard < 0) return Outcome::kCompleted;  // horizon
 
@@ -223,7 +224,7 @@ class Engine {
 
   template <class RowTime>
   Crossing FlyBallistic(const RowTime& row_time) requires(kDim >= 4) {
-    const BallisticFlight<T> flight = system_.Ballistic(z_.data());
+    const auto flight = system_.Ballistic(z_.data());
     const Crossing crossing = flight.Next(t_, settings_.horizon, z_.data());
     for (; next_row_ < rows(); ++next_row_) {
       const T time = row_time(next_row_);
@@ -252,8 +253,9 @@ class Engine {
     if (!flight && stance_step_ > 0.0) first = stance_step_;
     stepper_.Start(t_, y.data(), std::min(first, remaining));
     bool first_step = true;
+    const double longest = LongestStep();
     while (true) {
-      double limit = settings_.horizon;
+      double limit = std::min(settings_.horizon, stepper_.t1() + longest);
       if constexpr (!decltype(stepper_)::kReadsInsideStep) limit = NextRowLimit(row_time, limit);
       if (out_.steps >= max_steps_ || stepper_.Step(limit) == StepStatus::kFailed) {
         TakeStepperState();
@@ -284,6 +286,13 @@ class Engine {
     }
   }
 
+  // The step an explicit solver must not exceed where the state alone does not steer it there [s].
+  double LongestStep() const {
+    if constexpr (requires { system_.LongestStep(mode_, T(t_), CurrentZ()); }) {
+      if (explicit_ && kWidth > 0) return system_.LongestStep(mode_, T(t_), CurrentZ());
+    }
+    return std::numeric_limits<double>::infinity();
+  }
   const T* CurrentZ() const { return z_.data(); }
   void TakeStepperState() {
     Rhs::Unpack(stepper_.y1(), z_.data());
@@ -352,7 +361,7 @@ class Engine {
     while (before < rows() && Value(row_time(before)) < 0.0) ++before;
     if constexpr (kDim >= 4) {
       if (system_.IsBallistic(mode_)) {
-        const BallisticFlight<T> flight = system_.Ballistic(z_.data());
+        const auto flight = system_.Ballistic(z_.data());
         for (next_row_ = 0; next_row_ < before; ++next_row_) {
           const T time = row_time(next_row_);
           std::array<T, kDim> z = z_;
@@ -392,6 +401,7 @@ class Engine {
   Trajectory& out_;
   Mode mode_ = Mode::kFlight;
   long max_steps_;
+  bool explicit_;  // the solver is
   Stepper<kSize, kDim, Rhs> stepper_;
   std::array<T, kDim> z_;
   double t_ = 0.0, segment_begin_ = 0.0, stance_step_ = 0.0;

@@ -110,11 +110,17 @@ struct Seeds {
 
 // Events and the final state of a run, from the frame of the ground.
 inline void ToWorld(const GroundFrame<double>& frame, Trajectory& run) {
-  run.final_state.resize(std::min<std::size_t>(run.final_state.size(), kLegStateSize));
+  const bool has_toe = run.final_state.size() == kToeStateSize;
+  if (!has_toe)
+    run.final_state.resize(std::min<std::size_t>(run.final_state.size(), kLegStateSize));
   run.final_rate.resize(run.final_state.size());
   if (frame.level()) return;
   frame.ToWorld(run.final_state.data());
   frame.ToWorld(run.final_rate.data());
+  if (has_toe && run.final_mode == Mode::kFlight) {
+    frame.ToWorld(&run.final_state[kToeX]);
+    frame.ToWorld(&run.final_rate[kToeX]);
+  }
   for (Event& e : run.events) {
     double before[] = {e.x, e.y, e.vx, e.vy}, after[] = {e.x, e.y, e.vx_after, e.vy_after};
     frame.ToWorld(before);
@@ -153,12 +159,16 @@ void RunChunk(const SimulationRequest& request, int first, int count, Trajectory
   std::fill(z.begin(), z.end(), T(0.0));
   std::copy(seeds.initial.begin(), seeds.initial.end(), z.begin());
   frame.FromWorld(z.data());
+  if constexpr (requires { system.PlaceToe(z.data()); }) system.PlaceToe(z.data());
   engine.Run(Mode::kFlight, z.data(),
              [&](int row) { return seeds.effects.ObservationTime(T(request.row_times[row])); });
 
   // What the run leaves, in world W and without a lag's own state.
   std::array<T, System<T>::kDim> final_state = engine.final_state();
   frame.ToWorld(final_state.data());
+  if constexpr (System<T>::kDim == kToeStateSize) {
+    if (record.final_mode == Mode::kFlight) frame.ToWorld(&final_state[kToeX]);
+  }
   const std::size_t width = request.directions.size();
   if (first == 0) {
     ToWorld(GroundFrame<double>(Value(seeds.parameters.slope)), out);
@@ -229,7 +239,14 @@ double EnergyOn(const SimulationRequest& request, Mode mode, std::span<const dou
   System<double> system(seeds.parameters, seeds.effects, request.liftoff);
   std::array<double, System<double>::kDim> z{};
   std::copy_n(state.begin(), std::min(state.size(), z.size()), z.begin());
-  GroundFrame<double>(seeds.parameters.slope).FromWorld(z.data());
+  const GroundFrame<double> frame(seeds.parameters.slope);
+  frame.FromWorld(z.data());
+  if constexpr (requires { system.PlaceToe(z.data()); }) {
+    if (mode == Mode::kFlight && state.size() < z.size())
+      system.PlaceToe(z.data());
+    else if (mode == Mode::kFlight)
+      frame.FromWorld(&z[kToeX]);
+  }
   system.StartSearch(mode, z.data());
   return system.Energy(mode, z.data());
 }

@@ -28,7 +28,9 @@ struct ErkStepSolver::Memory {
     const auto* self = static_cast<const Memory*>(user);
     double* out = N_VGetArrayPointer(dy);
     self->system.derivative(self->system.context, t, N_VGetArrayPointer(y), out);
-    return std::isfinite(out[self->system.controlled - 1]) ? 0 : 1;  // 1: try a smaller step
+    const bool finite = std::all_of(out, out + self->system.controlled,
+                                    [](double rate) { return std::isfinite(rate); });
+    return finite ? 0 : 1;  // 1: try a smaller step
   }
   // Error weights, as a rule of the state alone, sensitivities following its steps; the mean in the
   // norm runs over the whole vector, hence the factor.

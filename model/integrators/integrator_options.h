@@ -22,7 +22,7 @@ struct IntegratorOptions {
   double relative_tolerance = 1e-9;
   double absolute_tolerance = 1e-10;
   bool control_sensitivities = false;
-  /// Steps after which a run counts as one that cannot be integrated.
+  /// Steps after which a run ends as `step_limit`.
   long max_steps = 1000000;
 };
 

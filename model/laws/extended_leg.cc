@@ -1,212 +1,15 @@
 #include "model/laws/extended_leg.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "model/effects/effect.h"
-#include "model/leg_compliance.h"
+#include "model/laws/extended_statics.h"
 
 namespace hoplab {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-// A value and its rate of change in one direction, over a scalar that carries directions itself:
-// the second derivatives in the rates of M7 and M8.
-template <class T>
-struct Tangent {
-  T value, rate{0.0};
-
-  Tangent(const T& v) : value(v) {}  // NOLINT: a constant is a tangent with rate 0
-  Tangent(const T& v, const T& r) : value(v), rate(r) {}
-
-  friend Tangent operator+(const Tangent& a, const Tangent& b) {
-    return {a.value + b.value, a.rate + b.rate};
-  }
-  friend Tangent operator-(const Tangent& a, const Tangent& b) {
-    return {a.value - b.value, a.rate - b.rate};
-  }
-  friend Tangent operator*(const Tangent& a, const Tangent& b) {
-    return {a.value * b.value, a.rate * b.value + a.value * b.rate};
-  }
-  friend Tangent operator/(const Tangent& a, const Tangent& b) {
-    const T q = a.value / b.value;
-    return {q, (a.rate - q * b.rate) / b.value};
-  }
-  friend Tangent operator*(double a, const Tangent& b) { return {a * b.value, a * b.rate}; }
-  friend Tangent sqrt(const Tangent& a) {
-    using std::sqrt;
-    const T root = sqrt(a.value);
-    return {root, 0.5 * a.rate / root};
-  }
-  friend double Value(const Tangent& a) { return hoplab::Value(a.value); }
-};
-
-// The k-th derivative of a function of one variable at x, given all of them at its value.
-double Lift(double, const double* derivatives, int k) { return derivatives[k]; }
-template <int N>
-Jet<N> Lift(const Jet<N>& x, const double* derivatives, int k) {
-  return Jet<N>(derivatives[k], derivatives[k + 1] * x.v);
-}
-template <class T>
-Tangent<T> Lift(const Tangent<T>& x, const double* derivatives, int k) {
-  return {Lift(x.value, derivatives, k), Lift(x.value, derivatives, k + 1) * x.rate};
-}
-
-// Shape functions of an arc with as many derivatives as the rates of the tip's angle need.
-struct ArcShapes {
-  std::array<double, 3> sin, cos;  // of phi/2
-  std::array<double, 5> bending;   // M1
-  std::array<double, 4> axial, shear, second_order;
-
-  explicit ArcShapes(double phi) {
-    const HalfAngle a(phi);
-    const double h = a.h, S = a.sin, K = a.cos;
-    const double sin_phi = 2.0 * S * K, cos_phi = 1.0 - 2.0 * S * S;
-    sin = {S, 0.5 * K, -0.25 * S};
-    cos = {K, -0.5 * S, -0.25 * K};
-    const ShapeValue b = BendingShape(a), n = AxialShape(a), s = ShearShape(a),
-                     g = SecondOrderShape(a);
-    bending = {b.value, b.d1, b.d2, phi * sin_phi, sin_phi + phi * cos_phi};
-    axial = {n.value, n.d1, n.d2, -3.0 * cos_phi};
-    shear = {s.value, s.d1, s.d2, cos_phi};
-    const double S2 = S * S, K2 = K * K;
-    const double g3 = 2.0 * h * S * (6.0 * S2 - 21.0 * K2) + h * h * K * (60.0 * S2 - 21.0 * K2) +
-                      K * (30.0 * S2 - 15.0 * K2 + 1.5) + h * S * (105.0 * K2 - 30.0 * S2 - 1.5) +
-                      K * (12.0 * K2 - 73.5 * S2 + 1.5);
-    second_order = {g.value, g.d1, g.d2, 0.125 * g3};
-  }
-};
-
-// The next terms of the elastica after M24 and M25, in F N and N^2 (M24b, M25b), as M2b is in F^2:
-// chord in units of r (r^2/(E I))^2, lead u/l in units of (r^2/(E I))^2.
-template <class S>
-struct SecondOrderAcross {
-  S chord_FN, chord_NN, lead_FN, lead_NN;
-};
-template <class S>
-SecondOrderAcross<S> SecondOrderAcrossAt(const S& phi, const S& sin, const S& cos) {
-  const S K2 = cos * cos, S2 = sin * sin, q = phi * phi, one = S2 + K2;
-  return {7.5 * (phi * sin * K2) - 12.0 * (S2 * cos) + q * cos * (0.75 * one - 1.5 * K2),
-          sin * (4.0 * one - 3.75 * K2) + phi * cos * (3.0 * K2 - 2.5 * one) +
-              q * (0.75 * (S2 * K2) - 0.3125 * one) / sin,
-          sin * (2.0 * one - 3.5 * K2) + phi * cos * (2.75 * K2 - 2.0 * one) +
-              q * sin * (0.75 * K2 - 0.125 * one),
-          cos * (0.75 * one - 0.875 * K2) + phi * (K2 * K2 - 1.25 * K2 + 0.375 * one) / sin -
-              q * cos * (0.375 * (K2 * K2) - 0.625 * K2 + 0.28125 * one) / S2};
-}
-
-bool IsElastic(Law law) { return law == Law::kConsistent || law == Law::kLargeDeflection; }
-
-// What the state says to the leg, in a scalar that may be differentiated.
-template <class S>
-struct Situation {
-  S u;       // contact lead [m]
-  S Y;       // height of the hip over the contact [m]
-  S softer;  // E at the start of the trial over E now
-};
-
-// The leg at an arc and a height, in equilibrium or not.
-template <class S>
-struct Statics {
-  S l, sin, cos, delta, C, A2, F;
-  S soft_F;    // F without leg_hardening, where that is a share of a spring's force
-  S tip_miss;  // u/l less the right side of M10 (M10b, M25): 0 at equilibrium
-};
-
-// P: scalar of the parameters, S of the unknowns.
-template <class S, class P>
-[[gnu::flatten]] Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque, const S& phi,
-                     const Situation<S>& at) {
-  using std::sqrt;
-  const LawTerms<P>& terms = p.law_terms;
-  Statics<S> out{.l = sqrt(at.u * at.u + at.Y * at.Y),
-                 .sin = S(P(0.0)),
-                 .cos = S(P(0.0)),
-                 .delta = S(P(0.0)),
-                 .C = S(P(0.0)),
-                 .A2 = S(P(0.0)),
-                 .F = S(P(0.0)),
-                 .soft_F = S(P(0.0)),
-                 .tip_miss = S(P(0.0))};
-  const S& l = out.l;
-  if (law == Law::kStraightLeg) {
-    out.delta = p.l0 - l;
-    out.C = at.softer / p.k;
-    out.soft_F = out.delta / out.C;
-    out.F = out.soft_F * (P(1.0) + terms.hardening / p.l0 * out.delta);
-    return out;
-  }
-  const ArcShapes shapes(Value(phi));
-  const auto lift = [&](const auto& shape, int k) { return Lift(phi, shape.data(), k); };
-  out.sin = lift(shapes.sin, 0);
-  out.cos = lift(shapes.cos, 0);
-  const P flex = 1.0 / (2.0 * p.E * p.I);  // M2: r^3 flex f + r stretch a + r slide s
-  const P stretch = 1.0 / (2.0 * p.E * p.A);
-  const P slide = p.kappa / (2.0 * p.G * p.A);
-  const P& r = p.r;
-  // Chord compliance of an arc of another radius, and its derivative dC/ds at the rest radius.
-  const auto chord = [&](const auto& radius) {
-    return at.softer * (radius * radius * radius * (flex * lift(shapes.bending, 0)) +
-                        radius * (stretch * lift(shapes.axial, 0))) +
-           radius * (slide * lift(shapes.shear, 0));
-  };
-  const S bending1 = at.softer * (r * r * flex * lift(shapes.bending, 1));
-  S Cs = bending1 + at.softer * (stretch * lift(shapes.axial, 1)) + slide * lift(shapes.shear, 1);
-  // M24, M25: the normal force N bends the leg and turns its tip.
-  const S N = terms.torque_bending * torque / l;
-  S turn = N * (at.softer * (0.5 * r * r * flex * lift(shapes.bending, 2)));
-  out.delta = 2.0 * (r * out.sin) - l - r * (N * bending1);
-  // M2b and its slope at the rest radius, by the law or by the share an effect brings in.
-  const bool second_order = law == Law::kLargeDeflection || terms.second_order_active;
-  const P share = law == Law::kLargeDeflection ? P(1.0) : terms.second_order;
-  const P unit = share * (4.0 * r * r * r * r * flex * flex);
-  const S softer2 = at.softer * at.softer;
-  const S C2s = softer2 * (unit * lift(shapes.second_order, 1));
-  if (IsElastic(law)) {
-    out.C = chord(S(r));
-    // M26: hardening takes from C2.
-    const P hardening = terms.hardening / r;
-    out.A2 = P(-hardening) * (out.C * out.C);
-    S A2s = -2.0 * (hardening * (out.C * Cs));
-    if (second_order) {
-      out.A2 = out.A2 + softer2 * (r * unit * lift(shapes.second_order, 0));
-      A2s = A2s + C2s;
-    }
-    S C = out.C;
-    if (terms.torque_active && second_order) {
-      const SecondOrderAcross<S> next = SecondOrderAcrossAt(phi, out.sin, out.cos);
-      const S of_N = softer2 * (unit * N);
-      out.delta = out.delta + r * (of_N * N * next.chord_NN);
-      C = C - r * (of_N * next.chord_FN);
-      Cs = Cs - 2.0 * (of_N * next.lead_FN);
-      turn = turn - of_N * N * next.lead_NN;
-    }
-    out.F = 2.0 * out.delta / (C + sqrt(C * C + 4.0 * (out.A2 * out.delta)));
-    out.tip_miss = at.u / l - out.cos + out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + turn;
-  } else {
-    // M5, M6 with the share `tip` of M10.
-    const S radius = (1.0 - terms.tip) * (0.5 * l / out.sin) + terms.tip * r;
-    out.C = chord(radius);
-    out.soft_F = out.delta / out.C;
-    if (second_order) {
-      const S grown = radius / r, grown2 = grown * grown;
-      out.A2 = grown * grown2 * grown2 * softer2 * (r * unit * lift(shapes.second_order, 0));
-      out.soft_F = 2.0 * out.delta / (out.C + sqrt(out.C * out.C + 4.0 * (out.A2 * out.delta)));
-    }
-    out.F = out.soft_F + terms.hardening / r * (out.delta * out.delta / out.C);
-    const S turned = 0.5 * (out.F * Cs) + (1.0 / 3.0) * (out.F * out.F * C2s);
-    out.tip_miss = at.u / l - out.cos + terms.tip * (turned + turn);
-  }
-  return out;
-}
-
-// M28: the ground under the foot sinks by c_g times the elastic part of the vertical force.
-template <class S, class P>
-S SinkMiss(const Parameters<P>& p, const Statics<S>& leg, const Situation<S>& at, const S& y) {
-  return at.Y - y - p.law_terms.ground_compliance * (leg.F * at.Y / leg.l);
-}
 
 // Arc and height at equilibrium, with the inverse of the matrix of slopes of the two residuals.
 struct Solution {
@@ -345,6 +148,14 @@ ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const LegConditions<T>& at
   return {solved(by_u0), solved(by_rest)};
 }
 
+// What dphi/dt is multiplied by in M7, with r_d = l/(2 sin(phi/2)), or in its readings M32, M33.
+template <class T>
+T RadiusOfM7(const T& r, const ThesisVariant& variant, const Statics<T>& leg) {
+  const bool at_rest = variant.rolling_radius == ThesisVariant::RollingRadius::kRest;
+  const T radius = at_rest ? T(2.0 * r * leg.sin * leg.cos) : T(leg.l * leg.cos);
+  return variant.angle_rate == ThesisVariant::AngleRate::kTheta ? radius : T(0.5 * radius);
+}
+
 template <class T>
 T Softer(const Parameters<T>& p, const T& time) {
   return 1.0 / (1.0 + p.law_terms.stiffness_drift * (time + p.time_origin));
@@ -394,16 +205,20 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
 
   // M27: dx_c/dt = rho dphi/dt, the foot's creeping added by the caller.
   const T& blend = p_.law_terms.rolling;
-  const T full = p_.r, flat = leg.l * leg.cos;  // M8, M11; M7 with r_d = l/(2 sin(phi/2))
+  const ThesisVariant variant = law_ == Law::kThesis ? p_.variant : ThesisVariant();
+  const T full = p_.r, flat = RadiusOfM7(p_.r, variant, leg);  // M8, M11; M7
   const T rho = law_ == Law::kThesis ? T((1.0 - blend) * flat + blend * full)
                                      : T((1.0 - blend) * full + blend * flat);
   const T beyond = IsElastic(law_) ? T(rho - full) : rho;  // X0 moves by what is not rolled off
   const ArcRate<T> rate = RateOfArc(p_, law_, at, z, phi, Y, softer);
-  load.slip_gain = 1.0 / (1.0 - beyond * rate.along_u0);
+  if (variant.rolling == ThesisVariant::Rolling::kImplicit)
+    load.slip_gain = 1.0 / (1.0 - beyond * rate.along_u0);
   load.contact_rate = load.slip_gain * beyond * (rate.rest - rate.along_u0 * z[kVx]);
-  if (!IsElastic(law_)) {
-    const T dl = w + load.u * load.contact_rate / load.l;
-    load.damping_rate = (1.0 - p_.law_terms.tip) * dl + p_.law_terms.tip * w;
+  if (!IsElastic(law_) && variant.damping_rate != ThesisVariant::DampingRate::kHip) {  // M34
+    T seen = w + load.u * load.contact_rate / load.l;
+    if (variant.damping_rate == ThesisVariant::DampingRate::kDeflection)
+      seen -= p_.r * leg.cos * (rate.rest + rate.along_u0 * (load.contact_rate - z[kVx]));
+    load.damping_rate = (1.0 - p_.law_terms.tip) * seen + p_.law_terms.tip * w;
   }
   return load;
 }

@@ -9,14 +9,21 @@
 namespace hoplab {
 
 /// Laws `thesis` (M5-M7) and `no_slip` (M5, M6, M8): the loaded leg stays a half circle of radius
-/// r_d, its chord angle half the leg angle.
+/// r_d, its chord angle half the leg angle. `thesis` in the reading of M5-M7 that the parameters'
+/// `variant` names (M31-M36).
 template <class T, bool kNoSlip>
 class HalfCircle {
  public:
   static constexpr Law kLaw = kNoSlip ? Law::kNoSlip : Law::kThesis;
   static constexpr bool kIsExpansion = false;
 
-  explicit HalfCircle(const Parameters<T>& p) : parameters_(p), r_(p.r) {}
+  explicit HalfCircle(const Parameters<T>& p)
+      : parameters_(p),
+        r_(p.r),
+        variant_(kNoSlip ? ThesisVariant() : p.variant),
+        rolls_at_rest_radius_(variant_.rolling_radius == ThesisVariant::RollingRadius::kRest),
+        rolls_explicitly_(variant_.rolling == ThesisVariant::Rolling::kExplicit),
+        rate_factor_(variant_.angle_rate == ThesisVariant::AngleRate::kTheta ? 2.0 : 1.0) {}
 
   void StartRootAt(double) {}  // nothing is solved for
   template <class Other>
@@ -41,9 +48,10 @@ class HalfCircle {
     load.elastic_force = (2.0 * r_ * cos_alpha - load.l) / Compliance(load.phi, r_d);
     // M7: dx_c/dt = -r_d sin(theta) dtheta/dt with r_d sin(theta) = u, M8: -r dtheta/dt, both with
     // dtheta/dt = 2 (du/dt y - u vy)/l^2 and du/dt = dx_c/dt - vx: linear in dx_c/dt.
-    const T roll = (kNoSlip ? 2.0 * r_ : 2.0 * u) / (load.l * load.l);
-    load.contact_rate = roll * (y * z[kVx] + u * z[kVy]) / (1.0 + roll * y);
-    load.damping_rate = (u * (load.contact_rate - z[kVx]) + y * z[kVy]) / load.l;  // dl/dt
+    const T roll = rate_factor_ * RollingRadius(load) / (load.l * load.l);
+    load.contact_rate = roll * (y * z[kVx] + u * z[kVy]);
+    if (!rolls_explicitly_) load.contact_rate /= 1.0 + roll * y;  // M31
+    load.damping_rate = DampingRate(load, z);
     return load;
   }
 
@@ -78,13 +86,35 @@ class HalfCircle {
     using std::cos;
     return 2.0 * r_ * cos(0.5 * (std::numbers::pi - load.phi));
   }
-  // C(phi; r_d), M2.
-  T Compliance(const T& phi, const T& radius) const {
-    return LegCompliance<T>(parameters_, radius).ChordAt(phi);
+  // -(dx_c/dt)/(dtheta/dt): r_d sin(theta) of M7, its r sin(theta) (M33), or the r of M8.
+  T RollingRadius(const LegLoad<T>& load) const {
+    if constexpr (kNoSlip) return r_;
+    if (!rolls_at_rest_radius_) return load.u;
+    return 2.0 * r_ * load.u * load.y / (load.l * load.l);
+  }
+  // M34: dl/dt, w, or dl/dt - dl0/dt with l0 = 2 r cos(alpha).
+  T DampingRate(const LegLoad<T>& load, const T* z) const {
+    const T du = variant_.damping_rate == ThesisVariant::DampingRate::kHip
+                     ? T(-z[kVx])
+                     : T(load.contact_rate - z[kVx]);
+    const T rate = (load.u * du + load.y * z[kVy]) / load.l;
+    if (variant_.damping_rate != ThesisVariant::DampingRate::kDeflection) return rate;
+    const T turn = (du * load.y - load.u * z[kVy]) / (load.l * load.l);  // dalpha/dt
+    return rate + 2.0 * r_ * load.u / load.l * turn;
+  }
+  // C(phi; r_d), M2, or what M35 and M36 make of it.
+  T Compliance(const T& phi, const T& r_d) const {
+    const T radius = variant_.stiffness_radius == ThesisVariant::StiffnessRadius::kRest ? r_ : r_d;
+    if (variant_.stiffness_angle == ThesisVariant::StiffnessAngle::kTheta)
+      return LegCompliance<T>(parameters_, radius).ChordAt(phi);
+    return LegCompliance<T>(parameters_, radius).ChordAt(0.5 * (std::numbers::pi + phi));
   }
 
   Parameters<T> parameters_;
   T r_;
+  ThesisVariant variant_;
+  bool rolls_at_rest_radius_, rolls_explicitly_;
+  double rate_factor_;  // dtheta/dt of M7 over dalpha/dt: 2, or 1 (M32)
 };
 
 template <class T>

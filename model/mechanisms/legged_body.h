@@ -56,6 +56,7 @@ class LeggedBody {
                       (IsZero(parameters.slope) || !effects.HasTouchdownAngle())),
         extended_(p_.law_terms.active),
         may_pull_(p_.law_terms.torque_active),
+        torque_lift_(p_.variant.torque_sign == ThesisVariant::TorqueSign::kPrinted ? -1.0 : 1.0),
         inertia_(p_),
         leg_(p_),
         controller_(p_),
@@ -132,6 +133,10 @@ class LeggedBody {
     const LegLoad<T> load = Load(mode, t, z);
     g[0] =
         liftoff_ == LiftoffRule::kZeroForce ? ChordForce(load) : T(leg_.RestChord(load) - load.l);
+    StanceGuards(mode, load, z, g);
+  }
+  /// Those of stance but for lift-off, g[0].
+  void StanceGuards(Mode mode, const LegLoad<T>& load, const T* z, T* g) const {
     leg_.OwnGuards(mode, load, g + 1);
     g += 1 + leg_.OwnGuardCount(mode);
     g[0] = z[kY] - y_min_;
@@ -143,20 +148,12 @@ class LeggedBody {
   ResetResult Reset(Mode mode, int i, const T& t, T* z) {
     const EventKind event = Guard(mode, i).event;
     switch (event) {
-      case EventKind::kTouchdown: {
-        const T theta = TouchdownAngle(z);
-        const Mode stance = leg_.Land(theta, z);
-        ApplyLanding(theta, z);
-        controller_.Enter(Value(z[kVx]));
-        if constexpr (kLagged) z[kMotorTorque] = controller_.Torque(z[kVx]);
-        return {extended_ ? leg_.Settle(stance, z, Conditions(t, z)) : stance};
-      }
+      case EventKind::kTouchdown:
+        return Land(TouchdownAngle(z), t, z, [](T*) {});
       case EventKind::kLiftoff:
         if (effects_.HasLiftoffVelocity()) ApplyLiftoff(Load(mode, t, z), z);
         z[kContact] = T(0.0);
-        if (Value(z[kVy]) <= 0.0 && Value(z[kY] - TouchdownHeight(z)) < 0.0)
-          return {Mode::kFlight, Outcome::kFellNoReturn};
-        return {Mode::kFlight};
+        return LeftGround(z);
       case EventKind::kApex:
         if (Value(z[kY] - TouchdownHeight(z)) < 0.0) return {mode, Outcome::kFellNoReturn};
         return {mode};
@@ -232,6 +229,61 @@ class LeggedBody {
 
   const LegT<T>& leg() const { return leg_; }
   const SpeedController<T>& controller() const { return controller_; }
+  const Inertia<T>& inertia() const { return inertia_; }
+  const ActiveEffects<T>& effects() const { return effects_; }
+  const T& lowest_hip() const { return y_min_; }
+
+  // What a body on a leg with a toe mass asks, and does otherwise.
+
+  /// Stance begins at leg angle `theta`; `move(z)` moves the contact from where an unloaded leg
+  /// would have it.
+  template <class Move>
+  ResetResult Land(const T& theta, const T& t, T* z, const Move& move) {
+    const Mode stance = leg_.Land(theta, z);
+    move(z);
+    ApplyLanding(theta, z);
+    controller_.Enter(Value(z[kVx]));
+    if constexpr (kLagged) z[kMotorTorque] = controller_.Torque(z[kVx]);
+    return {extended_ ? leg_.Settle(stance, z, Conditions(t, z)) : stance};
+  }
+  /// Flight began: does it lead back to touch-down height?
+  ResetResult LeftGround(const T* z) const {
+    if (Value(z[kVy]) <= 0.0 && Value(z[kY] - TouchdownHeight(z)) < 0.0)
+      return {Mode::kFlight, Outcome::kFellNoReturn};
+    return {Mode::kFlight};
+  }
+  LegLoad<T> Load(Mode mode, const T& t, const T* z) const {
+    if (extended_) return leg_.extended().Load(mode, z, Conditions(t, z));
+    return leg_.Load(mode, z);
+  }
+  /// Force along the chord [N], positive pushes the hip away.
+  T ChordForce(const LegLoad<T>& load) const {
+    T force = load.elastic_force - p_.d * load.damping_rate;  // M6, M12
+    if (has_chord_force_) {
+      const T rest = leg_.RestChord(load);
+      force += effects_.ChordForce(
+          {load.elastic_force, leg_.Stiffness(load), load.damping_rate, T((rest - load.l) / rest)});
+    }
+    return force;
+  }
+  /// Leg angle the touch-down is commanded at.
+  T TouchdownAngle(const T* z) const {
+    return effects_.TouchdownAngle(z[kVx], p_.theta_td) - p_.slope;
+  }
+  /// Height of the hip at which a leg at that angle meets the ground [m].
+  T TouchdownHeight(const T* z) const {
+    return effects_.ContactHeight(leg_.TouchdownHeight(TouchdownAngle(z)));
+  }
+  Vector2<T> BodyForce(Mode mode, const T& t, const T* z) const {
+    return effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy], mode != Mode::kFlight});
+  }
+  /// What a lift-off does to the velocity.
+  void ApplyLiftoff(const LegLoad<T>& load, T* z) const {
+    Vector2<T> velocity{z[kVx], z[kVy]};
+    effects_.ChangeLiftoffVelocity({{-load.u / load.l, load.y / load.l}}, velocity);
+    z[kVx] = velocity.x;
+    z[kVy] = velocity.y;
+  }
 
  private:
   // The torque that bends the leg; friction at the hip, which would have to know the load first, is
@@ -241,32 +293,10 @@ class LeggedBody {
     if (has_hip_torque_) effects_.AddHipTorque({torque, T(0.0), t, z[kVx]}, torque);
     return {t, torque};
   }
-  LegLoad<T> Load(Mode mode, const T& t, const T* z) const {
-    if (extended_) return leg_.extended().Load(mode, z, Conditions(t, z));
-    return leg_.Load(mode, z);
-  }
   // What the motor gives: its command, or with a lag long enough to integrate a state.
   T MotorTorque(const T* z) const {
     if constexpr (kLagged) return z[kMotorTorque];
     return controller_.Torque(z[kVx]);
-  }
-  T TouchdownAngle(const T* z) const {
-    return effects_.TouchdownAngle(z[kVx], p_.theta_td) - p_.slope;
-  }
-  T TouchdownHeight(const T* z) const {
-    return effects_.ContactHeight(leg_.TouchdownHeight(TouchdownAngle(z)));
-  }
-  Vector2<T> BodyForce(Mode mode, const T& t, const T* z) const {
-    return effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy], mode != Mode::kFlight});
-  }
-  T ChordForce(const LegLoad<T>& load) const {
-    T force = load.elastic_force - p_.d * load.damping_rate;  // M6, M12
-    if (has_chord_force_) {
-      const T rest = leg_.RestChord(load);
-      force += effects_.ChordForce(
-          {load.elastic_force, leg_.Stiffness(load), load.damping_rate, T((rest - load.l) / rest)});
-    }
-    return force;
   }
   // Torque on the hip: the motor's, and what effects add.
   T HipTorque(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const {
@@ -295,25 +325,19 @@ class LeggedBody {
     z[kVx] = velocity.x;
     z[kVy] = velocity.y;
   }
-  // What a lift-off does to it.
-  void ApplyLiftoff(const LegLoad<T>& load, T* z) const {
-    Vector2<T> velocity{z[kVx], z[kVy]};
-    effects_.ChangeLiftoffVelocity({{-load.u / load.l, load.y / load.l}}, velocity);
-    z[kVx] = velocity.x;
-    z[kVy] = velocity.y;
-  }
-  // F e + (T/l) n, the bracket of M13 and M14; by reaction, the ground's force on the leg.
+  // F e + (T/l) n, the bracket of M13 and M14 (M37); by reaction, the ground's force on the leg.
   Vector2<T> HipForce(const LegLoad<T>& load, const T& torque) const {
     const T chord = ChordForce(load) / load.l;
     const T normal = torque / (load.l * load.l);
-    return {normal * load.y - chord * load.u, chord * load.y + normal * load.u};
+    return {normal * load.y - chord * load.u, chord * load.y + torque_lift_ * normal * load.u};
   }
 
   Parameters<T> p_;
   ActiveEffects<T> effects_;
   LiftoffRule liftoff_;
   bool has_body_force_, has_chord_force_, has_hip_torque_, has_quick_lag_, flies_freely_, extended_;
-  bool may_pull_;  // for a moment after touch-down, bent by the hip torque
+  bool may_pull_;       // for a moment after touch-down, bent by the hip torque
+  double torque_lift_;  // sign of the torque's vertical force: 1, or -1 (M37)
   Inertia<T> inertia_;
   LegT<T> leg_;
   SpeedController<T> controller_;

@@ -142,7 +142,7 @@ TEST_F(ScenarioCli, TheCataloguesAndTheVersionArePrinted) {
 
 TEST_F(ScenarioCli, EveryCommandHasHelpWithAnExample) {
   for (const char* command : {"check", "diagnose", "fit", "gait", "optimize", "simulate", "sweep",
-                              "generate", "laws", "effects", "version"}) {
+                              "generate", "identify", "laws", "effects", "version"}) {
     const ProcessResult run = Hoplab({command, "--help"});
     EXPECT_EQ(run.exit_code, 0) << command;
     EXPECT_NE(run.out.find(std::string("  hoplab ") + command), std::string::npos) << run.out;

@@ -77,7 +77,7 @@ TEST(BadDataset, AKeyOfAnotherMechanismIsToldWhoseItIs) {
       ErrorWithYaml("rest_radius_m: 0.09", "rest_length_m: 0.09"),
       "hops/dataset.yaml:8: mechanism.leg.rest_length_m; unknown key: it belongs to a "
       "straight_leg and this mechanism is a c_leg. Known: rest_radius_m, E_Pa, G_Pa, width_m, "
-      "thickness_m, second_moment_m4, area_m2, shear_factor, damping_N_s_per_m.");
+      "thickness_m, second_moment_m4, area_m2, shear_factor, damping_N_s_per_m, variant.");
 }
 
 TEST(BadDataset, ACLegNeedsATouchdownAngle) {
@@ -104,6 +104,24 @@ TEST(BadDataset, APlacementControllerNeedsAToeMass) {
       ErrorWithYaml("  leg:\n", "  placement: {kp_N_m_per_rad: 1, kd_N_m_s_per_rad: 1}\n  leg:\n"),
       "hops/dataset.yaml:7: mechanism.placement; only a leg with a toe mass is placed by a "
       "torque. Add toe_mass_kg or remove this block.");
+}
+
+TEST(BadDataset, AToeWithAMassHasItsOwnRuleOfLiftoff) {
+  EXPECT_EQ(ErrorWithYaml("  leg:\n", "  liftoff: rest_length\n  toe_mass_kg: 0.02\n  leg:\n"),
+            "hops/dataset.yaml:7: mechanism.liftoff = rest_length; is a rule for massless legs: a "
+            "toe with a mass leaves the ground when the leg lifts it. Remove liftoff or "
+            "toe_mass_kg.");
+  EXPECT_EQ(ErrorWithYaml("  leg:\n", "  liftoff: rest_length\n  toe_mass_kg: 0\n  leg:\n"), "");
+}
+
+TEST(BadDataset, AToeMassAndItsGainsAreNoLessThanZeroAndKnownByName) {
+  EXPECT_EQ(ErrorWithYaml("  leg:\n", "  toe_mass_kg: -0.01\n  leg:\n"),
+            "hops/dataset.yaml:7: mechanism.toe_mass_kg = -0.01; must be in [0, 1e+06] kg.");
+  EXPECT_EQ(
+      ErrorWithYaml("  leg:\n", "  toe_mass_kg: 0.01\n  placement: {kp_N_m_per_rad: 1}\n  leg:\n"),
+      "hops/dataset.yaml:8: mechanism.placement; must have the key kd_N_m_s_per_rad. Add "
+      "kd_N_m_s_per_rad: a number in [0, 1e+06] N m s/rad.");
+  EXPECT_EQ(ErrorWithYaml("  leg:\n", "  toe_mass_g: 10\n  leg:\n"), "");
 }
 
 // ---- units in names

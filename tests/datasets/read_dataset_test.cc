@@ -65,13 +65,15 @@ TEST(ReadDataset, HasTheStatedDefaults) {
 TEST(ReadDataset, ReadsTheOptionalMechanismKeys) {
   const MechanismSpec mechanism =
       ReadWithYaml("  leg:\n",
-                   "  liftoff: rest_length\n  fall_height_m: 0.04\n  toe_mass_kg: 0.02\n"
+                   "  fall_height_m: 0.04\n  toe_mass_kg: 0.02\n"
                    "  placement: {kp_N_m_per_rad: 2, kd_N_m_s_per_rad: 0.1}\n  leg:\n")
           .mechanism;
-  EXPECT_EQ(mechanism.liftoff, LiftoffSpec::kRestLength);
+  EXPECT_EQ(mechanism.liftoff, LiftoffSpec::kZeroForce);
   EXPECT_EQ(mechanism.fall_height_m, 0.04);
   EXPECT_EQ(mechanism.toe_mass_kg, 0.02);
   EXPECT_EQ(mechanism.placement, (PlacementSpec{2, 0.1}));
+  EXPECT_EQ(ReadWithYaml("  leg:\n", "  liftoff: rest_length\n  leg:\n").mechanism.liftoff,
+            LiftoffSpec::kRestLength);
 }
 
 TEST(ReadDataset, ReadsAStraightLeg) {

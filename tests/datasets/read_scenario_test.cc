@@ -56,6 +56,49 @@ std::string ErrorWithSet(const std::string& option) {
   });
 }
 
+std::string WithVariant(const std::string& variant) {
+  return Replace(kScenario, "damping_N_s_per_m: 3.0}",
+                 "damping_N_s_per_m: 3.0, variant: " + variant + "}");
+}
+
+TEST(ReadScenario, ReadsTheReadingOfThePublishedLaw) {
+  EXPECT_EQ(Document().Read().mechanism.variant, ThesisVariant());
+  const ThesisVariant all =
+      Document(WithVariant("{rolling: explicit, angle_rate: virtual_leg, rolling_radius: rest, "
+                           "damping_rate: deflection, stiffness_radius: rest, stiffness_angle: "
+                           "virtual_leg, torque_sign: printed}"))
+          .Read()
+          .mechanism.variant;
+  EXPECT_EQ(all.rolling, ThesisVariant::Rolling::kExplicit);
+  EXPECT_EQ(all.angle_rate, ThesisVariant::AngleRate::kVirtualLeg);
+  EXPECT_EQ(all.rolling_radius, ThesisVariant::RollingRadius::kRest);
+  EXPECT_EQ(all.damping_rate, ThesisVariant::DampingRate::kDeflection);
+  EXPECT_EQ(all.stiffness_radius, ThesisVariant::StiffnessRadius::kRest);
+  EXPECT_EQ(all.stiffness_angle, ThesisVariant::StiffnessAngle::kVirtualLeg);
+  EXPECT_EQ(all.torque_sign, ThesisVariant::TorqueSign::kPrinted);
+  ScenarioDocument document = Document();
+  document.SetFromOption("mechanism.leg.variant.damping_rate=hip");
+  EXPECT_EQ(document.Read().mechanism.variant.damping_rate, ThesisVariant::DampingRate::kHip);
+}
+
+TEST(ReadScenario, RefusesAVariantItDoesNotKnow) {
+  const auto error = [](const std::string& variant) {
+    return InputErrorOf([&] { Document(WithVariant(variant)).Read(); });
+  };
+  EXPECT_NE(error("{rolling: implict}").find("mechanism.leg.variant.rolling"), std::string::npos);
+  EXPECT_NE(error("{rolling: implict}").find("implicit"), std::string::npos);
+  EXPECT_NE(error("{rollin: implicit}").find("rolling"), std::string::npos);
+  const std::string straight = InputErrorOf([] {
+    Document(Replace(Replace(kScenario, "type: c_leg", "type: straight_leg"),
+                     "{rest_radius_m: 0.09, E_Pa: 22e9, G_Pa: 4e9, width_m: 0.03, thickness_m: "
+                     "0.0038, damping_N_s_per_m: 3.0}",
+                     "{rest_length_m: 0.2, stiffness_N_per_m: 5000, damping_N_s_per_m: 3.0, "
+                     "variant: {rolling: explicit}}"))
+        .Read();
+  });
+  EXPECT_NE(straight.find("a straight leg knows torque_sign alone"), std::string::npos);
+}
+
 TEST(ReadScenario, ReadsWhatARunNeeds) {
   const Scenario scenario = Document().Read();
   EXPECT_EQ(scenario.name, "controlled-hopping");

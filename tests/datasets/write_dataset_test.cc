@@ -43,9 +43,15 @@ MechanismSpec AnyMechanism(MechanismType type, RandomStream* random) {
   }
   if (random->Normal() > 0) mechanism.liftoff = LiftoffSpec::kRestLength;
   if (random->Normal() > 0) mechanism.fall_height_m = Any(random);
-  if (random->Normal() > 0) mechanism.toe_mass_kg = Any(random);
+  if (random->Normal() > 0 && mechanism.liftoff == LiftoffSpec::kZeroForce)
+    mechanism.toe_mass_kg = Any(random);
   if (mechanism.toe_mass_kg && random->Normal() > 0)
     mechanism.placement = PlacementSpec{Any(random), Any(random)};
+  for (const VariantKey& key : VariantKeys()) {
+    const bool known = type == MechanismType::kCLeg || key.key == "torque_sign";
+    if (known && random->Normal() > 0)
+      key.set(mechanism.variant, static_cast<int>(key.words.size()) - 1);
+  }
   if (type == MechanismType::kStraightLeg) {
     mechanism.straight_leg = {Any(random), Any(random), Any(random)};
     return mechanism;

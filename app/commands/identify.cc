@@ -1,0 +1,150 @@
+#include "app/commands/identify.h"
+
+#include <chrono>
+#include <ctime>
+#include <ostream>
+
+#include "app/identify_record.h"
+#include "app/interrupt.h"
+#include "app/problem_settings.h"
+#include "app/progress.h"
+#include "app/run_folder.h"
+
+namespace hoplab {
+namespace {
+
+struct IdentifySettings {
+  int budget = IdentificationRequest().budget;
+  int keep = IdentificationRequest().keep;
+  std::uint64_t seed = IdentificationRequest().seed;
+  bool free_damping_scale = false, free_rolling_blend = false;
+  int jobs = 0;
+  std::string integrator = "dop853";
+  double tolerance = 1e-9;
+  std::string out;
+  bool force = false, json = false, quiet = false;
+};
+
+IdentificationRequest RequestOf(const IdentifySettings& settings) {
+  IdentificationRequest request;
+  request.data = PublishedStudyData();
+  request.readings = AllReadings();
+  for (int i = 0; i < kStudyConstantCount; ++i) {
+    const auto c = static_cast<StudyConstant>(i);
+    if (c == StudyConstant::kDampingScale && !settings.free_damping_scale) continue;
+    if (c == StudyConstant::kRollingBlend && !settings.free_rolling_blend) continue;
+    request.free.push_back(c);
+  }
+  At(request.fixed, StudyConstant::kGain) = 1.0;
+  At(request.fixed, StudyConstant::kDampingScale) = 1.0;
+  request.budget = settings.budget;
+  request.keep = settings.keep;
+  request.seed = settings.seed;
+  request.jobs = JobsOf(settings.jobs);
+  request.integrator = IntegratorOptionsOf(settings.integrator, settings.tolerance);
+  return request;
+}
+
+Json NewIdentifyRecord(const IdentifySettings& settings) {
+  RecordHeader header;
+  header.command = "identify";
+  header.law = std::string(NameOf(Law::kThesis));
+  header.seed = settings.seed;
+  header.options = {{"budget", settings.budget},
+                    {"keep", settings.keep},
+                    {"free_damping_scale", settings.free_damping_scale},
+                    {"free_rolling_blend", settings.free_rolling_blend},
+                    {"integrator", settings.integrator},
+                    {"relative_tolerance", settings.tolerance},
+                    {"absolute_tolerance", 0.1 * settings.tolerance}};
+  return NewRecord(header);
+}
+
+// "`hoplab identify --budget 600 --seed 1`, 2026-01-31": what a scenario says of its origin.
+std::string OriginText(const IdentifySettings& settings) {
+  char date[16] = "";
+  const std::time_t now = std::time(nullptr);
+  std::tm day{};
+  if (gmtime_r(&now, &day) != nullptr) std::strftime(date, sizeof date, "%Y-%m-%d", &day);
+  return "`hoplab identify --budget " + std::to_string(settings.budget) + " --keep " +
+         std::to_string(settings.keep) + " --seed " + std::to_string(settings.seed) +
+         (settings.free_damping_scale ? " --free-damping-scale" : "") +
+         (settings.free_rolling_blend ? " --free-rolling-blend" : "") + "`, " + date;
+}
+
+ExitCode RunIdentify(const IdentifySettings& settings, Console& console) {
+  const auto begin = std::chrono::steady_clock::now();
+  RunFolderOptions place{std::nullopt, settings.force};
+  if (!settings.out.empty()) place.out = settings.out;
+  const RunFolder folder(place, "published", "identify");
+  IdentificationRequest request = RequestOf(settings);
+  const InterruptGuard interrupt;
+  Progress progress(console, settings.quiet);
+  request.stop = interrupt.flag();
+  request.progress = [&](const std::string& stage, int done, int of) {
+    progress.Step(stage + ": " + std::to_string(done) + " of " + std::to_string(of) + " readings");
+  };
+  const IdentificationResult result = Identify(request);
+  progress.Clear();
+
+  const StudyFit& fit = result.by_all.front().fit;
+  const StudyHopper best{fit.reading, fit.constants, request.integrator};
+  Json record = NewIdentifyRecord(settings);
+  AddIdentification(request, result, record);
+  if (result.interrupted)
+    SetFailed(record, "interrupted; the result is the best of what was tried");
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  record["seconds"] = took.count();
+  const std::string written =
+      folder
+          .Write({{"run.json", TextOf(record)},
+                  {"readings.csv", ReadingsTable(result)},
+                  {"numbers.csv", NumbersTable(best, request.data)},
+                  {"published.yaml", ScenarioText(best, OriginText(settings))}})
+          .string();
+  if (settings.json) {
+    console.out << TextOf(record);
+  } else {
+    console.out << IdentifyReport(request, result, console.out_colours) << "  run folder  "
+                << written << '\n';
+  }
+  if (!result.interrupted) return ExitCode::kDone;
+  console.err << "kept: " << written << '\n';
+  return ExitCode::kInterrupted;
+}
+
+}  // namespace
+
+void AddIdentifyCommand(CLI::App& app, Invocation& invocation) {
+  auto settings = std::make_shared<IdentifySettings>();
+  CLI::App& sub = *app.add_subcommand(
+      "identify", "Find what the published study does not print, from its tables");
+  sub.add_option("--budget", settings->budget,
+                 "Evaluations of each reading in each stage (default 600)")
+      ->check(CLI::Range(20, 10000000))
+      ->option_text("N");
+  sub.add_option("--keep", settings->keep,
+                 "Families of readings that go on from table 6.5 to the others (default 32, all)")
+      ->check(CLI::Range(1, 32))
+      ->option_text("N");
+  sub.add_flag("--free-damping-scale", settings->free_damping_scale,
+               "Search a factor on the printed damping coefficients, too (default: 1)");
+  sub.add_flag("--free-rolling-blend", settings->free_rolling_blend,
+               "Search the share of the arc laid down in the rolling (effect rolling_law), too");
+  sub.add_option("--seed", settings->seed, "Of the searches (default 1)")->option_text("N");
+  sub.add_option("--jobs", settings->jobs, "Threads (default: all cores); never changes a result")
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N");
+  AddIntegratorOptions(sub, settings->integrator, settings->tolerance);
+  sub.add_option("--out", settings->out, "Run folder (default runs/published-identify-NNN)")
+      ->option_text("DIR");
+  sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
+  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
+  sub.footer(
+      "Examples:\n"
+      "  hoplab identify\n"
+      "  hoplab identify --budget 2000 --free-damping-scale --out constants");
+  OnParsed(sub, invocation, settings, RunIdentify);
+}
+
+}  // namespace hoplab
