@@ -36,9 +36,11 @@ struct ContactPoint {
 
 // The ground's force F acts at the contact, r from the hip with |r| = l, and balances the hip
 // torque: r x F = l |F| sin(angle from r to F) = T. F pushes the hip away, so r.F < 0.
-ContactPoint ContactOf(const double* row) {
+// What carries the toe's own weight does not reach the hip.
+ContactPoint ContactOf(const double* row, double toe_weight) {
   const auto at = [row](Channel c) { return row[static_cast<int>(c)]; };
-  const double fx = at(Channel::kGroundForceX), fy = at(Channel::kGroundForceY);
+  const double fx = at(Channel::kGroundForceX), fy = at(Channel::kGroundForceY) - toe_weight;
+  if (at(Channel::kContact) != 1.0) return {};
   const double force = std::hypot(fx, fy), length = at(Channel::kLegLength);
   if (!(force > 0.0) || !(length > 0.0)) return {};
   const double sine = std::clamp(at(Channel::kHipTorque) / (length * force), -1.0, 1.0);
@@ -88,6 +90,7 @@ void AddTrajectoryRows(SimulationRequest request, double rate_hz, const RunLabel
                 [](const auto& e) { return e.effect->info.kind == EffectKind::kObservation; });
   const bool sensed = physical.size() < request.effects.size();
   const double slope = GroundSlope(request);
+  const double toe_weight = request.parameters.m_toe * request.parameters.g;
   const bool has_arc = MechanismOf(request.law) == MechanismKind::kCLeg;
   request.effects = physical;
   const Trajectory truth = sensed ? Simulate(request) : seen;
@@ -98,7 +101,7 @@ void AddTrajectoryRows(SimulationRequest request, double rate_hz, const RunLabel
       csv.Cell(seen.samples[row * channels.size() + c]);
     const double* state = &truth.samples[row * channels.size()];
     const Mode mode = ModeAt(truth, times[row]);
-    const ContactPoint contact = ContactOf(state);
+    const ContactPoint contact = ContactOf(state, toe_weight);
     csv.Cell(contact.x).Cell(contact.y);
     csv.Cell(ContactArc(mode, has_arc, state[static_cast<int>(Channel::kLegAngle)], slope));
     csv.Cell(NameOf(mode)).EndRow();

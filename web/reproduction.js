@@ -1,6 +1,6 @@
 // The report of a reproduced study: claims, tables beside the published ones, figures, kinematics.
 // A figure's curves stand in its CSV, told apart by its `series_column`; of a surface the first two
-// columns are the plane. trajectories.csv with a column `run`, and `mechanisms` by run, are shown in
+// columns are the plane. trajectories.csv has the runs of two legs, told apart by `run`; `mechanisms` says what each is; shown in
 // motion where a run folder has them.
 
 const verdictKinds = {'reproduced': 'supported', 'only under stated settings': 'indistinguishable', 'not reproduced': 'excluded'};

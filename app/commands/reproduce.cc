@@ -7,6 +7,7 @@
 #include "app/problem_settings.h"
 #include "app/progress.h"
 #include "app/reproduction_record.h"
+#include "app/reproduction_runs.h"
 #include "app/run_folder.h"
 #include "app/scenario_settings.h"
 #include "base/input_error.h"
@@ -93,6 +94,10 @@ ExitCode RunReproduceCommand(const ReproduceSettings& settings, Console& console
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
   std::map<std::string, std::string> files = ReproductionTables(reproduction);
+  if (const auto runs = ComparedLegs(request.study, reproduction)) {
+    files["trajectories.csv"] = runs->table;
+    record["mechanisms"] = runs->mechanisms;
+  }
   files["run.json"] = TextOf(record);
   const std::string written = folder.Write(files).string();
   if (settings.json) {

@@ -30,6 +30,13 @@ Json SmallFit() {
   return record;
 }
 
+// Instrumented code takes several times as long; the bound is that of the program.
+#ifdef __SANITIZE_ADDRESS__
+constexpr double kLongestWrite = 15.0;  // s
+#else
+constexpr double kLongestWrite = 1.0;  // s
+#endif
+
 std::size_t Count(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++count;
@@ -102,7 +109,7 @@ TEST(ReportPage, OfALongRunIsBelowSixMegabytesAndWrittenInASecond) {
   const std::string page = ReportPage(record, files);
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   EXPECT_LT(page.size(), 6'000'000u);
-  EXPECT_LT(seconds, 1.0);
+  EXPECT_LT(seconds, kLongestWrite);
   RecordProperty("bytes", static_cast<int>(page.size()));
   RecordProperty("milliseconds", static_cast<int>(1e3 * seconds));
 }

@@ -82,6 +82,26 @@ TEST(TrajectoryTables, AStraightLegStandsOnOnePointAndHasNoArc) {
   EXPECT_GT(seen, kEnoughRows);
 }
 
+TEST(TrajectoryTables, TheWeightOfAToeStandsOnTheGroundAlone) {
+  SimulationRequest request = testing::SteadyStraightLeg();
+  request.parameters.m_toe = 2.0;
+  request.parameters.kp_place = 500.0;
+  request.parameters.kd_place = 50.0;
+  const Trajectory run = Simulate(request);
+  ASSERT_EQ(run.events.at(0).kind, EventKind::kTouchdown);
+  double foot = std::nan("");
+  int seen = 0;
+  for (const auto& row : RowsOf(request, 1000.0)) {
+    if (Number(row, "time_s") > run.segments.at(1).end) break;
+    if (row.at("mode") == "flight") continue;
+    if (std::isnan(foot)) foot = Number(row, "contact_x_m");
+    EXPECT_NEAR(Number(row, "contact_x_m"), foot, 1e-9) << "the foot stands still";
+    EXPECT_NEAR(Number(row, "contact_y_m"), 0.0, 1e-9);
+    ++seen;
+  }
+  EXPECT_GT(seen, kEnoughRows);
+}
+
 TEST(TrajectoryTables, OnASlopeTheContactLiesOnTheSlope) {
   constexpr double kSlope = 0.05;
   SimulationRequest request = StripLegRequest(Law::kLargeDeflection, Degrees(30.0));

@@ -18,7 +18,7 @@ const kinds = {
   optimize: {hover: /\bdeg\b/, moves: true},
   sweep: {hover: /\b(s|GPa)\b/, moves: false},
   simulate: {hover: /\b(m|s)\b/, moves: true},
-  reproduce: {hover: /\bs\b/, moves: true},
+  reproduce: {hover: /\bs\b|%|\bdeg\b/, moves: true},
 };
 
 const unitFactors = {GPa: 1e9, MPa: 1e6, kPa: 1e3, mm: 1e-3, um: 1e-6, ms: 1e-3, us: 1e-6, mN: 1e-3, kN: 1e3, mJ: 1e-3, '%': 1e-2};
