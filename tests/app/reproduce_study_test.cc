@@ -19,14 +19,14 @@ TEST(ReproduceStudy, EverythingComesOutWithTheShippedConstants) {
   EXPECT_EQ(record.at("claims").size(), 10u);
   EXPECT_TRUE(record.at("left_out").empty());
   EXPECT_LT(record.at("seconds").get<double>(), 180.0);
-  // The constants were found so that this one comes out.
+  // The constants do best on all tables together; docs/decisions/0005-study-constants.md.
   EXPECT_LT(record.at("comparison")
                 .at("statistics")
                 .at("table-6.5")
                 .at("energy_rms_difference")
                 .at("value")
                 .get<double>(),
-            0.3);
+            0.65);
   for (const nlohmann::json& claim : record.at("claims")) {
     if (claim.at("name") == "claim-level") {
       EXPECT_EQ(claim.at("verdict"), "reproduced");
