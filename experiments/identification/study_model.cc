@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "base/units.h"
-#include "model/leg_compliance.h"
+#include "experiments/leg_stiffness.h"
 
 namespace hoplab {
 namespace {
@@ -163,15 +162,6 @@ std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell&
   if (!effects.empty())
     (*slopes)[static_cast<std::size_t>(C::kRollingBlend)] = effects[0].values[0] * by[6];
   return percent;
-}
-
-double ChordStiffness(const Parameters<double>& p, double leg_angle, double length) {
-  const double alpha = 0.5 * std::max(leg_angle, 0.0);  // below 0 the toe carries: phi stays pi
-  const bool at_rest = p.variant.stiffness_radius == ThesisVariant::StiffnessRadius::kRest;
-  const double radius = at_rest ? p.r : length / (2.0 * std::cos(alpha));
-  const bool of_theta = p.variant.stiffness_angle == ThesisVariant::StiffnessAngle::kTheta;
-  const double angle = of_theta ? 2.0 * alpha : alpha;
-  return 1.0 / LegCompliance<double>(p, radius).Chord(std::numbers::pi - angle);
 }
 
 ControlledRun RunControlled(const StudyHopper& hopper, const ControlledSettings& settings) {

@@ -66,10 +66,6 @@ using StudySlopes = std::array<double, kStudyConstantCount>;
 std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell& cell,
                                     StudySlopes* slopes = nullptr);
 
-/// Chord stiffness of the leg [N/m] under the law `thesis` at a leg angle [rad] and chord length
-/// [m]: M3, M35, M36.
-double ChordStiffness(const Parameters<double>& parameters, double leg_angle, double length);
-
 /// 15 s of controlled hopping (40 deg, v_des 1.8 m/s).
 struct ControlledRun {
   Outcome outcome = Outcome::kCompleted;
