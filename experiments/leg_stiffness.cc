@@ -8,19 +8,22 @@
 
 namespace hoplab {
 
+double ChordStiffness(const Parameters<double>& p, double leg_angle, double length) {
+  const double alpha = 0.5 * std::max(leg_angle, 0.0);  // below 0 the toe carries: phi stays pi
+  const bool at_rest = p.variant.stiffness_radius == ThesisVariant::StiffnessRadius::kRest;
+  const double radius = at_rest ? p.r : length / (2.0 * std::cos(alpha));
+  const bool of_theta = p.variant.stiffness_angle == ThesisVariant::StiffnessAngle::kTheta;
+  const double angle = of_theta ? 2.0 * alpha : alpha;
+  return 1.0 / LegCompliance<double>(p, radius).Chord(std::numbers::pi - angle);
+}
+
 double StanceStiffness(const SimulationRequest& request, double leg_angle, double length) {
   const Parameters<double>& p = request.parameters;
   if (request.law == Law::kStraightLeg) return p.k;
-  const ThesisVariant variant = request.law == Law::kThesis ? p.variant : ThesisVariant();
-  const double theta = std::max(leg_angle, 0.0);  // below 0 the toe carries: phi stays pi
-  const bool deformed = request.law == Law::kNoSlip ||
-                        (request.law == Law::kThesis &&
-                         variant.stiffness_radius == ThesisVariant::StiffnessRadius::kDeformed);
-  // r_d = l/(2 cos alpha), which is l/2 on the toe.
-  const double radius = deformed ? length / (2.0 * std::cos(0.5 * theta)) : p.r;
-  const bool of_theta = variant.stiffness_angle == ThesisVariant::StiffnessAngle::kTheta;
-  const double angle = of_theta ? theta : 0.5 * theta;
-  return 1.0 / LegCompliance<double>(p, radius).Chord(std::numbers::pi - angle);
+  if (request.law == Law::kThesis || request.law == Law::kNoSlip)
+    return ChordStiffness(p, leg_angle, length);
+  // Below 0 the toe carries: phi stays pi.
+  return 1.0 / LegCompliance<double>(p).Chord(std::numbers::pi - std::max(leg_angle, 0.0));
 }
 
 }  // namespace hoplab
