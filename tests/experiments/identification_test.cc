@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "experiments/leg_stiffness.h"
 #include "fitting/least_squares.h"
 #include "optimize/box_search.h"
 
