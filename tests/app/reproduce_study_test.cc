@@ -19,16 +19,11 @@ TEST(ReproduceStudy, EverythingComesOutWithTheShippedConstants) {
   EXPECT_EQ(record.at("claims").size(), 10u);
   EXPECT_TRUE(record.at("left_out").empty());
   EXPECT_LT(record.at("seconds").get<double>(), 180.0);
-  // The constants were found so that this one comes out.
-  EXPECT_LT(record.at("comparison")
-                .at("statistics")
-                .at("table-6.5")
-                .at("energy_rms_difference")
-                .at("value")
-                .get<double>(),
-            0.3);
+  // What the identified constants were found for: the stiffness of table 6.4, all of it.
+  EXPECT_EQ(record.at("tables")[3].at("name"), "table-6.4");
+  EXPECT_EQ(record.at("tables")[3].at("verdict"), "reproduced");
   for (const nlohmann::json& claim : record.at("claims")) {
-    if (claim.at("name") == "claim-level") {
+    if (claim.at("name") == "claim-level" || claim.at("name") == "claim-f") {
       EXPECT_EQ(claim.at("verdict"), "reproduced");
     } else if (claim.at("name") == "claim-sign") {
       EXPECT_EQ(claim.at("verdict"), "only under stated settings");
