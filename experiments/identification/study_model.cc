@@ -97,7 +97,7 @@ void FindStiffness(SimulationRequest request, const Trajectory& run, ControlledR
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double* row = &last.samples[i * kChannels.size()];
     if (!(row[2] > 0.5)) continue;
-    const double k = ChordStiffness(request.parameters, row[0], row[1]);
+    const double k = StanceStiffness(request, row[0], row[1]);
     low = std::min(low, k);
     high = std::max(high, k);
   }

@@ -32,6 +32,7 @@ Scenario StraightScenario(const Study& study, const CaptionSettings& settings) {
   scenario.mechanism.straight_leg = {settings.straight->rest_length_m,
                                      settings.straight->stiffness_N_per_m,
                                      settings.damping_N_s_per_m};
+  scenario.mechanism.variant.torque_sign = study.constants.mechanism.variant.torque_sign;
   scenario.touchdown_angle_rad =
       settings.straight->touchdown_angle_rad.value_or(0.5 * settings.touchdown_angle_rad);
   scenario.effects.clear();

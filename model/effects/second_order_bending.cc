@@ -13,7 +13,8 @@ struct SecondOrderBending {
       .kind = EffectKind::kParameter,
       .equation = "A2 = b C2 - (beta/r) C^2 in M9b and M10b, C2 of M2b (M26)",
       .sentence =
-          "the leg bends so far that it gets softer under load: the next term of the exact elastica",
+          "the leg bends so far that it gets softer under load: the next term of the exact "
+          "elastica",
       .for_legs = true,
       .for_ball = false,
       .dissipative = false,

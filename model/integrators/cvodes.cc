@@ -117,7 +117,7 @@ void CvodesSolver::Start(double t, const double* y, double first_step) {
       std::vector<double> absolute(m.sensitivities, m.options.absolute_tolerance);
       HOPLAB_CHECK(CVodeSensSStolerances(m.solver, m.options.relative_tolerance, absolute.data()) ==
                    CV_SUCCESS);
-      HOPLAB_CHECK(CVodeSetSensErrCon(m.solver, SUNFALSE) == CV_SUCCESS);
+      HOPLAB_CHECK(CVodeSetSensErrCon(m.solver, SUNTRUE) == CV_SUCCESS);
     }
   } else {
     HOPLAB_CHECK(CVodeReInit(m.solver, t, m.y) == CV_SUCCESS);

@@ -16,7 +16,7 @@ std::optional<IntegratorKind> FindIntegrator(std::string_view name);
 
 /// Tolerances of one step: |error| <= absolute + relative |state| per component, root mean square
 /// over the state (m and m/s). Sensitivities follow the steps of the state, unless they are
-/// controlled too (not by cvodes): each relative to the largest of its direction.
+/// controlled too: each relative to the largest of its direction, and always by cvodes.
 struct IntegratorOptions {
   IntegratorKind kind = IntegratorKind::kDop853;
   double relative_tolerance = 1e-9;

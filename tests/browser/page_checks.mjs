@@ -49,15 +49,19 @@ export function placeToHover(index) {
   const div = [...document.querySelectorAll('.plot')].filter((d) => d.data?.some((t) => t.hovertemplate && t.type !== 'surface'))[index];
   if (!div) return null;
   div.scrollIntoView({block: 'center', behavior: 'instant'});
-  const trace = div.data.findLast((t) => t.hovertemplate && Array.from(t.y ?? []).length);
+  // Points that are drawn, cells that have a value: their places in x and y.
+  const drawn = (t) => (t.z ? t.z.flatMap((row, i) => Array.from(row).map((v, j) => [j, i, v])).filter(([, , v]) => Number.isFinite(v))
+    : Array.from(t.y ?? []).map((v, k) => [k, k, v]).filter(([, , v]) => v !== null && !Number.isNaN(v)));
+  const trace = div.data.findLast((t) => t.hovertemplate && drawn(t).length);
+  if (!trace) return null;
   const layout = div._fullLayout;
   const axis = (letter) => layout[`${letter}axis${(trace[`${letter}axis`] ?? letter).slice(1)}`];
   const [xs, ys] = [Array.from(trace.x), Array.from(trace.y)];
-  let k = Math.floor(Math.min(xs.length, ys.length) / 2);
-  while (k < ys.length - 1 && (ys[k] === null || Number.isNaN(ys[k]))) ++k;
+  const places = drawn(trace);
+  const [i, j] = places[Math.floor(places.length / 2)];
   const box = div.getBoundingClientRect();
   const pixel = (a, v) => a._offset + a.d2p(v);
-  return {x: box.left + pixel(axis('x'), xs[k]), y: box.top + pixel(axis('y'), ys[k]), caption: div.getAttribute('aria-label')};
+  return {x: box.left + pixel(axis('x'), xs[i]), y: box.top + pixel(axis('y'), ys[j]), caption: div.getAttribute('aria-label')};
 }
 
 // The figures of the headline: what they point at and what they show.

@@ -37,7 +37,7 @@ struct Solvers : ::testing::TestWithParam<Law> {};
 // One-step methods err by a small multiple of the tolerance a step, over a dozen steps, and the
 // leg magnifies position errors about tenfold from touch-down to apex.
 constexpr double kOneStepAgreement = 1e3;
-// Backward differentiation takes some 500 steps and its sensitivities are not error-controlled.
+// Backward differentiation takes some 500 steps.
 constexpr double kMultistepAgreement = 1e5;
 
 TEST_P(Solvers, AgreeOnStateEventsAndSensitivities) {

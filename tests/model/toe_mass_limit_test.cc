@@ -169,6 +169,24 @@ TEST(ToeMassSolvers, AgreeOnTwoHops) {
   }
 }
 
+TEST(ToeMassSolvers, AgreeOnWhatAForceDoesToALegThatIsStillRelaxed) {
+  for (const char* name : {"constant_force", "air_drag", "torque_bias"}) {
+    SimulationRequest q = ToeMassRequest(Law::kLargeDeflection);
+    const std::array effects = {EffectSetting::Null(*FindEffect(name))};
+    const std::array directions = {SensitivityDirection::EffectParameter(0, 0)};
+    q.effects = effects;
+    q.directions = directions;
+    const Trajectory reference = RunWithSolver(q, IntegratorKind::kDop853, 1e-11);
+    for (const auto& [kind, tolerance] :
+         {std::pair{IntegratorKind::kDop853, 1e-7}, std::pair{IntegratorKind::kErkStep, 1e-7},
+          std::pair{IntegratorKind::kCvodes, 1e-6}}) {
+      const Trajectory run = RunWithSolver(q, kind, 1e-9);
+      EXPECT_TRUE(MatrixNear(run.final_sensitivities, reference.final_sensitivities, tolerance))
+          << name << ' ' << NameOf(kind);
+    }
+  }
+}
+
 TEST(StiffToe, CvodesKeepsToTheClosedFormWhereAnExplicitSolverIsSlow) {
   // d/m_t = 1.2e7 1/s: the toe follows the damper within 0.1 us, the leg relaxes within 6 ms.
   const SimulationRequest q = EndedAfter(InPlace(1e-6, 12.0), EventKind::kLiftoff, 0.01);
