@@ -157,20 +157,23 @@ void AddCauses(const Study& study, StudyClaim& claim) {
                    {"removed_by_rolling", "removed by the rolling law", "% points"},
                    {"removed_by_tip", "removed by tip rotation", "% points"},
                    {"integration_error", "change with finer integration", "% points"}};
-  double gain = 0.0, rolling = 0.0, tip = 0.0, worst_error = 0.0, worst_consistent = 0.0;
+  double read = 0.0, gain = 0.0, rolling = 0.0, tip = 0.0, worst_error = 0.0,
+         worst_consistent = 0.0;
   constexpr double kCount = std::size(kAngles);
   for (const double angle : kAngles) {
     const EnergyCauses c = EnergyCausesAt(study, DegToRad(angle));
     claim.rows.push_back({angle, c.study, c.thesis, c.with_rolling, c.with_tip, c.with_both,
                           c.consistent, c.removed_by_rolling, c.removed_by_tip,
                           c.integration_error});
+    read += (c.study - 100.0) / kCount;
     gain += (c.thesis - c.with_both) / kCount;
     rolling += c.removed_by_rolling / kCount;
     tip += c.removed_by_tip / kCount;
     worst_error = std::max(worst_error, std::abs(c.integration_error));
     worst_consistent = std::max(worst_consistent, std::abs(c.consistent - 100.0));
   }
-  claim.numbers = {{"mean_gain", gain, "% points"},
+  claim.numbers = {{"mean_gain_as_read", read, "% points"},
+                   {"mean_gain", gain, "% points"},
                    {"mean_removed_by_rolling", rolling, "% points"},
                    {"mean_removed_by_tip", tip, "% points"},
                    {"largest_integration_error", worst_error, "% points"},
@@ -181,11 +184,12 @@ void AddCauses(const Study& study, StudyClaim& claim) {
   }
   claim.remark = fmt::format(
       "the study blames integration along the arc. The law consistent integrates the same arc and "
-      "keeps the energy to {:.1e} percentage points, and finer steps change thesis by {:.1e}. What "
-      "makes the energy are two terms: of {:+.2f} percentage points (mean over the angles) the "
-      "rolling law (M7 in place of the arc laid down) makes {:+.2f}, the tip that does not rotate "
-      "(M10) {:+.2f}",
-      worst_consistent, worst_error, gain, rolling, tip);
+      "keeps the energy to {:.1e} percentage points, and finer steps change thesis by {:.1e}. Two "
+      "terms of the law make or lose energy: means over the angles, the rolling law (M7 in place "
+      "of "
+      "the arc laid down) makes {:+.2f} percentage points and the tip that does not rotate (M10) "
+      "{:+.2f}, together {:+.2f} in the plain law; as the constants read it, it gains {:+.2f}",
+      worst_consistent, worst_error, rolling, tip, gain, read);
 }
 
 struct ClaimPlan {
