@@ -7,7 +7,9 @@
 #include "model/leg_compliance.h"
 
 namespace hoplab {
+namespace {
 
+// Of `thesis` and `no_slip`.
 double ChordStiffness(const Parameters<double>& p, double leg_angle, double length) {
   const double alpha = 0.5 * std::max(leg_angle, 0.0);  // below 0 the toe carries: phi stays pi
   const bool at_rest = p.variant.stiffness_radius == ThesisVariant::StiffnessRadius::kRest;
@@ -16,6 +18,8 @@ double ChordStiffness(const Parameters<double>& p, double leg_angle, double leng
   const double angle = of_theta ? 2.0 * alpha : alpha;
   return 1.0 / LegCompliance<double>(p, radius).Chord(std::numbers::pi - angle);
 }
+
+}  // namespace
 
 double StanceStiffness(const SimulationRequest& request, double leg_angle, double length) {
   const Parameters<double>& p = request.parameters;
