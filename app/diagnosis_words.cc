@@ -80,9 +80,9 @@ std::string NamedSentence(const Diagnosis& d) {
   // While misfit remains, a member may stand in for what is really missing.
   if (d.extension && d.extension->remainder.p_value <= kDetectionLevel) {
     return fmt::format(
-        "{:.3g} % of what the simulation misses is explained by {} {}{}; something remains, so "
+        "{:.1f} % of what the simulation misses is explained by {} {}{}; something remains, so "
         "one of these may stand in for another cause.",
-        100.0 * d.extension->explained, Listed(names), Caveat(members.size() > 1),
+        std::floor(1e3 * d.extension->explained) / 10.0, Listed(names), Caveat(members.size() > 1),
         HeldOutClause(d, members.size() == 1 ? "it" : "them"));
   }
   std::string text = "The simulation lacks " + Listed(names) + " " + Caveat(members.size() > 1);

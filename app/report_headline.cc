@@ -203,7 +203,7 @@ void DiagnosisHeadline(const Json& record, Headline& out) {
   const double explained = NumberAt(record, "/extension/explained");
   out.figures.push_back({"of the misfit explained", kNotComputed, "", "", "/extension/explained"});
   if (!std::isnan(explained)) {
-    out.figures.back().value = Significant(100.0 * explained, 3);
+    out.figures.back().value = Significant(std::floor(1e3 * explained) / 10.0, 3);  // not up to all
     out.figures.back().unit = "%";
   }
   out.figures.back().note = causes;

@@ -35,8 +35,9 @@ struct ContactPoint {
 };
 
 // The ground's force F acts at the contact, r from the hip with |r| = l, and balances the hip
-// torque: r x F = l |F| sin(angle from r to F) = T. F pushes the hip away, so r.F < 0.
-// What carries the toe's own weight does not reach the hip.
+// torque: r x F = l |F| sin(angle from r to F) = T. F pushes the hip away, r.F < 0, or holds down a
+// toe with mass for a moment before it lifts: the contact is the solution below the hip. What
+// carries the toe's own weight does not reach the hip.
 ContactPoint ContactOf(const double* row, double toe_weight) {
   const auto at = [row](Channel c) { return row[static_cast<int>(c)]; };
   const double fx = at(Channel::kGroundForceX), fy = at(Channel::kGroundForceY) - toe_weight;
@@ -44,7 +45,9 @@ ContactPoint ContactOf(const double* row, double toe_weight) {
   const double force = std::hypot(fx, fy), length = at(Channel::kLegLength);
   if (!(force > 0.0) || !(length > 0.0)) return {};
   const double sine = std::clamp(at(Channel::kHipTorque) / (length * force), -1.0, 1.0);
-  const double angle = std::atan2(fy, fx) - (std::numbers::pi - std::asin(sine));
+  const double direction = std::atan2(fy, fx);
+  double angle = direction - (std::numbers::pi - std::asin(sine));
+  if (std::sin(angle) > 0.0) angle = direction - std::asin(sine);
   return {at(Channel::kBodyX) + length * std::cos(angle),
           at(Channel::kBodyY) + length * std::sin(angle)};
 }

@@ -166,6 +166,10 @@ Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tes
         all.length = Eigen::VectorXd::Zero(columns);
         begun = true;
       }
+      // Where not every trial could be differentiated this way, the columns stay zero: untestable.
+      if (found.rows() != all.r.size() || along.rows() != all.fitted_basis.cols() ||
+          !found.allFinite())
+        continue;
       int next = 0;
       for (std::size_t i = 0; i < part.size(); ++i) {
         const int to = column_of[static_cast<std::size_t>(places[first + i])];

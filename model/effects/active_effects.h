@@ -116,13 +116,6 @@ class ActiveEffects {
     return Any(
         [](const EffectHooks<T>& hooks) { return hooks.change_liftoff_velocity != nullptr; });
   }
-  /// Whether the sensitivities need steps of their own.
-  bool IsSharp() const {
-    for (const Entry& e : entries_) {
-      if (e.effect->info.sharp) return true;
-    }
-    return false;
-  }
   bool HasTouchdownAngle() const {
     return Any([](const EffectHooks<T>& hooks) { return hooks.change_touchdown_angle != nullptr; });
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "model/effects/active_effects.h"
@@ -134,6 +135,17 @@ inline void ToWorld(const GroundFrame<double>& frame, Trajectory& run) {
   }
 }
 
+// The directions of a chunk along a sharp effect: at null they see what the state does not.
+inline std::uint32_t SharpDirections(const SimulationRequest& request, int first, int count) {
+  std::uint32_t bits = 0;
+  for (int k = 0; k < count; ++k) {
+    const SensitivityDirection& d = request.directions[first + k];
+    if (d.of == SensitivityDirection::Of::kEffect && request.effects[d.index].effect->info.sharp)
+      bits |= std::uint32_t{1} << k;
+  }
+  return bits;
+}
+
 template <template <class> class System, class T, template <int, int, class> class Stepper>
 void RunChunk(const SimulationRequest& request, int first, int count, Trajectory& out) {
   const Seeds<T> seeds(request, first, count);
@@ -152,7 +164,7 @@ void RunChunk(const SimulationRequest& request, int first, int count, Trajectory
   const RunSettings settings{request.horizon, request.max_hops, request.row_times,
                              request.channels};
   IntegratorOptions integrator = request.integrator;
-  integrator.control_sensitivities = seeds.effects.IsSharp();
+  integrator.steering = SharpDirections(request, first, count);
   Engine<System, T, Stepper, RowSink<T>> engine(system, value_system, rate_system, integrator,
                                                 settings, sink, record);
   std::array<T, System<T>::kDim> z;
@@ -162,6 +174,8 @@ void RunChunk(const SimulationRequest& request, int first, int count, Trajectory
   if constexpr (requires { system.PlaceToe(z.data()); }) system.PlaceToe(z.data());
   engine.Run(Mode::kFlight, z.data(),
              [&](int row) { return seeds.effects.ObservationTime(T(request.row_times[row])); });
+  // A chunk that fails has no derivatives to give: then the whole has none.
+  if (first > 0 && IsComplete(out.outcome)) out.outcome = record.outcome;
 
   // What the run leaves, in world W and without a lag's own state.
   std::array<T, System<T>::kDim> final_state = engine.final_state();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "model/integrators/dop853_tables.h"
@@ -124,34 +125,40 @@ class Dop853 {
   }
 
   double Error(double h) const {
-    const double error = ErrorOf<0, kControlled>(h, [this](int i) {
+    const double error = ErrorOf(h, 0, kControlled, 1, [this](int i) {
       return options_.absolute_tolerance +
              options_.relative_tolerance * std::max(std::abs(y0_[i]), std::abs(y1_[i]));
     });
     if constexpr (kSize > kControlled) {
-      if (options_.control_sensitivities) return std::fmax(error, SensitivityError(h));
+      if (options_.steering != 0) return std::fmax(error, SensitivityError(h));
     }
     return error;
   }
-  // The same of the sensitivities, each relative to the largest of its direction.
+  // The same of the steering directions' sensitivities, each relative to the largest of its
+  // direction. Infinite where they have left what numbers hold.
   double SensitivityError(double h) const requires(kSize > kControlled) {
     constexpr int kWidth = (kSize - kControlled) / kControlled;
-    std::array<double, kWidth> scale;
-    scale.fill(1e-200);
-    for (int i = kControlled; i < kSize; ++i) {
-      double& s = scale[(i - kControlled) % kWidth];
-      s = std::max({s, std::abs(y0_[i]), std::abs(y1_[i])});
-    }
     const double tolerance = options_.absolute_tolerance + options_.relative_tolerance;
-    for (double& s : scale) s *= tolerance;
-    return ErrorOf<kControlled, kSize>(
-        h, [&scale](int i) { return scale[(i - kControlled) % kWidth]; });
+    double worst = 0.0;
+    for (int k = 0; k < kWidth; ++k) {
+      if ((options_.steering >> k & 1u) == 0) continue;
+      double scale = 1e-30;
+      for (int i = kControlled + k; i < kSize; i += kWidth)
+        scale = std::max({scale, std::abs(y0_[i]), std::abs(y1_[i])});
+      const double error =
+          ErrorOf(h, kControlled + k, kSize, kWidth, [&](int) { return tolerance * scale; });
+      if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
+      worst = std::max(worst, error);
+    }
+    return worst;
   }
-  // Hairer's combination of the embedded errors of order 5 and 3, in units of `scale_of(i)`.
-  template <int kBegin, int kEnd, class Scale>
-  double ErrorOf(double h, const Scale& scale_of) const {
+  // Hairer's combination of the embedded errors of order 5 and 3 of every `stride`-th component, in
+  // units of `scale_of(i)`.
+  template <class Scale>
+  double ErrorOf(double h, int begin, int end, int stride, const Scale& scale_of) const {
     double error5 = 0.0, error3 = 0.0;
-    for (int i = kBegin; i < kEnd; ++i) {
+    int count = 0;
+    for (int i = begin; i < end; i += stride, ++count) {
       double e5 = 0.0, e3 = 0.0;
       for (int s = 0; s < dop853::kStages; ++s) {
         e5 += dop853::kE5[s] * k_[s][i];
@@ -163,7 +170,7 @@ class Dop853 {
     }
     if (error5 == 0.0 && error3 == 0.0) return 0.0;
     const double norm = error5 + 0.01 * error3;
-    return std::abs(h) * error5 / std::sqrt(norm * (kEnd - kBegin));
+    return std::abs(h) * error5 / std::sqrt(norm * count);
   }
 
   void PrepareDense() {

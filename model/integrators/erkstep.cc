@@ -36,12 +36,12 @@ struct ErkStepSolver::Memory {
   // norm runs over the whole vector, hence the factor.
   static int Weights(N_Vector y, N_Vector weights, void* user) {
     const auto* self = static_cast<const Memory*>(user);
-    const int controlled =
-        self->options.control_sensitivities ? self->system.size : self->system.controlled;
-    const double factor = std::sqrt(static_cast<double>(self->system.size) / controlled);
-    const double* value = N_VGetArrayPointer(y);
     double* w = N_VGetArrayPointer(weights);
+    const double* value = N_VGetArrayPointer(y);
     const int states = self->system.controlled, width = self->system.size / states - 1;
+    const auto steers = [&](int i) {
+      return i < states || (self->options.steering >> ((i - states) % width) & 1u) != 0;
+    };
     // Of a direction, the largest sensitivity is what its errors are held against.
     const auto size_of = [&](int i) {
       if (i < states) return std::abs(value[i]);
@@ -50,10 +50,13 @@ struct ErkStepSolver::Memory {
         size = std::max(size, std::abs(value[j]));
       return size;
     };
+    int controlled = 0;
+    for (int i = 0; i < self->system.size; ++i) controlled += steers(i);
+    const double factor = std::sqrt(static_cast<double>(self->system.size) / controlled);
     for (int i = 0; i < self->system.size; ++i) {
-      w[i] = i < controlled ? factor / (self->options.absolute_tolerance +
-                                        self->options.relative_tolerance * size_of(i))
-                            : 1e-300;
+      w[i] = steers(i) ? factor / (self->options.absolute_tolerance +
+                                   self->options.relative_tolerance * size_of(i))
+                       : 1e-300;
     }
     return 0;
   }

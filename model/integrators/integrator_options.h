@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -15,13 +16,14 @@ std::string_view NameOf(IntegratorKind kind);
 std::optional<IntegratorKind> FindIntegrator(std::string_view name);
 
 /// Tolerances of one step: |error| <= absolute + relative |state| per component, root mean square
-/// over the state (m and m/s). Sensitivities follow the steps of the state, unless they are
-/// controlled too: each relative to the largest of its direction, and always by cvodes.
+/// over the state (m and m/s). Sensitivities follow the steps of the state, but for those of the
+/// steering directions (all of them under cvodes): each relative to the largest of its direction.
 struct IntegratorOptions {
   IntegratorKind kind = IntegratorKind::kDop853;
   double relative_tolerance = 1e-9;
   double absolute_tolerance = 1e-10;
-  bool control_sensitivities = false;
+  /// Bit k: the k-th direction that is integrated steers the steps, too.
+  std::uint32_t steering = 0;
   /// Steps after which a run ends as `step_limit`.
   long max_steps = 1000000;
 };

@@ -67,7 +67,7 @@ TEST(Candidates, AnEffectOfAnotherMechanismIsRefusedWithARemedy) {
   ball.law = Law::kBall;
   const std::string error =
       InputErrorOf([&] { CandidatesOf(ball, {.only = {"leg_material_damping"}}); });
-  EXPECT_NE(error.find("does not apply to the law ball"), std::string::npos) << error;
+  EXPECT_NE(error.find("does not apply to the mechanism ball"), std::string::npos) << error;
   EXPECT_NE(error.find("`hoplab effects`"), std::string::npos) << error;
 }
 
