@@ -158,14 +158,15 @@ ExitCode Lead(const SweepSettings& settings, Console& console, MpiJob* job) {
 }
 
 // A rank other than 0: says nothing, rank 0 reads the same scenario and tells what is wrong with
-// it.
+// it. It fails for nobody else: a launcher ends all ranks with the first that does, before rank 0
+// may have spoken.
 ExitCode Follow(const SweepSettings& settings, MpiJob& job) {
   try {
     const SweepPlan plan = PlanOf(settings);
     job.Work([&](int row) { return LineOfRow(row, plan.Compute(row)); });
     return ExitCode::kDone;
   } catch (const InputError&) {
-    return ExitCode::kBadInput;
+    return ExitCode::kDone;
   }
 }
 
