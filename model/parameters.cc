@@ -8,8 +8,6 @@
 namespace hoplab {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 using enum ParameterId;
 
 constexpr std::array<ParameterInfo, 20> kParameters = {{
