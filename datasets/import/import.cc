@@ -44,6 +44,7 @@ class Importer {
 
   ImportResult Import() {
     for (const LogRequest& log : request_.logs) AddLog(log);
+    CheckSamples();
     WriteYaml();
     return std::move(result_);
   }
@@ -87,6 +88,24 @@ class Importer {
     }
     for (std::size_t i = 0; i < used.size(); ++i)
       if (!used[i]) result_.unused.push_back(table.columns[i].name);
+  }
+
+  // A channel may be missing in some logs, not in all.
+  void CheckSamples() const {
+    for (std::size_t i = 0; i < result_.columns.size(); ++i) {
+      const std::optional<ChannelId>& channel = result_.map.columns[i].channel;
+      if (!channel) continue;
+      const bool found =
+          std::any_of(result_.logs.begin(), result_.logs.end(), [&](const ImportedLog& log) {
+            const auto missing = log.trace.missing.find(*channel);
+            return missing == log.trace.missing.end() || missing->second < log.trace.rows;
+          });
+      if (!found)
+        throw InputError({result_.logs.front().source, "column " + Printable(result_.columns[i]),
+                          "has no sample at all",
+                          std::string("Map another column to ") + ChannelName(*channel) +
+                              " or leave the channel out."});
+    }
   }
 
   void WriteYaml() {

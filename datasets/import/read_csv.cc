@@ -27,10 +27,14 @@ std::vector<TextLine> ContentLines(std::string_view text) {
   return lines;
 }
 
-// What separates the cells of the last line, which is data if any line is.
-char DelimiterOf(std::string_view line) {
-  for (const char delimiter : {'\t', ';', ','})
-    if (line.find(delimiter) != line.npos) return delimiter;
+// What separates the cells of most lines. Decimal commas and commas in text stand behind others.
+char DelimiterOf(const std::vector<TextLine>& lines) {
+  for (const char delimiter : {'\t', ';', ','}) {
+    const auto with = std::count_if(lines.begin(), lines.end(), [&](const TextLine& line) {
+      return line.text.find(delimiter) != line.text.npos;
+    });
+    if (2 * with > static_cast<long>(lines.size())) return delimiter;
+  }
   return ' ';
 }
 
@@ -39,13 +43,12 @@ std::size_t CountNumbers(const Cells& cells) {
       cells.begin(), cells.end(), [](auto cell) { return ParseDouble(cell).has_value(); }));
 }
 
-// Whether a row is one of samples: as many cells as the last row, half of them numbers or missing.
-bool IsData(const Cells& cells, std::size_t width) {
-  if (cells.size() != width) return false;
+// Whether a row is one of samples: its first cell or most of them are numbers.
+bool IsData(const Cells& cells) {
   const std::size_t numbers = CountNumbers(cells);
   const auto missing = static_cast<std::size_t>(
       std::count_if(cells.begin(), cells.end(), [](auto cell) { return IsMissing(cell); }));
-  return numbers > 0 && 2 * (numbers + missing) >= cells.size();
+  return numbers > 0 && (ParseDouble(cells[0]) || 2 * (numbers + missing) > cells.size());
 }
 
 bool HasDecimalComma(const std::vector<TextLine>& lines, char delimiter) {
@@ -71,6 +74,10 @@ Titles FindTitles(const std::vector<TextLine>& lines, std::size_t first, char de
                   std::size_t width) {
   Titles titles;
   if (first == 0) return titles;
+  if (width == 1) {
+    titles.names = {Trim(lines[first - 1].text)};
+    return titles;
+  }
   Cells above = SplitCells(lines[first - 1].text, delimiter);
   while (above.size() > width && above.back().empty()) above.pop_back();
   const auto is_unit = [](std::string_view cell) {
@@ -111,7 +118,7 @@ class CsvReader {
     if (lines_.empty())
       throw InputError({table_.file, "", "is empty; must have a row of titles and samples",
                         "Export the recording again."});
-    delimiter_ = DelimiterOf(lines_.back().text);
+    delimiter_ = DelimiterOf(lines_);
     if (HasDecimalComma(lines_, delimiter_)) {
       table_.notes.emplace_back("decimal commas are read as points");
       table_.texts.emplace_back(text);
@@ -131,13 +138,21 @@ class CsvReader {
   }
 
  private:
+  // The first of two rows of samples alike; else one below a row of titles; else any.
   std::size_t FirstDataLine() {
-    // Blank titles and rows that end early are common: the width is that of the first row of data.
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const Cells cells = SplitCells(lines_[i].text, delimiter_);
-      const bool two_rows = i + 1 == lines_.size() ||
-                            IsData(SplitCells(lines_[i + 1].text, delimiter_), cells.size());
-      if (IsData(cells, cells.size()) && two_rows) {
+    const auto cells_of = [&](std::size_t i) { return SplitCells(lines_[i].text, delimiter_); };
+    const auto like = [&](std::size_t i, std::size_t width, bool data) {
+      if (i >= lines_.size()) return false;
+      const Cells cells = cells_of(i);
+      return cells.size() == width && IsData(cells) == data;
+    };
+    for (int pass = 0; pass < 3; ++pass) {
+      for (std::size_t i = 0; i < lines_.size(); ++i) {
+        const Cells cells = cells_of(i);
+        const bool fits = pass == 0   ? like(i + 1, cells.size(), true)
+                          : pass == 1 ? i > 0 && like(i - 1, cells.size(), false)
+                                      : true;
+        if (!IsData(cells) || !fits) continue;
         width_ = cells.size();
         return i;
       }
