@@ -88,10 +88,13 @@ void CheckNothingIsBlank(const YamlNode& dataset) {
   // One alone reads best as any other missing key does.
   if (blanks.size() < 2) return;
   std::string list;
-  for (const BlankValue& blank : blanks) {
-    const std::size_t colon = blank.place.rfind(':');
-    list += "\n  line " + (colon == std::string::npos ? "?" : blank.place.substr(colon + 1)) +
-            "  " + blank.key + "  (" + blank.hint + ")";
+  for (std::size_t i = 0; i < blanks.size(); ++i) {
+    // Trials all want the same: told of the first, with the lines of the others.
+    const bool likewise = i > 0 && blanks[i].hint == blanks[i - 1].hint;
+    const bool second = likewise && (i < 2 || blanks[i - 2].hint != blanks[i].hint);
+    const std::string line = blanks[i].place.substr(blanks[i].place.rfind(':') + 1);
+    list += likewise ? (second ? ", likewise line " : ", ") + line
+                     : "\n  line " + line + "  " + blanks[i].key + "  (" + blanks[i].hint + ")";
   }
   const std::string& place = blanks.front().place;
   throw InputError({place.substr(0, place.rfind(':')), "",

@@ -28,6 +28,16 @@ TEST(BlankValues, AllThatAFitNeedsAreListedAtOnceWithTheirLines) {
             "still of the film)");
 }
 
+TEST(BlankValues, WhatAllTrialsWantIsToldOnce) {
+  std::string yaml = Replace(kYaml, "touchdown_angle_deg: 25", "touchdown_angle_deg:");
+  yaml = Replace(yaml, "touchdown_angle_deg: 30", "touchdown_angle_deg:");
+  EXPECT_EQ(InputErrorOf([&] { Read(yaml); }),
+            "hops/dataset.yaml: 2 values are still blank, and a fit needs them. "
+            "Write each behind its key:\n"
+            "  line 20  trials[0].touchdown_angle_deg  (toe ahead positive: from the set-up or a "
+            "still of the film), likewise line 24");
+}
+
 TEST(BlankValues, NoneAreFoundInAFilledDatasetOrInWhatIsNone) {
   EXPECT_TRUE(FindBlankValues(ParseYaml(kYaml, "dataset.yaml")).empty());
   EXPECT_TRUE(FindBlankValues(ParseYaml("mechanism: {type: wheel}\n", "x.yaml")).empty());
