@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <iterator>
 
 #include "base/input_error.h"
 #include "base/text.h"
@@ -234,26 +234,34 @@ class ChannelGuesser {
     const std::string stem = LowerStem(name);
     const std::string thing = stem.substr(0, stem.size() - 1);
     double furthest = 0;
-    std::optional<std::size_t> best;
+    MappedColumn guess{ChannelId::kBodyX};
     for (const std::size_t i : Positions()) {
       const std::string other = LowerStem(table_.columns[i].name);
       if (other.substr(0, other.size() - 1) != thing) continue;
-      const std::vector<double> values = Numbers(table_, i);
-      double low = std::numeric_limits<double>::infinity(), high = -low;
-      for (const double v : values) {
-        if (!std::isfinite(v)) continue;
-        low = std::min(low, v);
-        high = std::max(high, v);
-      }
-      if (high - low <= furthest) continue;
-      furthest = high - low;
-      best = i;
+      const Travel travel = TravelOf(i);
+      if (travel.range <= furthest) continue;
+      furthest = travel.range;
+      guess.column = i;
+      guess.negate = travel.net < 0;
     }
-    if (!best) return;
-    MappedColumn guess{ChannelId::kBodyX, *best};
-    guess.why = "travels furthest beside " + name;
-    if (!StatedUnit(*best, Dimension::kLength)) guess.unit = height_->unit;
+    if (furthest == 0) return;
+    guess.why =
+        std::string("travels furthest beside ") + name + (guess.negate ? ", against its axis" : "");
+    if (!StatedUnit(guess.column, Dimension::kLength)) guess.unit = height_->unit;
     Take(guess);
+  }
+
+  struct Travel {
+    double range = 0, net = 0;  // in the column's unit
+  };
+  Travel TravelOf(std::size_t column) const {
+    const std::vector<double> all = Numbers(table_, column);
+    std::vector<double> values;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(values),
+                 [](double v) { return std::isfinite(v); });
+    if (values.empty()) return {};
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return {*high - *low, values.back() - values.front()};
   }
 
   const Table& table_;

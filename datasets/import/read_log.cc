@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMaxTextBytes = 512ull << 20;
+constexpr std::uint64_t kMaxTextBytes = 256ull << 20;
 
 std::string FirstBytes(const fs::path& file, std::size_t count) {
   std::ifstream in(file, std::ios::binary);

@@ -109,7 +109,10 @@ class TraceBuilder {
     if (row == 0) first_s_ = time;
     last_s_ = time;
     if (time < options_.from_s.value_or(time) || time > options_.to_s.value_or(time)) return "";
-    if (!options_.zero_time || time_ == nullptr) return text;
+    if (!options_.zero_time) return text;
+    if (!first_kept_) first_kept_ = row;
+    if (time_ == nullptr)
+      return FormatDouble(static_cast<double>(row - *first_kept_) / *options_.rate_hz);
     if (zero_.empty()) zero_ = NegateDecimal(text);
     return Sum(row, *time_, text, zero_);
   }
@@ -157,7 +160,8 @@ class TraceBuilder {
   const TraceOptions& options_;
   const MappedColumn* time_ = nullptr;
   std::vector<const MappedColumn*> channels_;
-  std::string zero_;  // what takes the first time to 0
+  std::optional<std::size_t> first_kept_;  // row
+  std::string zero_;                       // what takes its time to 0
   double first_s_ = 0, last_s_ = 0;
   ImportedTrace trace_;
 };

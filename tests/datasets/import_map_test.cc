@@ -122,6 +122,14 @@ TEST_F(ImportMap, GravityTellsTheVerticalAxisAndItsUnit) {
   }
 }
 
+TEST_F(ImportMap, ABodyThatMovesAgainstAnAxisIsTurnedAround) {
+  const auto file = Log(testing::FallMotive(MakeFall(100)), "take.csv");
+  const ImportResult result = ImportFile(file, {});
+  EXPECT_EQ(result.map_texts, (std::vector<std::string>{"t=Time (Seconds):s", "y=hip.Position.Y:mm",
+                                                        "x=-hip.Position.Z:mm"}));
+  EXPECT_EQ(CsvOf(result), testing::FallCsv(MakeFall(100)));
+}
+
 TEST_F(ImportMap, GuessesSaidAsMapOptionsGiveTheSameAndAreNoGuesses) {
   const auto file = Log(FallLog("Time,X,Y,q", 1e3, 1e3));
   const ImportResult guessed = ImportFile(file, {});
@@ -159,6 +167,16 @@ TEST_F(ImportMap, ARateStandsInForTimes) {
   options.rate_hz = 500;
   EXPECT_EQ(CsvOf(ImportFile(Log("z [mm]\n300\n299\n297\n"), {"y=z"}, options)),
             "time_s,body_y_m\n0,0.300\n0.002,0.299\n0.004,0.297\n");
+}
+
+TEST_F(ImportMap, TimesOfARateBeginAtZeroBehindACutToo) {
+  ImportRequest request;
+  request.logs = {{Log("z [mm]\n300\n299\n297\n295\n"), TrialRole::kTrain, 0.003}};
+  request.map = {ParseMapEntry("y=z").value()};
+  request.name = "rate";
+  request.options.rate_hz = 500;
+  request.options.zero_time = true;
+  EXPECT_EQ(CsvOf(ImportLogs(request)), "time_s,body_y_m\n0,0.297\n0.002,0.295\n");
 }
 
 TEST_F(ImportMap, ACutKeepsBothEndsAndTimeMayBeginAtZero) {
