@@ -283,9 +283,7 @@ void AddImportCommand(CLI::App& app, Invocation& invocation) {
     sub.add_option(name, to, what)->option_text(text)->allow_extra_args(false);
   };
   sub.add_option("FILE", settings->logs, "Recordings, one a trial")->required();
-  list("--map", settings->map,
-       "What a channel is in the file, as y=-Z:mm (t x y vx vy leg_angle leg_length fx fy torque "
-       "contact); repeatable",
+  list("--map", settings->map, "A channel's column, sign and unit, as y=-Z:mm; repeatable",
        "CHANNEL=[-]COLUMN[:UNIT]");
   sub.add_flag("--accept-guesses", settings->accept_guesses,
                "Take what --map does not say as guessed; without it the guesses are shown");
@@ -311,8 +309,9 @@ void AddImportCommand(CLI::App& app, Invocation& invocation) {
       ->option_text("DATASET");
   sub.add_flag("--force", settings->force, "Replace the dataset that stands there");
   sub.footer(
+      "Channels: t x y vx vy leg_angle leg_length fx fy torque contact, x forward and y up.\n\n"
       "Examples:\n"
-      "  hoplab import run17.csv --out mine              # shows what it would take for what\n"
+      "  hoplab import run17.csv --out mine          # shows what it would take for what\n"
       "  hoplab import run17.csv run18.csv --map t=Time:ms --map y=z:mm --role run18.csv=test "
       "--out mine");
   OnParsed(sub, invocation, settings, RunImport);

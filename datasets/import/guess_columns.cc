@@ -71,18 +71,25 @@ bool IsGravity(double fall) { return std::abs(fall / kGravity_m_per_s2 - 1) < kF
 
 // ---- the parts of names
 
-// "x", "y" or "z" where the last part of a name is that, as in "hip.Position.Y", "pos_x", "Z".
-char AxisOf(const std::string& lower_stem) {
-  if (lower_stem.empty()) return ' ';
+// Whether a name's last part is an axis or the index of one: "hip.Position.Y", "pos_x", "Z",
+// "pelvis_tx", "log.pos(:,2)", "/body/pos[:,1]".
+bool IsCoordinate(const std::string& lower_stem) {
+  if (lower_stem.empty()) return false;
   const char last = lower_stem.back();
-  if (last < 'x' || last > 'z') return ' ';
+  if (last == ')' || last == ']') return lower_stem.find(":,") != std::string::npos;
+  if (last < 'x' || last > 'z') return false;
   const bool alone =
       lower_stem.size() == 1 ||
       std::string_view("._ :/-").find(lower_stem[lower_stem.size() - 2]) != std::string_view::npos;
-  // Markers of OpenSim coordinates: pelvis_tx.
   const bool translation =
-      lower_stem.ends_with("_tx") || lower_stem.ends_with("_ty") || lower_stem.ends_with("_tz");
-  return alone || translation ? last : ' ';
+      lower_stem.size() > 3 && lower_stem.substr(lower_stem.size() - 3, 2) == "_t";
+  return alone || translation;
+}
+
+// A coordinate's name without its axis.
+std::string ThingOf(const std::string& lower_stem) {
+  const bool indexed = lower_stem.ends_with(')') || lower_stem.ends_with(']');
+  return lower_stem.substr(0, indexed ? lower_stem.find_last_of("([") : lower_stem.size() - 1);
 }
 
 struct NamedChannel {
@@ -182,7 +189,7 @@ class ChannelGuesser {
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const std::string& unit = table_.columns[i].unit;
       const bool other_unit = !unit.empty() && !StatedUnit(i, Dimension::kLength);
-      const bool coordinate = AxisOf(LowerStem(table_.columns[i].name)) != ' ' || !unit.empty();
+      const bool coordinate = IsCoordinate(LowerStem(table_.columns[i].name)) || !unit.empty();
       if (Free(i) && !other_unit && coordinate) positions.push_back(i);
     }
     return positions;
@@ -231,13 +238,11 @@ class ChannelGuesser {
   // The other coordinate of the same thing that travels furthest.
   void GuessForward() {
     const std::string& name = table_.columns[height_->column].name;
-    const std::string stem = LowerStem(name);
-    const std::string thing = stem.substr(0, stem.size() - 1);
+    const std::string thing = ThingOf(LowerStem(name));
     double furthest = 0;
     MappedColumn guess{ChannelId::kBodyX};
     for (const std::size_t i : Positions()) {
-      const std::string other = LowerStem(table_.columns[i].name);
-      if (other.substr(0, other.size() - 1) != thing) continue;
+      if (ThingOf(LowerStem(table_.columns[i].name)) != thing) continue;
       const Travel travel = TravelOf(i);
       if (travel.range <= furthest) continue;
       furthest = travel.range;

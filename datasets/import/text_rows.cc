@@ -32,7 +32,7 @@ std::vector<std::string_view> SplitCells(std::string_view line, char delimiter) 
     return cells;
   }
   while (true) {
-    const std::size_t start = std::min(line.find_first_not_of(" "), line.size());
+    const std::size_t start = std::min(line.find_first_not_of(' '), line.size());
     std::size_t end = line.npos;
     if (start < line.size() && line[start] == '"') {
       const std::size_t closing = line.find('"', start + 1);

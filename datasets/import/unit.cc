@@ -149,8 +149,9 @@ ColumnTitle SplitTitle(std::string_view title) {
     const std::size_t open = title.rfind(brackets[0]);
     if (open == title.npos || open == 0) continue;
     const std::string_view inside = Trim(title.substr(open + 1, title.size() - open - 2));
-    // Square brackets hold units, known or not; round ones may hold anything.
-    if (brackets[0] != '[' && !FindUnit(inside)) continue;
+    // Square brackets hold units, known or not, or an index; round ones may hold anything.
+    const bool index = inside.find(':') != inside.npos;
+    if (index || (brackets[0] != '[' && !FindUnit(inside))) continue;
     return {std::string(Trim(title.substr(0, open))), std::string(inside)};
   }
   return SplitAtWord(title);

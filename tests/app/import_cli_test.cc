@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "tests/app/hoplab_process.h"
@@ -157,6 +158,8 @@ TEST_F(ImportCli, TheHelpFitsAScreen) {
   const ProcessResult help = Hoplab({"import", "--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_LE(std::count(help.out.begin(), help.out.end(), '\n'), 40);
+  std::istringstream lines(help.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110u) << line;
   EXPECT_TRUE(Says(help.out, "Examples:"));
 }
 

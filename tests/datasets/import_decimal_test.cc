@@ -123,6 +123,7 @@ TEST(ImportUnit, ATitleIsTakenApartIntoNameAndUnit) {
   EXPECT_EQ(parts("hip_torque_N_m"), "hip_torque|N m");
   EXPECT_EQ(parts("supply [V]"), "supply|V");
   EXPECT_EQ(parts("pos (filtered)"), "pos (filtered)|");
+  EXPECT_EQ(parts("/body/pos[:,1]"), "/body/pos[:,1]|");
   EXPECT_EQ(parts("m"), "m|");
   EXPECT_EQ(parts("foot in"), "foot in|");
   EXPECT_EQ(parts(""), "|");

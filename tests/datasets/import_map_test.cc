@@ -130,6 +130,25 @@ TEST_F(ImportMap, ABodyThatMovesAgainstAnAxisIsTurnedAround) {
   EXPECT_EQ(CsvOf(result), testing::FallCsv(MakeFall(100)));
 }
 
+TEST_F(ImportMap, MatricesOfBinaryFilesAreGuessedByTheirColumns) {
+  const Fall fall = MakeFall(100);
+  testing::WriteFallMat(temp_.path() / "log.mat", fall, MAT_FT_MAT5);
+  EXPECT_EQ(ImportFile(temp_.path() / "log.mat", {}).map_texts,
+            (std::vector<std::string>{"t=t:s", "y=log.pos(:,2):mm", "x=log.pos(:,1):mm"}));
+  testing::WriteFallHdf5(temp_.path() / "log.h5", fall);
+  EXPECT_EQ(ImportFile(temp_.path() / "log.h5", {}).map_texts,
+            (std::vector<std::string>{"t=/t:ms", "y=/body/pos[:,1]:mm", "x=/body/pos[:,0]:mm"}));
+}
+
+TEST_F(ImportMap, OpenSimNamesAreGuessed) {
+  const auto trc = Log(testing::FallTrc(MakeFall(100)), "drop.trc");
+  EXPECT_EQ(ImportFile(trc, {}).map_texts,
+            (std::vector<std::string>{"t=Time:s", "y=R.HIP.Y:mm", "x=R.HIP.X:mm"}));
+  const auto sto = Log(testing::FallSto(MakeFall(100)), "drop.sto");
+  EXPECT_EQ(ImportFile(sto, {}).map_texts,
+            (std::vector<std::string>{"t=time:s", "y=pelvis_ty:m", "x=pelvis_tx:m"}));
+}
+
 TEST_F(ImportMap, GuessesSaidAsMapOptionsGiveTheSameAndAreNoGuesses) {
   const auto file = Log(FallLog("Time,X,Y,q", 1e3, 1e3));
   const ImportResult guessed = ImportFile(file, {});
