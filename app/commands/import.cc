@@ -52,11 +52,21 @@ std::vector<LogRequest*> LogsOf(std::vector<LogRequest>& logs, const std::string
   return meant;
 }
 
-std::optional<double> CutEnd(const std::string& text, const std::string& option) {
-  if (Trim(text).empty()) return std::nullopt;
-  const std::optional<double> value = ParseDouble(text);
-  if (!value) throw UsageError("--cut: " + Printable(option) + "; must be FROM:TO in seconds");
-  return value;
+// "0.4:1.9"; either end may be empty.
+LogCut ParseCut(const std::string& span, const std::string& option) {
+  const std::size_t colon = std::min(span.find(':'), span.size());
+  const std::string ends[] = {span.substr(0, colon),
+                              colon < span.size() ? span.substr(colon + 1) : "?"};
+  LogCut cut;
+  for (const auto& [text, end] : {std::pair(ends[0], &cut.from_s), std::pair(ends[1], &cut.to_s)}) {
+    if (Trim(text).empty()) continue;
+    *end = ParseDouble(text);
+    if (!*end)
+      throw UsageError("--cut: " + Printable(option) + "; must be FROM:TO in seconds, as 0.4:1.9");
+  }
+  if (cut.from_s && cut.to_s && !(*cut.from_s < *cut.to_s))
+    throw UsageError("--cut: " + Printable(option) + "; must end after it begins");
+  return cut;
 }
 
 std::vector<LogRequest> LogsOf(const ImportSettings& settings) {
@@ -71,13 +81,8 @@ std::vector<LogRequest> LogsOf(const ImportSettings& settings) {
   }
   for (const std::string& text : settings.cut) {
     const auto [file, span] = SplitForFile(text);
-    const std::size_t colon = span.find(':');
-    if (colon == std::string::npos)
-      throw UsageError("--cut: " + Printable(text) + "; must be FROM:TO in seconds, as 0.4:1.9");
-    for (LogRequest* log : LogsOf(logs, file, "--cut")) {
-      log->from_s = CutEnd(span.substr(0, colon), text);
-      log->to_s = CutEnd(span.substr(colon + 1), text);
-    }
+    const LogCut cut = ParseCut(span, text);
+    for (LogRequest* log : LogsOf(logs, file, "--cut")) log->cuts.push_back(cut);
   }
   return logs;
 }
@@ -290,7 +295,8 @@ void AddImportCommand(CLI::App& app, Invocation& invocation) {
   sub.add_option("--rate", settings->rate_hz, "Samples a second, where the file has no times")
       ->check(CLI::PositiveNumber)
       ->option_text("HZ");
-  list("--cut", settings->cut, "Keep these seconds of the log's clock", "[FILE=]FROM:TO");
+  list("--cut", settings->cut,
+       "Keep these seconds of the log's clock; each repetition makes a trial", "[FILE=]FROM:TO");
   list("--shift", settings->shift, "Add to a channel, as y=-35:mm", "CHANNEL=NUMBER[:UNIT]");
   sub.add_flag("--zero-time", settings->zero_time, "Let time begin at the first row kept");
   list("--role", settings->role, "train (default) or test", "FILE=ROLE");

@@ -11,8 +11,8 @@
 namespace hoplab {
 namespace {
 
-// "run 17.mot" gives "run-17.csv".
-std::string TrialFileName(const std::filesystem::path& log) {
+// "run 17.mot" gives "run-17.csv", its second part "run-17-2.csv".
+std::string TrialFileName(const std::filesystem::path& log, const std::string& part) {
   std::string name = log.stem().string();
   for (char& c : name) {
     const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
@@ -20,7 +20,7 @@ std::string TrialFileName(const std::filesystem::path& log) {
     if (!plain) c = '-';
   }
   if (name.empty() || name.front() == '.' || name.front() == '-') name.insert(0, "trial");
-  return name + ".csv";
+  return name + part + ".csv";
 }
 
 // The map of the first log as entries for the others.
@@ -61,14 +61,23 @@ class Importer {
     for (const std::string& note : table.notes) result_.notes.push_back(table.file + ": " + note);
     for (const std::string& warning : map.warnings) result_.notes.push_back(warning);
 
+    const std::vector<LogCut> cuts = log.cuts.empty() ? std::vector<LogCut>(1) : log.cuts;
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      const std::string part = cuts.size() > 1 ? "-" + std::to_string(i + 1) : "";
+      AddTrial(table, map, log, cuts[i], TrialFileName(log.file, part));
+    }
+  }
+
+  void AddTrial(const Table& table, const ColumnMap& map, const LogRequest& log, const LogCut& cut,
+                const std::string& file) {
     ImportedLog imported;
     imported.source = table.file;
-    imported.file = TrialFileName(log.file);
+    imported.file = file;
     imported.format = table.format;
     imported.role = log.role;
     TraceOptions options = request_.options;
-    options.from_s = log.from_s;
-    options.to_s = log.to_s;
+    options.from_s = cut.from_s;
+    options.to_s = cut.to_s;
     imported.trace = TraceOfTable(table, map, options);
     // Should a trace be refused after all, its message is the format's own.
     ParseTraceCsv(imported.trace.csv, imported.file);

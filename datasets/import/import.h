@@ -12,18 +12,23 @@
 
 namespace hoplab {
 
-/// One recording that becomes a trial.
+/// A part of a log by its own clock, both ends included.
+struct LogCut {
+  std::optional<double> from_s, to_s;
+};
+
+/// One recording that becomes a trial, or as many as it has cuts.
 struct LogRequest {
   std::filesystem::path file;
   TrialRole role = TrialRole::kTrain;
-  std::optional<double> from_s, to_s;
+  std::vector<LogCut> cuts;  // none: all of it
 };
 
 struct ImportRequest {
   std::vector<LogRequest> logs;     // at least one
   std::optional<LogFormat> format;  // absent: by name and first bytes
   std::vector<MapEntry> map;        // empty: all is guessed
-  TraceOptions options;             // but for the cut, which is the log's
+  TraceOptions options;             // but for the cuts, which are the logs'
   std::string name;                 // of the dataset
   MechanismType type = MechanismType::kCLeg;
   /// Values for keys that would be left blank: {"mechanism.body_mass_kg", "1.01"},
@@ -31,8 +36,9 @@ struct ImportRequest {
   std::vector<std::pair<std::string, std::string>> values;
 };
 
+/// One trial.
 struct ImportedLog {
-  std::string source, file;  // "logs/run17.csv", "run17.csv"
+  std::string source, file;  // "logs/run17.mat", "run17.csv"
   std::string format;        // "Motive CSV"
   TrialRole role = TrialRole::kTrain;
   ImportedTrace trace;  // its csv moved to `files`

@@ -122,9 +122,9 @@ TEST_F(ImportCli, NothingIsOverwrittenWithoutForceAndOnlyADatasetWithIt) {
 
 TEST_F(ImportCli, OptionsThatSayNothingSensibleAreWrongUse) {
   const std::vector<std::vector<std::string>> calls = {
-      {"--map", "y"},           {"--cut", "0.5"},    {"--cut", "a:b"},   {"--role", "test"},
-      {"--role", "drop.csv=1"}, {"--shift", "y"},    {"--shift", "y=a"}, {"--set", "E"},
-      {"--rate", "-3"},         {"--type", "wheel"}, {"--format", "xls"}};
+      {"--map", "y"},     {"--cut", "0.5"},         {"--cut", "a:b"},    {"--cut", "2:1"},
+      {"--role", "test"}, {"--role", "drop.csv=1"}, {"--shift", "y"},    {"--shift", "y=a"},
+      {"--set", "E"},     {"--rate", "-3"},         {"--type", "wheel"}, {"--format", "xls"}};
   for (const std::vector<std::string>& call : calls) {
     std::vector<std::string> arguments = {"import", "drop.csv", "--out", "d"};
     arguments.insert(arguments.end(), call.begin(), call.end());

@@ -190,7 +190,7 @@ TEST_F(ImportMap, ARateStandsInForTimes) {
 
 TEST_F(ImportMap, TimesOfARateBeginAtZeroBehindACutToo) {
   ImportRequest request;
-  request.logs = {{Log("z [mm]\n300\n299\n297\n295\n"), TrialRole::kTrain, 0.003}};
+  request.logs = {{Log("z [mm]\n300\n299\n297\n295\n"), TrialRole::kTrain, {{0.003}}}};
   request.map = {ParseMapEntry("y=z").value()};
   request.name = "rate";
   request.options.rate_hz = 500;
@@ -203,12 +203,22 @@ TEST_F(ImportMap, ACutKeepsBothEndsAndTimeMayBeginAtZero) {
       Log("t [ms],z [m]\n1700000000123,1\n1700000000125,2\n1700000000127,3\n"
           "1700000000129,4\n");
   ImportRequest request;
-  request.logs = {{file, TrialRole::kTrain, 1700000000.125, 1700000000.127}};
+  request.logs = {{file, TrialRole::kTrain, {{1700000000.125, 1700000000.127}}}};
   request.map = {ParseMapEntry("t=t").value(), ParseMapEntry("y=z").value()};
   request.name = "epoch";
   EXPECT_EQ(CsvOf(ImportLogs(request)), "time_s,body_y_m\n1700000000.125,2\n1700000000.127,3\n");
   request.options.zero_time = true;
   EXPECT_EQ(CsvOf(ImportLogs(request)), "time_s,body_y_m\n0.000,2\n0.002,3\n");
+}
+
+TEST_F(ImportMap, SeveralCutsOfALogAreSeveralTrials) {
+  ImportRequest request;
+  request.logs = {{Log("t [s],z [m]\n0,1\n1,2\n2,3\n3,4\n"), TrialRole::kTrain, {{{}, 1}, {2}}}};
+  request.map = {ParseMapEntry("t=t").value(), ParseMapEntry("y=z").value()};
+  request.name = "parts";
+  const ImportResult result = ImportLogs(request);
+  EXPECT_EQ(result.files.at("log-1.csv"), "time_s,body_y_m\n0,1\n1,2\n");
+  EXPECT_EQ(result.files.at("log-2.csv"), "time_s,body_y_m\n2,3\n3,4\n");
 }
 
 TEST_F(ImportMap, AShiftIsExact) {
