@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "datasets/blank_values.h"
 #include "datasets/read_spec.h"
-#include "datasets/yaml_tree.h"
+#include "datasets/write_dataset.h"
 
 namespace hoplab {
 namespace {
@@ -19,8 +19,8 @@ class Writer {
   }
 
   std::string Write() {
-    text_ = "format: hoplab-dataset/1\nname: " + Quoted(dataset_.name) +
-            "\nsource: {kind: recorded, note: " + Quoted(dataset_.note) +
+    text_ = "format: hoplab-dataset/1\nname: " + QuotedYaml(dataset_.name) +
+            "\nsource: {kind: recorded, note: " + QuotedYaml(dataset_.note) +
             "}\nmechanism:\n  type: " + MechanismTypeName(dataset_.type) + "\n";
     bool in_block = false;
     for (const NeededValue& needed : NeededValues(dataset_.type)) {
@@ -47,16 +47,6 @@ class Writer {
   }
 
  private:
-  // Text in double quotes, as YAML reads it.
-  static std::string Quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-      if (c == '"' || c == '\\') out += '\\';
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-    return out + "\"";
-  }
-
   void CheckValue(const std::string& key, const std::string& value) {
     std::vector<std::string> known;
     for (const NeededValue& needed : NeededValues(dataset_.type))

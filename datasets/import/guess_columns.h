@@ -25,8 +25,8 @@ struct GuessedUnit {
   std::string why;
 };
 
-/// The unit of a column from its numbers: a time by its steps, a length by how it falls; the SI
-/// unit for the rest where the file's numbers are in SI units by what is known of them already.
+/// The unit of a column from its numbers: a time by its steps, a height by how it falls, another
+/// length as one that is known already; nothing for the rest.
 std::optional<GuessedUnit> GuessUnit(const Table& table, const ColumnMap& map,
                                      const MappedColumn& mapped);
 
