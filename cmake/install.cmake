@@ -1,0 +1,60 @@
+# What `cmake --install` puts where, in three components:
+#   runtime      the program, the datasets and scenarios that come along, the documentation
+#   development  libraries, headers and the CMake package for find_package(hoplab)
+#   python       the module (python/CMakeLists.txt)
+# The program needs none of the files beside it: published numbers and the reports' page are compiled in.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(share ${CMAKE_INSTALL_DATADIR}/hoplab)
+install(TARGETS hoplab RUNTIME COMPONENT runtime)
+install(DIRECTORY experiments/ DESTINATION ${share}/experiments COMPONENT runtime
+        FILES_MATCHING PATTERN "*.yaml" PATTERN "sweep.slurm"
+        PATTERN study EXCLUDE PATTERN kinematics EXCLUDE PATTERN identification EXCLUDE
+        PATTERN published EXCLUDE)
+install(DIRECTORY datasets/ DESTINATION ${share}/datasets COMPONENT runtime
+        FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN "*.json")
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
+        COMPONENT runtime)
+# The plotting library is part of the program, and so is its licence.
+get_directory_property(plotly DIRECTORY web DEFINITION plotly)
+file(READ ${plotly}/LICENSE PLOTLY_LICENSE)
+file(READ LICENSE HOPLAB_LICENSE)
+configure_file(cmake/copyright.in ${PROJECT_BINARY_DIR}/copyright @ONLY)
+foreach(package hoplab:runtime libhoplab-dev:development)
+  string(REPLACE ":" ";" package ${package})
+  list(POP_FRONT package name)
+  install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
+          COMPONENT ${package})
+endforeach()
+foreach(folder model datasets fitting experiments python docs)
+  install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT runtime
+          FILES_MATCHING PATTERN "*.md" PATTERN ".*" EXCLUDE)
+endforeach()
+
+# The libraries below the command line. A header is included as in the project:
+# "fitting/fit_dataset.h".
+set(headers ${CMAKE_INSTALL_INCLUDEDIR}/hoplab)
+set(cmake_files ${CMAKE_INSTALL_LIBDIR}/cmake/hoplab)
+foreach(folder base model datasets fitting optimize experiments)
+  set_target_properties(hoplab_${folder} PROPERTIES EXPORT_NAME ${folder})
+  add_library(hoplab::${folder} ALIAS hoplab_${folder})
+  install(TARGETS hoplab_${folder} EXPORT hoplab ARCHIVE COMPONENT development
+          INCLUDES DESTINATION ${headers})
+  install(DIRECTORY ${folder} DESTINATION ${headers} COMPONENT development
+          FILES_MATCHING PATTERN "*.h"
+          PATTERN rig-* EXCLUDE PATTERN published EXCLUDE)
+endforeach()
+install(EXPORT hoplab NAMESPACE hoplab:: FILE hoplabTargets.cmake DESTINATION ${cmake_files}
+        COMPONENT development)
+
+configure_package_config_file(cmake/hoplabConfig.cmake.in ${PROJECT_BINARY_DIR}/hoplabConfig.cmake
+                              INSTALL_DESTINATION ${cmake_files})
+# Before 1.0 a minor version may change what a program sees.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/hoplabConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/hoplabConfig.cmake
+              ${PROJECT_BINARY_DIR}/hoplabConfigVersion.cmake
+        DESTINATION ${cmake_files} COMPONENT development)
+
+set_property(GLOBAL PROPERTY hoplab_components runtime development)
