@@ -20,9 +20,9 @@ for trace in fit.traces:
         residual = trace.simulated["body_y_m"] - trace.measured["body_y_m"]
         print(f"{trace.file}: height off by up to {1000 * np.nanmax(np.abs(residual)):.1f} mm")
 
-suspects = ["air_drag", "leg_material_damping", "touchdown_loss"]
+suspects = ["leg_material_damping", "touchdown_loss"]
 diagnosis = hoplab.diagnose(dataset, effects=suspects, max_effects=2)
-print(f"{diagnosis.verdict}: {', '.join(diagnosis.effects)}")
+print(diagnosis.sentence)
 
 extended = hoplab.fit(dataset, with_=diagnosis.effects, fix={"d": 0})
 before, after = fit.rmse["test"]["body_y_m"], extended.rmse["test"]["body_y_m"]
