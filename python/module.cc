@@ -1,5 +1,8 @@
 #include <pybind11/stl.h>
 
+#include <exception>
+#include <utility>
+
 #include "app/version.h"
 #include "base/input_error.h"
 #include "python/bindings.h"
@@ -42,7 +45,7 @@ void BindErrors(py::module_& m) {
   m.attr("InputError") = py::reinterpret_borrow<py::object>(input_error);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const InputError& error) {
       SetInputError(error);
     }
