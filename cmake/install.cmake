@@ -43,7 +43,9 @@ foreach(folder base model datasets fitting optimize experiments)
           INCLUDES DESTINATION ${headers})
   install(DIRECTORY ${folder} DESTINATION ${headers} COMPONENT development
           FILES_MATCHING PATTERN "*.h"
-          PATTERN rig-* EXCLUDE PATTERN published EXCLUDE)
+          PATTERN rig-* EXCLUDE PATTERN published EXCLUDE
+          # Readers of other programs' recordings serve the command alone.
+          PATTERN import EXCLUDE)
 endforeach()
 install(EXPORT hoplab NAMESPACE hoplab:: FILE hoplabTargets.cmake DESTINATION ${cmake_files}
         COMPONENT development)
