@@ -13,7 +13,7 @@ install(DIRECTORY experiments/ DESTINATION ${share}/experiments COMPONENT runtim
         PATTERN study EXCLUDE PATTERN kinematics EXCLUDE PATTERN identification EXCLUDE
         PATTERN published EXCLUDE)
 install(DIRECTORY datasets/ DESTINATION ${share}/datasets COMPONENT runtime
-        FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN "*.json")
+        FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN "*.json" PATTERN import EXCLUDE)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
         COMPONENT runtime)
 # The plotting library is part of the program, and so is its licence.
@@ -27,9 +27,10 @@ foreach(package hoplab:runtime libhoplab-dev:development)
   install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
           COMPONENT ${package})
 endforeach()
-foreach(folder model datasets fitting experiments python docs)
-  install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT runtime
-          FILES_MATCHING PATTERN "*.md" PATTERN ".*" EXCLUDE)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+foreach(folder model datasets fitting experiments python bench web)
+  install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
+          COMPONENT runtime)
 endforeach()
 
 # The libraries below the command line. A header is included as in the project:
@@ -45,7 +46,7 @@ foreach(folder base model datasets fitting optimize experiments)
           FILES_MATCHING PATTERN "*.h"
           PATTERN rig-* EXCLUDE PATTERN published EXCLUDE
           # Readers of other programs' recordings serve the command alone.
-          PATTERN import EXCLUDE)
+          PATTERN import EXCLUDE PATTERN automata EXCLUDE)
 endforeach()
 install(EXPORT hoplab NAMESPACE hoplab:: FILE hoplabTargets.cmake DESTINATION ${cmake_files}
         COMPONENT development)

@@ -1,4 +1,5 @@
-# Debian packages: `cpack -G DEB` in the build folder. One for each component of install.cmake.
+# Debian packages: `cpack` in the build folder. One for each component of install.cmake.
+set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hoplab)
 set(CPACK_PACKAGE_VENDOR "hoplab")
 set(CPACK_PACKAGE_CONTACT "The hoplab authors <hoplab@localhost>")
@@ -25,7 +26,7 @@ finds gaits and gains, sweeps, and shows it all in reports that open offline.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libhoplab-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libboost-dev, libceres-dev, libeigen3-dev, libfmt-dev, libnlopt-cxx-dev, libsundials-dev, libyaml-cpp-dev")
+    "libboost-dev, libceres-dev, libeigen3-dev, libfmt-dev, libnlopt-cxx-dev, libnlopt-dev, libsundials-dev, libyaml-cpp-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, hoplab")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "Libraries and headers of hoplab, for C++ programs that simulate, fit and

@@ -99,5 +99,25 @@ TEST_F(Install, NoFileNamesTheSourceTreeOrTheBuild) {
   EXPECT_GT(files, 100);
 }
 
+TEST_F(Install, LeavesNoEmptyFolder) {
+  for (const auto& entry : fs::recursive_directory_iterator(Prefix())) {
+    if (entry.is_directory()) {
+      EXPECT_FALSE(fs::is_empty(entry)) << entry.path();
+    }
+  }
+}
+
+#ifdef HOPLAB_PYTHON
+TEST_F(Install, PythonFindsTheModuleWhereAUserInstallsIt) {
+  // As with the prefix ~/.local.
+  const ProcessResult run = RunProcess(
+      {.command = {"/usr/bin/env", "-u", "PYTHONPATH", "PYTHONUSERBASE=" + Prefix().string(),
+                   HOPLAB_PYTHON, "-B", "-c", "import hoplab; print(hoplab.__file__)"},
+       .folder = Scratch()});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(run.out.starts_with(Prefix().string() + "/lib/python3")) << run.out;
+}
+#endif
+
 }  // namespace
 }  // namespace hoplab::testing
