@@ -9,9 +9,10 @@ include(CMakePackageConfigHelpers)
 set(share ${CMAKE_INSTALL_DATADIR}/hoplab)
 install(TARGETS hoplab RUNTIME COMPONENT runtime)
 install(DIRECTORY experiments/ DESTINATION ${share}/experiments COMPONENT runtime
-        FILES_MATCHING PATTERN "*.yaml" PATTERN "sweep.slurm"
+        FILES_MATCHING PATTERN "*.yaml"
         PATTERN study EXCLUDE PATTERN kinematics EXCLUDE PATTERN identification EXCLUDE
         PATTERN published EXCLUDE)
+install(PROGRAMS experiments/sweep.slurm DESTINATION ${share}/experiments COMPONENT runtime)
 install(DIRECTORY datasets/ DESTINATION ${share}/datasets COMPONENT runtime
         FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN "*.json" PATTERN import EXCLUDE)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
@@ -21,12 +22,22 @@ get_directory_property(plotly DIRECTORY web DEFINITION plotly)
 file(READ ${plotly}/LICENSE PLOTLY_LICENSE)
 file(READ LICENSE HOPLAB_LICENSE)
 configure_file(cmake/copyright.in ${PROJECT_BINARY_DIR}/copyright @ONLY)
-foreach(package hoplab:runtime libhoplab-dev:development)
-  string(REPLACE ":" ";" package ${package})
-  list(POP_FRONT package name)
-  install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
-          COMPONENT ${package})
-endforeach()
+# Debian's own changelog, which each of its packages must have; what changed stands in CHANGELOG.md.
+set(HOPLAB_CONTACT "The hoplab authors <hoplab@hoplab.invalid>") # there is no address to write to
+string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/changelog CONTENT
+"hoplab (${PROJECT_VERSION}) unstable; urgency=medium\n
+  * See /usr/share/doc/hoplab/CHANGELOG.md.\n
+ -- ${HOPLAB_CONTACT}  ${now}\n")
+file(ARCHIVE_CREATE OUTPUT ${PROJECT_BINARY_DIR}/changelog.gz PATHS ${PROJECT_BINARY_DIR}/changelog
+     FORMAT raw COMPRESSION GZip COMPRESSION_LEVEL 9)
+# hoplab_package_documents(name component): what the Debian package `name` must have under share/doc.
+function(hoplab_package_documents name component)
+  install(FILES ${PROJECT_BINARY_DIR}/copyright ${PROJECT_BINARY_DIR}/changelog.gz
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component})
+endfunction()
+hoplab_package_documents(hoplab runtime)
+hoplab_package_documents(libhoplab-dev development)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 foreach(folder model datasets fitting experiments python bench web)
   install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
