@@ -6,19 +6,23 @@
 #include "app/command.h"
 #include "app/commands/check.h"
 #include "app/commands/compare.h"
+#include "app/commands/completion.h"
 #include "app/commands/diagnose.h"
 #include "app/commands/effects.h"
+#include "app/commands/explain.h"
 #include "app/commands/fit.h"
 #include "app/commands/gait.h"
 #include "app/commands/generate.h"
 #include "app/commands/identify.h"
 #include "app/commands/laws.h"
+#include "app/commands/man.h"
 #include "app/commands/optimize.h"
 #include "app/commands/report.h"
 #include "app/commands/reproduce.h"
 #include "app/commands/simulate.h"
 #include "app/commands/sweep.h"
 #include "app/commands/version.h"
+#include "app/help_text.h"
 #include "app/run_record.h"
 #include "app/usage_error.h"
 #include "app/version.h"
@@ -28,13 +32,11 @@
 namespace hoplab {
 namespace {
 
-constexpr std::size_t kNameColumn = 30;
-
 class CommandLine {
  public:
   explicit CommandLine(Console& console) : console_(console) {
     app_.name("hoplab");
-    app_.get_formatter()->column_width(kNameColumn);
+    app_.formatter(std::make_shared<HelpFormatter>(console.out_columns));
     app_.set_version_flag("--version", "hoplab " + ProjectVersion());
     app_.require_subcommand(1);
     app_.footer("hoplab COMMAND --help says more. Begin with: hoplab fit datasets/rig-drops");
@@ -52,6 +54,9 @@ class CommandLine {
     AddReportCommand(app_, invocation_);
     AddLawsCommand(app_, invocation_);
     AddEffectsCommand(app_, invocation_);
+    AddExplainCommand(app_, invocation_);
+    AddCompletionCommand(app_, invocation_);
+    AddManCommand(app_, invocation_);
     AddVersionCommand(app_, invocation_);
   }
 
@@ -92,6 +97,7 @@ class CommandLine {
       throw UsageError("there is no command " + Printable(first) + ". " + DidYouMean(first, known));
     }
     app_.parse(argc, argv);
+    if (invocation_.plain) MakePlain(console_);
     const ExitCode code = invocation_.run(console_);
     console_.out.flush();
     if (!console_.out) throw InputError({"standard output", "", "cannot be written", ""});
