@@ -69,8 +69,9 @@ class CommandLine {
       app_.exit(done, console_.out, console_.err);
       return ExitCode::kDone;
     } catch (const CLI::ParseError& error) {
+      const std::string hint = OptionHint();
       return Fail(ExitCode::kWrongUse,
-                  Stop(error.what()) + OptionHint() + " See " + HelpCall() + ".");
+                  (hint.empty() ? Stop(error.what()) : hint) + " See " + HelpCall() + ".");
     } catch (const UsageError& error) {
       return Fail(ExitCode::kWrongUse, Stop(error.what()) + " See " + HelpCall() + ".");
     } catch (const InputError& error) {
@@ -116,7 +117,7 @@ class CommandLine {
     return text;
   }
 
-  // The long option an unknown one was probably meant to be.
+  // An unknown long option with the one it was probably meant to be, whatever else is wrong.
   std::string OptionHint() {
     if (command_.empty()) return "";
     const CLI::App* sub = app_.get_subcommand(command_);
@@ -127,7 +128,7 @@ class CommandLine {
     for (const std::string& extra : app_.remaining(true)) {
       if (!extra.starts_with("--")) continue;
       if (const auto nearest = NearestWord(extra.substr(0, extra.find('=')), known))
-        return " Did you mean " + *nearest + "?";
+        return Printable(extra) + ": there is no such option. Did you mean " + *nearest + "?";
     }
     return "";
   }

@@ -156,6 +156,8 @@ void AddCompareCommand(CLI::App& app, Invocation& invocation) {
   auto settings = std::make_shared<CompareSettings>();
   CLI::App& sub = *app.add_subcommand("compare", "Fit the same hops with every law of the leg");
   AddProblemOptions(sub, settings->problem);
+  // A variant says both.
+  for (const char* name : {"--law", "--with"}) sub.remove_option(sub.get_option(name));
   sub.add_option("--variant", settings->variants,
                  "A law, and effects to fit with it; repeatable (default: every law)")
       ->option_text("LAW+EFFECT...")

@@ -135,7 +135,7 @@ void AddReproduceCommand(CLI::App& app, Invocation& invocation) {
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<constants>-reproduce-NNN)");
   sub.footer(
       "A verdict is \"reproduced\", \"only under stated settings\" or \"not reproduced\";\n"
-      "the exit code is 0 with any of them. docs/published-study.md says what they mean.\n"
+      "the exit code is 0 with any of them. See docs/published-study.md.\n"
       "Examples:\n"
       "  hoplab reproduce table-6.5 claim-h\n"
       "  hoplab reproduce all --out runs/study\n"
