@@ -149,6 +149,7 @@ class Pipeline {
     std::vector<Candidate> all = candidates;
     all.insert(all.end(), basis_.probes.begin(), basis_.probes.end());
     const Linearisation at = LineariseAt(d_.null, all, train_, options_.fit.jobs);
+    NoteFailed(at);
     d_.detection = Detect(at, candidates, basis_, Seed(kDetectionStream));
     d_.localisation = Localise(at);
     d_.null_at = CandidatesOnly(at, ParameterCount(candidates));
@@ -160,6 +161,13 @@ class Pipeline {
       none.max_effects = 0;
       d_.naming = NameCauses(d_.null, candidates, d_.null_at, train_, none);
     }
+  }
+
+  void NoteFailed(const Linearisation& at) {
+    std::string names;
+    for (const std::string& name : at.failed) names += (names.empty() ? "" : ", ") + name;
+    if (!names.empty())
+      d_.notes.push_back("not tested, since no simulation could be differentiated by it: " + names);
   }
 
   // ---- name

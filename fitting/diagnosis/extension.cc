@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "model/effects/active_effects.h"
 
@@ -127,6 +130,92 @@ int CostClass(const Candidate& candidate) {
   return p.law_terms.active ? 1 : 0;
 }
 
+// Collects columns of one linearisation that come from several runs.
+class Columns {
+ public:
+  Columns(const Extension& model, std::span<const Candidate> tested,
+          const std::vector<TrialProblem>& train, int jobs)
+      : model_(model), tested_(tested), train_(train), jobs_(jobs) {
+    for (const Candidate& c : tested) {
+      column_of_.push_back(count_);
+      count_ += c.parameter_count();
+    }
+  }
+
+  /// Those of the candidates at `places`, differentiated together. Where that fails, as it may for
+  /// one that asks for too many steps, in halves; one that fails alone keeps columns of zeros.
+  void Add(std::span<const int> places) {
+    std::vector<Candidate> part;
+    for (const int place : places) part.push_back(tested_[static_cast<std::size_t>(place)]);
+    Linearisation at = LineariseWith(part);
+    if (IsSound(at)) return Take(places, std::move(at));
+    if (places.size() > 1) {
+      Add(places.first(places.size() / 2));
+      Add(places.subspan(places.size() / 2));
+    } else {
+      failed_.push_back(part.front().Name());
+    }
+  }
+
+  Linearisation Done() {
+    if (!begun_) Begin(Linearisation(Bare()));
+    all_.failed = std::move(failed_);
+    return std::move(all_);
+  }
+
+ private:
+  Linearisation LineariseWith(std::span<const Candidate> part) const {
+    const FitProblem problem = Extend(model_.problem, part);
+    Eigen::VectorXd shared(problem.shared_count());
+    shared << model_.shared, NullValues(part);
+    return Linearise(problem, model_.problem.shared_count(), train_, shared, model_.starts, jobs_);
+  }
+  const Linearisation& Bare() {
+    if (!bare_) bare_ = LineariseWith({});
+    return *bare_;
+  }
+  // Differentiating by more must not lose a trial that the model by itself gets through.
+  bool IsSound(const Linearisation& at) {
+    if (!at.columns.allFinite()) return false;
+    if (at.trials_left_out > 0 && at.trials_left_out != Bare().trials_left_out) return false;
+    return !begun_ ||
+           (at.rows() == all_.rows() && at.fitted_basis.cols() == all_.fitted_basis.cols());
+  }
+  void Begin(Linearisation at) {
+    all_ = std::move(at);
+    all_.columns = Eigen::MatrixXd::Zero(all_.rows(), count_);
+    all_.along_fitted = Eigen::MatrixXd::Zero(all_.fitted_basis.cols(), count_);
+    all_.length = Eigen::VectorXd::Zero(count_);
+    begun_ = true;
+  }
+  void Take(std::span<const int> places, Linearisation at) {
+    const Eigen::MatrixXd found = std::move(at.columns);
+    const Eigen::MatrixXd along = std::move(at.along_fitted);
+    const Eigen::VectorXd length = std::move(at.length);
+    if (!begun_) Begin(std::move(at));
+    int next = 0;
+    for (const int place : places) {
+      const auto i = static_cast<std::size_t>(place);
+      for (int k = 0; k < tested_[i].parameter_count(); ++k, ++next) {
+        all_.columns.col(column_of_[i] + k) = found.col(next);
+        all_.along_fitted.col(column_of_[i] + k) = along.col(next);
+        all_.length[column_of_[i] + k] = length[next];
+      }
+    }
+  }
+
+  const Extension& model_;
+  std::span<const Candidate> tested_;
+  const std::vector<TrialProblem>& train_;
+  int jobs_;
+  std::vector<int> column_of_;  // first column of each tested candidate
+  int count_ = 0;
+  bool begun_ = false;
+  Linearisation all_;
+  std::optional<Linearisation> bare_;
+  std::vector<std::string> failed_;
+};
+
 }  // namespace
 
 Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tested,
@@ -134,54 +223,14 @@ Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tes
   std::array<std::vector<int>, 3> classes;  // places in `tested`
   for (std::size_t i = 0; i < tested.size(); ++i)
     classes[static_cast<std::size_t>(CostClass(tested[i]))].push_back(static_cast<int>(i));
-  if (tested.empty()) classes[0] = {};
-  std::vector<int> column_of;  // first column of each tested candidate
-  int columns = 0;
-  for (const Candidate& c : tested) {
-    column_of.push_back(columns);
-    columns += c.parameter_count();
-  }
   // What one run can hold beside the effects the model has.
   const std::size_t room = ActiveEffects<double>::kMax - model.problem.effects.size();
-  Linearisation all;
-  bool begun = false;
+  Columns columns(model, tested, train, jobs);
   for (const std::vector<int>& places : classes) {
-    for (std::size_t first = 0; first < places.size() || (tested.empty() && !begun);
-         first += room) {
-      std::vector<Candidate> part;
-      for (std::size_t i = first; i < std::min(first + room, places.size()); ++i)
-        part.push_back(tested[static_cast<std::size_t>(places[i])]);
-      const FitProblem problem = Extend(model.problem, part);
-      Eigen::VectorXd shared(problem.shared_count());
-      shared << model.shared, NullValues(part);
-      Linearisation at =
-          Linearise(problem, model.problem.shared_count(), train, shared, model.starts, jobs);
-      const Eigen::MatrixXd found = at.columns;
-      const Eigen::MatrixXd along = at.along_fitted;
-      const Eigen::VectorXd length = at.length;
-      if (!begun) {
-        all = std::move(at);
-        all.columns = Eigen::MatrixXd::Zero(all.r.size(), columns);
-        all.along_fitted = Eigen::MatrixXd::Zero(all.fitted_basis.cols(), columns);
-        all.length = Eigen::VectorXd::Zero(columns);
-        begun = true;
-      }
-      // Where not every trial could be differentiated this way, the columns stay zero: untestable.
-      if (found.rows() != all.r.size() || along.rows() != all.fitted_basis.cols() ||
-          !found.allFinite())
-        continue;
-      int next = 0;
-      for (std::size_t i = 0; i < part.size(); ++i) {
-        const int to = column_of[static_cast<std::size_t>(places[first + i])];
-        for (int k = 0; k < part[i].parameter_count(); ++k, ++next) {
-          all.columns.col(to + k) = found.col(next);
-          all.along_fitted.col(to + k) = along.col(next);
-          all.length[to + k] = length[next];
-        }
-      }
-    }
+    for (std::size_t first = 0; first < places.size(); first += room)
+      columns.Add(std::span(places).subspan(first, std::min(room, places.size() - first)));
   }
-  return all;
+  return columns.Done();
 }
 
 }  // namespace hoplab

@@ -153,7 +153,10 @@ Linearisation Linearise(const FitProblem& problem, int first_tested,
   Eigen::Index at = 0;
   for (const Part& p : parts) {
     const Eigen::Index n = p.r.size();
-    if (n == 0) continue;
+    if (n == 0) {
+      ++out.trials_left_out;
+      continue;
+    }
     out.r.segment(at, n) = p.r;
     out.raw.segment(at, n) = p.raw;
     out.leverage.segment(at, n) = p.leverage;

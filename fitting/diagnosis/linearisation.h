@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fitting/problem.h"
@@ -38,6 +39,9 @@ struct Linearisation {
   Eigen::VectorXd leverage;  // share of each row the fitted values can explain, 0..1
   int fitted_rank = 0;       // dimensions projected out
   int samples = 0;           // rows that come from data
+  int trials_left_out = 0;   // their simulation ends before their data
+  /// Tested candidates whose columns are zeros because no run could be differentiated by them.
+  std::vector<std::string> failed;
 
   int rows() const { return static_cast<int>(r.size()); }
   double chi2() const { return r.squaredNorm(); }

@@ -126,7 +126,7 @@ TEST_F(SweepCli, WhatCannotBeSweptIsRefused) {
 }
 
 TEST_F(SweepCli, RanksGiveTheSameRowsBitForBit) {
-  if (!std::filesystem::exists(kMpirun)) GTEST_SKIP() << "no mpirun";
+  ASSERT_TRUE(std::filesystem::exists(kMpirun)) << "package openmpi-bin of cmake/packages.txt";
   WriteScenario(temp_.path(), kHypercube);
   const std::vector<std::string> launcher = {kMpirun, "--allow-run-as-root", "--oversubscribe",
                                              "-n", "3"};
@@ -142,7 +142,7 @@ TEST_F(SweepCli, RanksGiveTheSameRowsBitForBit) {
 }
 
 TEST_F(SweepCli, ALostRankCostsOnlyItsOwnRows) {
-  if (!std::filesystem::exists(kMpirun)) GTEST_SKIP() << "no mpirun";
+  ASSERT_TRUE(std::filesystem::exists(kMpirun)) << "package openmpi-bin of cmake/packages.txt";
   WriteScenario(temp_.path(), kHypercube);
   // Rank 1 is killed once two hundred rows are on disk.
   const char* const wrapper =

@@ -2,9 +2,7 @@
 
 #include <array>
 
-#include "model/hybrid/engine.h"
-#include "model/integrators/dop853.h"
-#include "tests/support/clocks.h"
+#include "tests/support/effect_requests.h"
 #include "tests/support/matrix_near.h"
 #include "tests/support/requests.h"
 
@@ -15,97 +13,6 @@ using namespace testing;
 using D = SensitivityDirection;
 
 constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx, Channel::kBodyVy};
-
-// ---- systems made for the purpose --------------------------------------------------------
-
-struct NoRows {
-  template <class... Args>
-  void operator()(Args&&...) const {}
-};
-template <template <class> class System>
-Trajectory RunSystem(double z0, double z1, double horizon, const System<double>& system = {}) {
-  const RunSettings settings{.horizon = horizon, .max_hops = 0, .row_times = {}, .channels = {}};
-  NoRows sink;
-  Trajectory out;
-  Engine<System, double, Dop853, NoRows> engine(system, system, {}, {}, settings, sink, out);
-  const double z[2] = {z0, z1};
-  engine.Run(Mode::kRolling, z, [](int) { return 0.0; });
-  return out;
-}
-
-TEST(SimultaneousEvents, AreFlaggedAndFireInTheOrderOfTheGuards) {
-  const Trajectory run = RunSystem<TwoClocks>(1.0, 1.0, 2.0);
-  ASSERT_EQ(EventNames(run), "rolling_to_toe liftoff");
-  EXPECT_TRUE(run.has_simultaneous_events);
-  EXPECT_TRUE(run.events[0].simultaneous);
-  EXPECT_NEAR(run.events[0].time, 1.0, 1e-15);
-  EXPECT_EQ(run.events[1].time, run.events[0].time);
-}
-
-TEST(SimultaneousEvents, AreNotFlaggedWhenTheyAreApart) {
-  const Trajectory run = RunSystem<TwoClocks>(1.0, 1.00001, 2.0);
-  ASSERT_EQ(EventNames(run), "rolling_to_toe liftoff");
-  EXPECT_FALSE(run.has_simultaneous_events);
-}
-
-TEST(SimultaneousEvents, OfTwoInOneStepTheEarlierFires) {
-  const Trajectory run = RunSystem<TwoClocks>(1.01, 1.0, 2.0);
-  EXPECT_EQ(EventNames(run), "liftoff");
-}
-
-TEST(Chattering, TwoEventsThatUndoEachOtherEndTheRun) {
-  const Trajectory run = RunSystem<BackAndForth>(1.0, 0.0, 2.0);
-  EXPECT_EQ(run.outcome, Outcome::kChattering);
-  EXPECT_NEAR(run.end_time, 1.0, 1e-12);
-}
-
-TEST(ClosedGuard, OfLiftoffAfterAChangeOfStanceFiresWithTheChange) {
-  using T = Jet<kNarrowJet>;
-  LosesSupport<T> system;
-  system.rate = Seeded<T>(1.0, 0, 1.0);
-  const RunSettings settings{.horizon = 2.0, .max_hops = 0, .row_times = {}, .channels = {}};
-  NoRows sink;
-  Trajectory out;
-  Engine<LosesSupport, T, Dop853, NoRows> engine(system, {}, {}, {}, settings, sink, out);
-  const T z[2] = {T(1.0), T(0.5)};
-  engine.Run(Mode::kRolling, z, [](int) { return T(0.0); });
-  ASSERT_EQ(EventNames(out), "rolling_to_toe liftoff");
-  EXPECT_EQ(out.events[1].time, out.events[0].time);
-  EXPECT_EQ(out.final_mode, Mode::kFlight);
-  // t_e = 1/rate, for both.
-  EXPECT_NEAR(engine.event_times()[0], -1.0, 1e-12);
-  EXPECT_NEAR(engine.event_times()[kNarrowJet], -1.0, 1e-12);
-}
-
-TEST(GuardDip, InsideOneStepIsFound) {
-  Dip<double> system;
-  system.depth = 1e-4;  // below zero for 0.02 s of a 2 s step
-  RunSettings settings{.horizon = 2.0, .max_hops = 0, .row_times = {}, .channels = {}};
-  NoRows sink;
-  Trajectory out;
-  Dip<Jet<1>> rate;
-  rate.depth = system.depth;
-  Engine<Dip, double, Dop853, NoRows> engine(system, system, rate, {}, settings, sink, out);
-  const double z[2] = {0.0, 0.0};
-  engine.Run(Mode::kRolling, z, [](int) { return 0.0; });
-  ASSERT_EQ(out.events.size(), 1u);
-  EXPECT_NEAR(out.events[0].time, 1.0 - 0.01, 1e-12);
-}
-
-TEST(GuardDip, ThatStaysAboveZeroIsReportedAsANearMiss) {
-  Dip<double> system;
-  system.depth = -1e-4;
-  RunSettings settings{.horizon = 2.0, .max_hops = 0, .row_times = {}, .channels = {}};
-  NoRows sink;
-  Trajectory out;
-  Dip<Jet<1>> rate;
-  rate.depth = system.depth;
-  Engine<Dip, double, Dop853, NoRows> engine(system, system, rate, {}, settings, sink, out);
-  const double z[2] = {0.0, 0.0};
-  engine.Run(Mode::kRolling, z, [](int) { return 0.0; });
-  EXPECT_TRUE(out.events.empty());
-  EXPECT_NEAR(out.nearest_miss, 1e-4, 1e-8);
-}
 
 // ---- starts ------------------------------------------------------------------------------
 
@@ -374,166 +281,35 @@ TEST(LiftoffRule, RestLengthEndsTheStanceWhereTheChordIsUnloaded) {
   EXPECT_NEAR(run.samples[0], 2.0 * q.parameters.r * std::cos(0.5 * run.samples[1]), 1e-11);
 }
 
-// ---- event location ----------------------------------------------------------------------
-
-TEST(EventLocation, TouchdownAndApexLieOnTheirGuards) {
-  for (Law law : kCLegLaws) {
-    const SimulationRequest q = ThickLegRequest(law);
-    const Trajectory run = Simulate(q);
-    ASSERT_EQ(EventNames(run), "touchdown liftoff apex");  // each once
-    const double height = q.parameters.r * (1.0 + std::cos(q.parameters.theta_td));
-    EXPECT_NEAR(run.events[0].y / height, 1.0, kEventResidual);
-    EXPECT_NEAR(run.events[2].vy, 0.0, kEventResidual);
-  }
-}
-
-TEST(EventLocation, LiftoffLiesWhereTheChordForceVanishes) {
-  for (Law law : kCLegLaws) {
-    SimulationRequest q = ThickLegRequest(law);
-    const Trajectory hop = Simulate(q);
-    q.horizon = hop.events[1].time - 1e-13;
-    const std::array times = {q.horizon};
-    const std::array channels = {Channel::kGroundForceX, Channel::kGroundForceY};
-    q.row_times = times;
-    q.channels = channels;
-    const Trajectory run = Simulate(q);
-    const double weight = q.parameters.m * q.parameters.g;
-    // The last 1e-13 s bring 1e-13 s times the crossing rate of force.
-    EXPECT_NEAR(std::hypot(run.samples[0], run.samples[1]) / weight, 0.0,
-                kEventResidual + 1e-13 * std::abs(hop.events[1].crossing_rate));
-  }
-}
-
-TEST(EventLocation, DoesNotDependOnTheSolverTolerance) {
-  // On the same flow the located crossing is exact; what differs is the flow.
+// Sensitivities of more directions than one pass holds are found by several. A sharp effect steers
+// the steps of its own pass alone.
+TEST(StepLimit, InALaterPassOfTheSensitivitiesIsTheOutcomeOfTheRun) {
   SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-  q.integrator.relative_tolerance = 1e-6;
-  q.integrator.absolute_tolerance = 1e-7;
-  const Trajectory run = Simulate(q);
-  EXPECT_NEAR(run.events[2].vy, 0.0, kEventResidual);
-  const double height = q.parameters.r * (1.0 + std::cos(q.parameters.theta_td));
-  EXPECT_NEAR(run.events[0].y / height, 1.0, kEventResidual);
-}
-
-TEST(Rows, AtAnEventShowTheStateOfTheEvent) {
-  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-  const Trajectory hop = Simulate(q);
-  std::vector<double> times;
-  for (const Event& e : hop.events) times.push_back(e.time);
+  const EffectSetting gravity = EffectSetting::Null(*FindEffect("gravity_scale"));
+  const EffectSetting friction = EffectSetting::Null(*FindEffect("guide_coulomb_friction"));
+  const std::array effects = {gravity, friction};
+  q.effects = effects;
+  std::vector<D> directions;
+  for (int i = 0; i < 4; ++i) directions.push_back(D::InitialState(i));
+  for (ParameterId id : {ParameterId::kE, ParameterId::kD, ParameterId::kG, ParameterId::kM})
+    directions.push_back(D::Parameter(id));
+  directions.push_back(D::EffectParameter(0, 0));
+  q.directions = directions;
+  const std::vector<double> times = EvenTimes(0.9 * Simulate(q).end_time, 10);
   q.row_times = times;
   q.channels = kBody;
-  const Trajectory run = Simulate(q);
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const Event& e = hop.events[i];
-    EXPECT_TRUE(MatrixNear({&run.samples[i * 4], 4}, std::array{e.x, e.y, e.vx, e.vy}, 1e-12));
-  }
-}
-
-TEST(Rows, AtOneAndTheSameTimeAreEqual) {
-  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-  const std::array times = {0.12, 0.12, 0.12};
-  q.row_times = times;
-  q.channels = kBody;
-  const Trajectory run = Simulate(q);
-  for (int i = 0; i < 8; ++i) EXPECT_EQ(run.samples[i], run.samples[i + 4]);
-}
-
-TEST(Rows, ChangeTheRunByNoMoreThanRounding) {
-  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-  const Trajectory plain = Simulate(q);
-  const auto times = EvenTimes(plain.end_time, 100);
-  q.row_times = times;
-  q.channels = kBody;
-  // Reading inside a step evaluates the law once more, and the next root search starts elsewhere.
-  EXPECT_TRUE(MatrixNear(Simulate(q).final_state, plain.final_state, 100 * kEps));
-}
-
-TEST(Rows, BeforeTheStartLieOnTheBackwardFlight) {
-  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-  const std::array times = {-0.05, -0.02, 0.0};
-  q.row_times = times;
-  q.channels = kBody;
-  const Trajectory run = Simulate(q);
-  for (int i = 0; i < 3; ++i) {
-    const double t = times[i], g = q.parameters.g;
-    const std::array expected = {q.initial[0] + q.initial[2] * t,
-                                 q.initial[1] + q.initial[3] * t - 0.5 * g * t * t, q.initial[2],
-                                 q.initial[3] - g * t};
-    EXPECT_TRUE(MatrixNear({&run.samples[i * 4], 4}, expected, kClosedForm));
-  }
-}
-
-TEST(Rows, BeforeTheStartWithAirDragFlyForwardToTheStart) {
-  for (IntegratorKind kind :
-       {IntegratorKind::kDop853, IntegratorKind::kErkStep, IntegratorKind::kCvodes}) {
-    SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-    std::array effects = {EffectSetting::Null(*FindEffect("air_drag"))};
-    effects[0].values[0] = 0.5;
-    const std::array times = {-0.07, -0.03};
-    q.integrator.kind = kind;
-    q.effects = effects;
-    q.row_times = times;
-    q.channels = kBody;
-    if (kind == IntegratorKind::kCvodes) q.integrator = {kind, 1e-11, 1e-12};
-    const Trajectory back = Simulate(q);
-    for (int row = 0; row < 2; ++row) {
-      SimulationRequest forward = q;
-      forward.row_times = {};
-      std::copy_n(&back.samples[row * 4], 4, forward.initial.begin());
-      forward.horizon = -times[row];
-      // One-step: rounding; multistep: its tolerance times its steps.
-      const Trajectory there = Simulate(forward);
-      EXPECT_TRUE(MatrixNear({there.final_state.data(), 4}, q.initial,
-                             kind == IntegratorKind::kCvodes ? 1e-8 : 1e-11))
-          << NameOf(kind);
-    }
-  }
-}
-
-TEST(NumericFlight, LiftingOffBelowTouchdownHeightGoesOnAsTheClosedFormDoes) {
-  for (double deg : {15.0, 24.0, 30.0}) {
-    SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-    q.parameters.theta_td = Degrees(deg);
-    q.max_hops = 2;
-    const Trajectory closed = Simulate(q);
-    std::array effects = {EffectSetting::Null(*FindEffect("air_drag"))};
-    effects[0].values[0] = 1e-13;  // too little to see, enough to integrate
-    q.effects = effects;
-    const Trajectory numeric = Simulate(q);
-    EXPECT_EQ(EventNames(numeric), EventNames(closed));
-    for (std::size_t e = 0; e < closed.events.size(); ++e)
-      EXPECT_NEAR(numeric.events[e].time, closed.events[e].time, 1e-10);
-  }
-}
-
-TEST(Flexure, IsReportedByTheExpansionAlone) {
-  for (Law law : kCLegLaws) {
-    const double flexure = Simulate(ThickLegRequest(law)).max_flexure;
-    if (law == Law::kLargeDeflection)
-      EXPECT_GT(flexure, 0.02);
-    else
-      EXPECT_EQ(flexure, 0.0);
-  }
-}
-
-TEST(Flexure, OfASoftLegGoesBeyondWhatTheExpansionCarries) {
-  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-  q.parameters.E *= 0.15;
-  EXPECT_GT(Simulate(q).max_flexure, kMaxFlexure);
-}
-
-TEST(Trajectory, ReusedForAnotherRunHoldsNothingOfTheFirst) {
-  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-  Trajectory reused;
-  q.parameters.E *= 0.25;
-  Simulate(q, reused);
-  q.parameters.E *= 4.0;
-  Simulate(q, reused);
-  const Trajectory fresh = Simulate(q);
-  EXPECT_EQ(reused.final_state, fresh.final_state);
-  EXPECT_EQ(reused.max_flexure, fresh.max_flexure);
-  EXPECT_EQ(reused.events.size(), fresh.events.size());
-  EXPECT_EQ(reused.steps, fresh.steps);
+  const Trajectory smooth = Simulate(q);
+  ASSERT_EQ(smooth.outcome, Outcome::kHopLimit);
+  q.integrator.max_steps = smooth.steps + 1;
+  EXPECT_EQ(Simulate(q).outcome, Outcome::kHopLimit);
+  directions.back() = D::EffectParameter(1, 0);
+  q.directions = directions;
+  EXPECT_EQ(Simulate(q).outcome, Outcome::kStepLimit);
+  q.integrator.max_steps = 100 * smooth.steps;
+  const Trajectory patient = Simulate(q);
+  EXPECT_EQ(patient.outcome, Outcome::kHopLimit);
+  ASSERT_EQ(patient.sensitivities.size(), 10u * 4u * 9u);
+  for (double value : patient.sensitivities) EXPECT_TRUE(std::isfinite(value));
 }
 
 }  // namespace

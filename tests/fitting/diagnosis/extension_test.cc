@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "tests/support/diagnosed_hops.h"
 
@@ -12,6 +15,7 @@ namespace {
 
 using testing::CandidateOf;
 using testing::NullFit;
+using testing::World;
 
 // Refits agree on a log-likelihood to this: they end where it changes by less than 1e-8 of itself.
 constexpr double kSameCost = 0.01;  // nats
@@ -121,6 +125,43 @@ TEST(AtPhysicalBound, IsSaidOfEitherEndOfTheRange) {
   EXPECT_FALSE(Holding("gravity_scale", 0.5 * p.upper).AtPhysicalBound(0));
   EXPECT_TRUE(
       Holding("air_drag", FindEffect("air_drag")->info.parameters[0].upper).AtPhysicalBound(0));
+}
+
+// One train trial, and a limit of steps that a simulation with smooth effects just keeps to.
+NullFit WithStepsForSmoothEffectsOnly() {
+  NullFit fit(World{.train = 1});
+  const TrialProblem& trial = fit.train.front();
+  Trajectory run;
+  TrialEvaluator(fit.null.problem, trial)
+      .Simulate({fit.null.shared, fit.null.starts.front(), true}, fit.null.problem.integrator, run);
+  fit.null.problem.integrator.max_steps = run.steps + 1;
+  return fit;
+}
+
+TEST(LineariseAt, LeavesOutOneCandidateWhoseSimulationFailsAndSaysWhich) {
+  const NullFit fit = WithStepsForSmoothEffectsOnly();
+  const std::array tested = {CandidateOf("touchdown_loss"), CandidateOf("guide_coulomb_friction"),
+                             CandidateOf("gravity_scale")};
+  const Linearisation at = LineariseAt(fit.null, tested, fit.train, 1);
+  EXPECT_EQ(at.failed, std::vector<std::string>{"guide_coulomb_friction"});
+  EXPECT_GT(at.columns.col(0).norm(), 0.0);
+  EXPECT_EQ(at.columns.col(1).norm(), 0.0);
+  EXPECT_GT(at.columns.col(2).norm(), 0.0);
+  const std::array smooth = {tested[0], tested[2]};
+  const Linearisation without = LineariseAt(fit.null, smooth, fit.train, 1);
+  EXPECT_TRUE(without.failed.empty());
+  EXPECT_EQ(without.r, at.r);
+  EXPECT_EQ(without.columns.col(0), at.columns.col(0));
+  EXPECT_EQ(without.columns.col(1), at.columns.col(2));
+}
+
+TEST(LineariseAt, OfNothingElseThanWhatFailsIsTheModelByItself) {
+  const NullFit fit = WithStepsForSmoothEffectsOnly();
+  const std::array tested = {CandidateOf("guide_coulomb_friction")};
+  const Linearisation at = LineariseAt(fit.null, tested, fit.train, 1);
+  EXPECT_EQ(at.failed.size(), 1u);
+  EXPECT_EQ(at.columns.cols(), 1);
+  EXPECT_EQ(at.r, LineariseAt(fit.null, {}, fit.train, 1).r);
 }
 
 }  // namespace

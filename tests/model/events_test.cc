@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include "model/hybrid/engine.h"
+#include "model/integrators/dop853.h"
+#include "tests/support/clocks.h"
+#include "tests/support/requests.h"
+
+namespace hoplab {
+namespace {
+
+using namespace testing;
+
+struct NoRows {
+  template <class... Args>
+  void operator()(Args&&...) const {}
+};
+template <template <class> class System>
+Trajectory RunSystem(double z0, double z1, double horizon, const System<double>& system = {}) {
+  const RunSettings settings{.horizon = horizon, .max_hops = 0, .row_times = {}, .channels = {}};
+  NoRows sink;
+  Trajectory out;
+  Engine<System, double, Dop853, NoRows> engine(system, system, {}, {}, settings, sink, out);
+  const double z[2] = {z0, z1};
+  engine.Run(Mode::kRolling, z, [](int) { return 0.0; });
+  return out;
+}
+
+TEST(SimultaneousEvents, AreFlaggedAndFireInTheOrderOfTheGuards) {
+  const Trajectory run = RunSystem<TwoClocks>(1.0, 1.0, 2.0);
+  ASSERT_EQ(EventNames(run), "rolling_to_toe liftoff");
+  EXPECT_TRUE(run.has_simultaneous_events);
+  EXPECT_TRUE(run.events[0].simultaneous);
+  EXPECT_NEAR(run.events[0].time, 1.0, 1e-15);
+  EXPECT_EQ(run.events[1].time, run.events[0].time);
+}
+
+TEST(SimultaneousEvents, AreNotFlaggedWhenTheyAreApart) {
+  const Trajectory run = RunSystem<TwoClocks>(1.0, 1.00001, 2.0);
+  ASSERT_EQ(EventNames(run), "rolling_to_toe liftoff");
+  EXPECT_FALSE(run.has_simultaneous_events);
+}
+
+TEST(SimultaneousEvents, OfTwoInOneStepTheEarlierFires) {
+  const Trajectory run = RunSystem<TwoClocks>(1.01, 1.0, 2.0);
+  EXPECT_EQ(EventNames(run), "liftoff");
+}
+
+TEST(Chattering, TwoEventsThatUndoEachOtherEndTheRun) {
+  const Trajectory run = RunSystem<BackAndForth>(1.0, 0.0, 2.0);
+  EXPECT_EQ(run.outcome, Outcome::kChattering);
+  EXPECT_NEAR(run.end_time, 1.0, 1e-12);
+}
+
+TEST(ClosedGuard, OfLiftoffAfterAChangeOfStanceFiresWithTheChange) {
+  using T = Jet<kNarrowJet>;
+  LosesSupport<T> system;
+  system.rate = Seeded<T>(1.0, 0, 1.0);
+  const RunSettings settings{.horizon = 2.0, .max_hops = 0, .row_times = {}, .channels = {}};
+  NoRows sink;
+  Trajectory out;
+  Engine<LosesSupport, T, Dop853, NoRows> engine(system, {}, {}, {}, settings, sink, out);
+  const T z[2] = {T(1.0), T(0.5)};
+  engine.Run(Mode::kRolling, z, [](int) { return T(0.0); });
+  ASSERT_EQ(EventNames(out), "rolling_to_toe liftoff");
+  EXPECT_EQ(out.events[1].time, out.events[0].time);
+  EXPECT_EQ(out.final_mode, Mode::kFlight);
+  // t_e = 1/rate, for both.
+  EXPECT_NEAR(engine.event_times()[0], -1.0, 1e-12);
+  EXPECT_NEAR(engine.event_times()[kNarrowJet], -1.0, 1e-12);
+}
+
+TEST(GuardDip, InsideOneStepIsFound) {
+  Dip<double> system;
+  system.depth = 1e-4;  // below zero for 0.02 s of a 2 s step
+  RunSettings settings{.horizon = 2.0, .max_hops = 0, .row_times = {}, .channels = {}};
+  NoRows sink;
+  Trajectory out;
+  Dip<Jet<1>> rate;
+  rate.depth = system.depth;
+  Engine<Dip, double, Dop853, NoRows> engine(system, system, rate, {}, settings, sink, out);
+  const double z[2] = {0.0, 0.0};
+  engine.Run(Mode::kRolling, z, [](int) { return 0.0; });
+  ASSERT_EQ(out.events.size(), 1u);
+  EXPECT_NEAR(out.events[0].time, 1.0 - 0.01, 1e-12);
+}
+
+TEST(GuardDip, ThatStaysAboveZeroIsReportedAsANearMiss) {
+  Dip<double> system;
+  system.depth = -1e-4;
+  RunSettings settings{.horizon = 2.0, .max_hops = 0, .row_times = {}, .channels = {}};
+  NoRows sink;
+  Trajectory out;
+  Dip<Jet<1>> rate;
+  rate.depth = system.depth;
+  Engine<Dip, double, Dop853, NoRows> engine(system, system, rate, {}, settings, sink, out);
+  const double z[2] = {0.0, 0.0};
+  engine.Run(Mode::kRolling, z, [](int) { return 0.0; });
+  EXPECT_TRUE(out.events.empty());
+  EXPECT_NEAR(out.nearest_miss, 1e-4, 1e-8);
+}
+
+TEST(EventLocation, TouchdownAndApexLieOnTheirGuards) {
+  for (Law law : kCLegLaws) {
+    const SimulationRequest q = ThickLegRequest(law);
+    const Trajectory run = Simulate(q);
+    ASSERT_EQ(EventNames(run), "touchdown liftoff apex");  // each once
+    const double height = q.parameters.r * (1.0 + std::cos(q.parameters.theta_td));
+    EXPECT_NEAR(run.events[0].y / height, 1.0, kEventResidual);
+    EXPECT_NEAR(run.events[2].vy, 0.0, kEventResidual);
+  }
+}
+
+TEST(EventLocation, LiftoffLiesWhereTheChordForceVanishes) {
+  for (Law law : kCLegLaws) {
+    SimulationRequest q = ThickLegRequest(law);
+    const Trajectory hop = Simulate(q);
+    q.horizon = hop.events[1].time - 1e-13;
+    const std::array times = {q.horizon};
+    const std::array channels = {Channel::kGroundForceX, Channel::kGroundForceY};
+    q.row_times = times;
+    q.channels = channels;
+    const Trajectory run = Simulate(q);
+    const double weight = q.parameters.m * q.parameters.g;
+    // The last 1e-13 s bring 1e-13 s times the crossing rate of force.
+    EXPECT_NEAR(std::hypot(run.samples[0], run.samples[1]) / weight, 0.0,
+                kEventResidual + 1e-13 * std::abs(hop.events[1].crossing_rate));
+  }
+}
+
+TEST(EventLocation, DoesNotDependOnTheSolverTolerance) {
+  // On the same flow the located crossing is exact; what differs is the flow.
+  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
+  q.integrator.relative_tolerance = 1e-6;
+  q.integrator.absolute_tolerance = 1e-7;
+  const Trajectory run = Simulate(q);
+  EXPECT_NEAR(run.events[2].vy, 0.0, kEventResidual);
+  const double height = q.parameters.r * (1.0 + std::cos(q.parameters.theta_td));
+  EXPECT_NEAR(run.events[0].y / height, 1.0, kEventResidual);
+}
+
+}  // namespace
+}  // namespace hoplab
