@@ -52,7 +52,7 @@ std::string FooterText(const std::string& footer) {
     if (line.starts_with("  ") != in_example) {
       in_example = !in_example;
       text += in_example ? ".RS 4\n.nf\n" : ".fi\n.RE\n.PP\n";
-    } else if (!in_example && text.empty()) {
+    } else if (!in_example && (text.empty() || line.ends_with(':'))) {
       text += ".PP\n";
     }
     text += Roff(in_example ? line.substr(2) : line) + "\n";
@@ -103,7 +103,7 @@ A run folder: \fIrun.json\fR (schema hoplab\-run/1), the tables behind its plots
 std::string ManPage(const CLI::App& app) {
   std::string text = ".\\\" Written by `hoplab man`.\n.TH HOPLAB 1 \"\" \"hoplab " +
                      ProjectVersion() +
-                     "\" \"User Commands\"\n"
+                     "\" \"User Commands\"\n.nh\n.ad l\n"
                      ".SH NAME\nhoplab \\- " +
                      Roff(app.get_description()) +
                      "\n.SH SYNOPSIS\n.B hoplab\n.I COMMAND\n.RI [ OPTIONS ]\n.SH DESCRIPTION\n" +

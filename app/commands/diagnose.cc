@@ -42,7 +42,7 @@ DiagnosisOptions OptionsOf(const DiagnoseSettings& settings) {
 
 void ShowProgress(DiagnosisOptions& options, Progress& progress) {
   options.stage = [&](std::string_view stage) { progress.Stage(std::string(stage)); };
-  options.step = [&](const std::string& text) { progress.Step(text); };
+  options.step = [&](const std::string& text, int done, int of) { progress.Step(text, done, of); };
   const int starts = options.fit.starts;
   options.fit.progress = [&progress, starts](int start, std::string_view stage, int iteration,
                                              double cost) {
