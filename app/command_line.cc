@@ -14,6 +14,7 @@
 #include "app/commands/gait.h"
 #include "app/commands/generate.h"
 #include "app/commands/identify.h"
+#include "app/commands/import.h"
 #include "app/commands/laws.h"
 #include "app/commands/man.h"
 #include "app/commands/optimize.h"
@@ -40,6 +41,7 @@ class CommandLine {
     app_.set_version_flag("--version", "hoplab " + ProjectVersion());
     app_.require_subcommand(1);
     app_.footer("hoplab COMMAND --help says more. Begin with: hoplab fit datasets/rig-drops");
+    AddImportCommand(app_, invocation_);
     AddCheckCommand(app_, invocation_);
     AddFitCommand(app_, invocation_);
     AddDiagnoseCommand(app_, invocation_);

@@ -177,6 +177,15 @@ std::string ScenarioText(const StudyHopper& best, const std::string& origin) {
       scale == 1.0 ? std::string()
                    : fmt::format("# A printed damping coefficient stands for {} times its value.\n",
                                  number(scale));
+  const double toe_mass = At(best.constants, C::kToeMass);
+  const StudyPlacement placement = PlacementOf(toe_mass, At(best.constants, C::kRadius));
+  const std::string toe = toe_mass == 0.0
+                              ? std::string()
+                              : fmt::format(
+                                    "  toe_mass_kg: {}\n"
+                                    "  placement: {{kp_N_m_per_rad: {}, kd_N_m_s_per_rad: {}}}\n",
+                                    number(toe_mass), number(placement.kp_N_m_per_rad),
+                                    number(placement.kd_N_m_s_per_rad));
   return fmt::format(
       "# The hopper of the published study: law thesis in the reading and with the constants that\n"
       "# do best on its tables 6.2 to 6.5 together. The study prints neither; what is here was "
@@ -195,7 +204,7 @@ std::string ScenarioText(const StudyHopper& best, const std::string& origin) {
       "  type: c_leg\n"
       "  body_mass_kg: {}\n"
       "  gravity_m_per_s2: 9.81\n"
-      "  liftoff: {}\n"
+      "  liftoff: {}\n{}"
       "  leg:\n"
       "    rest_radius_m: {}\n"
       "    E_Pa: 22e9\n"
@@ -208,7 +217,7 @@ std::string ScenarioText(const StudyHopper& best, const std::string& origin) {
       "touchdown_angle_deg: 40\n"
       "initial: {{x_m: 0, y_m: 0.30, vx_m_per_s: {}, vy_m_per_s: 0}}\n"
       "stop: {{time_s: 15}}\n{}",
-      origin, damping, number(At(best.constants, C::kMass)), WordOf(best.reading.liftoff),
+      origin, damping, number(At(best.constants, C::kMass)), WordOf(best.reading.liftoff), toe,
       number(At(best.constants, C::kRadius)), number(section.width_m), number(section.thickness_m),
       variant, number(At(best.constants, C::kGain)), number(At(best.constants, C::kStartSpeed)),
       effects);

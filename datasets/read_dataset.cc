@@ -9,6 +9,7 @@
 
 #include "base/input_error.h"
 #include "base/text.h"
+#include "datasets/blank_values.h"
 #include "datasets/read_spec.h"
 #include "datasets/text_file.h"
 #include "datasets/yaml_cursor.h"
@@ -102,6 +103,7 @@ class DatasetReader {
     CheckFormat(root_, kFormat);
     root_.AllowOnly({"format", "name", "title", "source", "mechanism", "controller", "initial",
                      "initial_sigma", "channels", "trials"});
+    CheckNothingIsBlank(root_.node());
     dataset_.origin.place = files_.place + kYamlName;
     dataset_.name = root_.Required("name", "a short name").Name();
     dataset_.title = root_.OptionalText("title");

@@ -21,24 +21,6 @@ struct Field {
 };
 using Fields = std::vector<Field>;
 
-std::string Quoted(const std::string& text) {
-  static constexpr char kHex[] = "0123456789abcdef";
-  std::string out = "\"";
-  for (const char c : text) {
-    const unsigned char byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += {'\\', c};
-    } else if (c == '\n') {
-      out += "\\n";
-    } else if (byte < 0x20 || byte == 0x7F) {
-      out += {'\\', 'x', kHex[byte >> 4], kHex[byte & 15]};
-    } else {
-      out += c;
-    }
-  }
-  return out + "\"";
-}
-
 // The shortest degrees that DegToRad turns into exactly this angle; the nearest where no double
 // does.
 std::string FormatDegrees(double angle_rad) {
@@ -196,7 +178,7 @@ Fields Grouped(const Fields& fields) {
 }
 
 void AppendTrial(const Trial& trial, const Dataset& dataset, std::string* text) {
-  *text += "  - file: " + Quoted(trial.file) + "\n";
+  *text += "  - file: " + QuotedYaml(trial.file) + "\n";
   *text += std::string("    role: ") + RoleName(trial.role) + "\n";
   *text += "    touchdown_angle_deg: " + FormatDegrees(trial.touchdown_angle_rad) + "\n";
   const Fields mechanism =
@@ -215,15 +197,15 @@ void AppendTrial(const Trial& trial, const Dataset& dataset, std::string* text) 
 }
 
 std::string FormatYaml(const Dataset& dataset) {
-  std::string text = "format: hoplab-dataset/1\nname: " + Quoted(dataset.name) + "\n";
-  if (!dataset.title.empty()) text += "title: " + Quoted(dataset.title) + "\n";
+  std::string text = "format: hoplab-dataset/1\nname: " + QuotedYaml(dataset.name) + "\n";
+  if (!dataset.title.empty()) text += "title: " + QuotedYaml(dataset.title) + "\n";
   const SourceSpec& source = dataset.source;
   if (source.kind != SourceKind::kUnstated) {
     text += "source:\n";
     text += source.kind == SourceKind::kRecorded ? "  kind: recorded\n" : "  kind: simulated\n";
-    if (!source.by.empty()) text += "  by: " + Quoted(source.by) + "\n";
-    if (!source.licence.empty()) text += "  licence: " + Quoted(source.licence) + "\n";
-    if (!source.note.empty()) text += "  note: " + Quoted(source.note) + "\n";
+    if (!source.by.empty()) text += "  by: " + QuotedYaml(source.by) + "\n";
+    if (!source.licence.empty()) text += "  licence: " + QuotedYaml(source.licence) + "\n";
+    if (!source.note.empty()) text += "  note: " + QuotedYaml(source.note) + "\n";
   }
   text += "mechanism: " + Flow(Grouped(MechanismFields(dataset.mechanism))) + "\n";
   if (dataset.controller)
@@ -238,6 +220,24 @@ std::string FormatYaml(const Dataset& dataset) {
 }
 
 }  // namespace
+
+std::string QuotedYaml(const std::string& text) {
+  static constexpr char kHex[] = "0123456789abcdef";
+  std::string out = "\"";
+  for (const char c : text) {
+    const unsigned char byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += {'\\', c};
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (byte < 0x20 || byte == 0x7F) {
+      out += {'\\', 'x', kHex[byte >> 4], kHex[byte & 15]};
+    } else {
+      out += c;
+    }
+  }
+  return out + "\"";
+}
 
 std::map<std::string, std::string> FormatDataset(const Dataset& dataset) {
   std::map<std::string, std::string> files;

@@ -13,6 +13,9 @@ struct WriteDatasetOptions {
   bool force = false;  // replace a dataset that stands there
 };
 
+/// `text` in double quotes, as YAML reads it back.
+std::string QuotedYaml(const std::string& text);
+
 /// The files of a dataset by name: dataset.yaml and one CSV for each trial. Reading them gives an
 /// equal dataset, number by number; only a touch-down angle computed in radians may come back one
 /// unit in the last place off, since the file has degrees.

@@ -19,7 +19,7 @@ struct IdentifySettings : RunSettings {
   int budget = IdentificationRequest().budget;
   int keep = IdentificationRequest().keep;
   std::uint64_t seed = IdentificationRequest().seed;
-  bool free_damping_scale = false, free_rolling_blend = false;
+  bool free_damping_scale = false, free_rolling_blend = false, free_toe_mass = false;
   int jobs = 0;
   SolverSettings solver;
 };
@@ -28,10 +28,16 @@ IdentificationRequest RequestOf(const IdentifySettings& settings) {
   IdentificationRequest request;
   request.data = PublishedStudyData();
   request.readings = AllReadings();
+  if (settings.free_toe_mass) {
+    std::erase_if(request.readings, [](const StudyReading& reading) {
+      return reading.liftoff != LiftoffRule::kZeroForce;
+    });
+  }
   for (int i = 0; i < kStudyConstantCount; ++i) {
     const auto c = static_cast<StudyConstant>(i);
     if (c == StudyConstant::kDampingScale && !settings.free_damping_scale) continue;
     if (c == StudyConstant::kRollingBlend && !settings.free_rolling_blend) continue;
+    if (c == StudyConstant::kToeMass && !settings.free_toe_mass) continue;
     request.free.push_back(c);
   }
   At(request.fixed, StudyConstant::kGain) = 1.0;
@@ -52,7 +58,8 @@ Json NewIdentifyRecord(const IdentifySettings& settings) {
   header.options = {{"budget", settings.budget},
                     {"keep", settings.keep},
                     {"free_damping_scale", settings.free_damping_scale},
-                    {"free_rolling_blend", settings.free_rolling_blend}};
+                    {"free_rolling_blend", settings.free_rolling_blend},
+                    {"free_toe_mass", settings.free_toe_mass}};
   RecordSolver(settings.solver, header.options);
   return NewRecord(header);
 }
@@ -66,7 +73,8 @@ std::string OriginText(const IdentifySettings& settings) {
   return "`hoplab identify --budget " + std::to_string(settings.budget) + " --keep " +
          std::to_string(settings.keep) + " --seed " + std::to_string(settings.seed) +
          (settings.free_damping_scale ? " --free-damping-scale" : "") +
-         (settings.free_rolling_blend ? " --free-rolling-blend" : "") + "`, " + date;
+         (settings.free_rolling_blend ? " --free-rolling-blend" : "") +
+         (settings.free_toe_mass ? " --free-toe-mass" : "") + "`, " + date;
 }
 
 ExitCode RunIdentify(const IdentifySettings& settings, Console& console) {
@@ -129,6 +137,8 @@ void AddIdentifyCommand(CLI::App& app, Invocation& invocation) {
                "Search a factor on the printed damping coefficients, too (default: 1)");
   sub.add_flag("--free-rolling-blend", settings->free_rolling_blend,
                "Search the share of the arc laid down in the rolling (effect rolling_law), too");
+  sub.add_flag("--free-toe-mass", settings->free_toe_mass,
+               "Search a mass at the toe, too; lift-off by force only then");
   AddSeedOption(sub, settings->seed, "Of the searches");
   AddJobsOption(sub, settings->jobs);
   AddSolverOptions(sub, settings->solver);

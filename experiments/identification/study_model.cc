@@ -34,6 +34,7 @@ constexpr std::array<StudyConstantInfo, kStudyConstantCount> kInfo = {{
     {"damping_scale", "", "damping over the printed one", 0.1, 3.0},
     {"rolling_blend", "", "share of the arc laid down in the rolling (M27); no reading of the text",
      0.001, 1.0},
+    {"toe_mass", "kg", "mass at the toe (M40-M46); 0: the massless leg", 1e-3, 0.1},
 }};
 
 // The effect by which a hopper rolls between M7 and M8; none where the share is 0.
@@ -61,6 +62,10 @@ SimulationRequest RequestOf(const StudyHopper& hopper, double modulus, double da
   p.I = section.second_moment_m4;
   p.A = section.area_m2;
   p.d = At(hopper.constants, C::kDampingScale) * damping;
+  p.m_toe = At(hopper.constants, C::kToeMass);
+  const StudyPlacement placement = PlacementOf(p.m_toe, p.r);
+  p.kp_place = placement.kp_N_m_per_rad;
+  p.kd_place = placement.kd_N_m_s_per_rad;
   return request;
 }
 
@@ -77,6 +82,8 @@ std::vector<double> StanceRows(const Trajectory& run, double begin) {
   return rows;
 }
 
+// The last five hops again, with rows; a leg with a toe mass from the start, since its toe moves at
+// an apex.
 void FindStiffness(SimulationRequest request, const Trajectory& run, ControlledRun& out) {
   constexpr std::size_t kHops = 5;
   std::vector<const Event*> apexes;
@@ -85,9 +92,13 @@ void FindStiffness(SimulationRequest request, const Trajectory& run, ControlledR
   }
   if (apexes.size() < kHops + 1) return;
   const Event& from = *apexes[apexes.size() - 1 - kHops];
-  request.initial = {from.x, from.y, from.vx, 0.0};
-  request.max_hops = kHops;
-  const std::vector<double> rows = StanceRows(run, from.time);
+  std::vector<double> rows = StanceRows(run, from.time);
+  if (request.parameters.m_toe > 0.0) {
+    for (double& t : rows) t += from.time;
+  } else {
+    request.initial = {from.x, from.y, from.vx, 0.0};
+    request.max_hops = kHops;
+  }
   constexpr std::array kChannels = {Channel::kLegAngle, Channel::kLegLength, Channel::kContact};
   request.row_times = rows;
   request.channels = kChannels;
@@ -118,6 +129,13 @@ StudySection SectionOf(double bending_stiffness_N_m2) {
   return {kWidth, thickness, second_moment, kWidth * thickness};
 }
 
+StudyPlacement PlacementOf(double toe_mass_kg, double rest_radius_m) {
+  constexpr double kRate = 60.0;    // rad/s
+  constexpr double kDamping = 0.7;  // of critical
+  const double inertia = toe_mass_kg * 4.0 * rest_radius_m * rest_radius_m;
+  return {kRate * kRate * inertia, 2.0 * kDamping * kRate * inertia};
+}
+
 std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell& cell,
                                     StudySlopes* slopes) {
   using D = SensitivityDirection;
@@ -135,7 +153,12 @@ std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell&
   request.max_hops = 1;
   const std::vector<EffectSetting> effects = EffectsOf(hopper);
   request.effects = effects;
+  const bool has_toe = request.parameters.m_toe > 0.0;
   if (!effects.empty()) directions.push_back(D::EffectParameter(0, 0));
+  if (has_toe) {
+    for (ParameterId id : {ParameterId::kToeMass, ParameterId::kKpPlace, ParameterId::kKdPlace})
+      directions.push_back(D::Parameter(id));
+  }
   if (slopes) request.directions = directions;
   const Trajectory run = Simulate(request);
   if (!IsComplete(run.outcome) || run.hops < 1) return std::nullopt;
@@ -144,11 +167,13 @@ std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell&
   const double after = kGravity * z[1] + 0.5 * (z[2] * z[2] + z[3] * z[3]);
   const double percent = 100.0 * after / before;
   if (!slopes) return percent;
-  // The energy of a flight does not depend on when it is looked at: slopes at a fixed time will do.
+  // Along the apex, for a body that its leg's vibration shakes in flight.
   std::vector<double> by(directions.size());
   for (std::size_t i = 0; i < by.size(); ++i) {
+    const double apex_time = run.event_time_sensitivities[(run.events.size() - 1) * by.size() + i];
     const auto slope = [&](std::size_t component) {
-      return run.final_sensitivities[component * by.size() + i];
+      return run.final_sensitivities[component * by.size() + i] +
+             run.final_rate[component] * apex_time;
     };
     by[i] = 100.0 / before * (kGravity * slope(1) + z[2] * slope(2) + z[3] * slope(3));
   }
@@ -161,6 +186,13 @@ std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell&
   (*slopes)[static_cast<std::size_t>(C::kStartSpeed)] = speed * (by[5] - percent * speed / before);
   if (!effects.empty())
     (*slopes)[static_cast<std::size_t>(C::kRollingBlend)] = effects[0].values[0] * by[6];
+  if (has_toe) {
+    // The placement is in proportion to m_toe r^2.
+    const std::size_t toe = by.size() - 3;
+    const double placement = p.kp_place * by[toe + 1] + p.kd_place * by[toe + 2];
+    (*slopes)[static_cast<std::size_t>(C::kToeMass)] = p.m_toe * by[toe] + placement;
+    (*slopes)[static_cast<std::size_t>(C::kRadius)] += 2.0 * placement;
+  }
   return percent;
 }
 

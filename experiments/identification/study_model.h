@@ -25,9 +25,10 @@ enum class StudyConstant {
   kGain,
   kStartSpeed,
   kDampingScale,
-  kRollingBlend
+  kRollingBlend,
+  kToeMass
 };
-inline constexpr int kStudyConstantCount = 7;
+inline constexpr int kStudyConstantCount = 8;
 using StudyConstants = std::array<double, kStudyConstantCount>;
 
 struct StudyConstantInfo {
@@ -50,6 +51,14 @@ struct StudySection {
   double width_m, thickness_m, second_moment_m4, area_m2;
 };
 StudySection SectionOf(double bending_stiffness_N_m2);
+
+/// Flight placement of a leg with a toe mass, which the study describes without numbers: torque
+/// coefficients [N m/rad, N m s/rad] that bring the leg to its angle like a damped oscillator of
+/// 60 rad/s, well within a flight of 0.3 s.
+struct StudyPlacement {
+  double kp_N_m_per_rad, kd_N_m_s_per_rad;
+};
+StudyPlacement PlacementOf(double toe_mass_kg, double rest_radius_m);
 
 /// The study's hopper: what a run of it needs.
 struct StudyHopper {

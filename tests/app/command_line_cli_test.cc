@@ -81,7 +81,7 @@ TEST(HelpCli, OfEveryCommandFitsAScreenWithAnExample) {
 
 TEST(HelpCli, TheFirstExampleOfEveryCommandRuns) {
   const TempFolder temp;
-  for (const char* folder : {"datasets", "experiments"})
+  for (const char* folder : {"datasets", "docs", "experiments"})
     std::filesystem::create_directory_symlink(std::filesystem::path(HOPLAB_SOURCE_DIR) / folder,
                                               temp.path() / folder);
   std::vector<std::string> commands = Commands();

@@ -48,7 +48,7 @@ void WriteMyLeg(const std::filesystem::path& folder) {
 
 TEST(ReadmeCli, EveryCommandItShowsRuns) {
   const TempFolder temp;
-  for (const char* folder : {"datasets", "experiments"})
+  for (const char* folder : {"datasets", "experiments", "docs"})
     std::filesystem::create_directory_symlink(std::filesystem::path(HOPLAB_SOURCE_DIR) / folder,
                                               temp.path() / folder);
   std::filesystem::create_directory(temp.path() / "my-leg");

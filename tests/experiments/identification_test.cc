@@ -17,7 +17,7 @@ using C = StudyConstant;
 
 StudyHopper SomeHopper() {
   StudyHopper hopper;
-  hopper.constants = {0.8, 0.09, 6.0, 2.5, 0.9, 1.0, 0.0};
+  hopper.constants = {0.8, 0.09, 6.0, 2.5, 0.9, 1.0, 0.0, 0.0};
   return hopper;
 }
 
@@ -42,7 +42,7 @@ IdentificationRequest RequestFor(const StudyData& data, std::vector<StudyReading
   request.data = data;
   request.readings = std::move(readings);
   request.free = {C::kMass, C::kRadius, C::kBendingStiffness, C::kGain, C::kStartSpeed};
-  request.fixed = {1.0, 0.1, 1.0, 1.0, 1.0, 1.0, 0.0};
+  request.fixed = {1.0, 0.1, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0};
   request.budget = 400;
   request.keep = 2;
   request.keep_to_the_end = 1;
@@ -55,11 +55,12 @@ TEST(StudyModel, SlopesOfTheEnergyLeftMatchDifferences) {
   hopper.integrator.absolute_tolerance = 1e-12;
   const EnergyCell cell{DegToRad(35.0), 3.0, 0.0};
   At(hopper.constants, C::kRollingBlend) = 0.3;
+  At(hopper.constants, C::kToeMass) = 0.02;
   StudySlopes slopes;
   ASSERT_TRUE(EnergyPercent(hopper, cell, &slopes).has_value());
   constexpr double kStep = 1e-4;
   for (const C c : {C::kMass, C::kRadius, C::kBendingStiffness, C::kStartSpeed, C::kDampingScale,
-                    C::kRollingBlend}) {
+                    C::kRollingBlend, C::kToeMass}) {
     StudyHopper above = hopper, below = hopper;
     At(above.constants, c) *= std::exp(kStep);
     At(below.constants, c) *= std::exp(-kStep);
@@ -69,6 +70,19 @@ TEST(StudyModel, SlopesOfTheEnergyLeftMatchDifferences) {
                 1e-5 * (1.0 + std::abs(difference)))
         << InfoOf(c).name;
   }
+}
+
+// The energy left goes to the massless leg's in proportion to the toe mass.
+TEST(StudyModel, AVanishingToeMassLeavesTheMasslessLeg) {
+  const EnergyCell cell{DegToRad(35.0), 3.0, 0.0};
+  const double massless = *EnergyPercent(SomeHopper(), cell);
+  const auto off = [&](double toe_mass) {
+    StudyHopper hopper = SomeHopper();
+    At(hopper.constants, C::kToeMass) = toe_mass;
+    return *EnergyPercent(hopper, cell) - massless;
+  };
+  EXPECT_GT(std::abs(off(2e-3)), 0.01);
+  EXPECT_NEAR(off(2e-3) / off(1e-3), 2.0, 0.2);
 }
 
 // Mass, E I, gain and damping of one factor: the same motion, every stiffness times the factor. So

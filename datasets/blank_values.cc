@@ -1,0 +1,105 @@
+#include "datasets/blank_values.h"
+
+#include <optional>
+
+#include "base/input_error.h"
+#include "datasets/read_spec.h"
+
+namespace hoplab {
+
+const char* const kTouchdownAngleHint =
+    "toe ahead positive: from the set-up or a still of the film";
+
+const std::vector<NeededValue>& NeededValues(MechanismType type) {
+  static const std::vector<NeededValue> kCLeg = {
+      {"body_mass_kg", "all that the leg carries, itself included: weigh it"},
+      {"gravity_m_per_s2", "9.81, less under a counterweight"},
+      {"leg.rest_radius_m", "of the unloaded leg's centre line: half the distance hip to toe"},
+      {"leg.E_Pa", "Young's modulus, the start of the fit: a data sheet will do"},
+      {"leg.G_Pa", "shear modulus: a data sheet"},
+      {"leg.width_m", "of the strip, across the plane of motion: calliper"},
+      {"leg.thickness_m", "of the strip, in the plane of motion: calliper"},
+      {"leg.damping_N_s_per_m", "the start of the fit: 1 will do"},
+  };
+  static const std::vector<NeededValue> kStraight = {
+      {"body_mass_kg", "all that the leg carries, itself included: weigh it"},
+      {"gravity_m_per_s2", "9.81, less under a counterweight"},
+      {"leg.rest_length_m", "hip to toe, unloaded: tape measure"},
+      {"leg.stiffness_N_per_m", "of the spring, the start of the fit: a data sheet will do"},
+      {"leg.damping_N_s_per_m", "the start of the fit: 1 will do"},
+  };
+  static const std::vector<NeededValue> kBall = {
+      {"body_mass_kg", "weigh it"},
+      {"gravity_m_per_s2", "9.81"},
+      {"ball.radius_m", "half its diameter"},
+      {"ball.restitution", "speed after over speed before a bounce, the start of the fit"},
+      {"ball.tangential_loss", "share of the speed along the ground lost in a bounce: 0.1 will do"},
+  };
+  return type == MechanismType::kCLeg ? kCLeg : type == MechanismType::kBall ? kBall : kStraight;
+}
+
+namespace {
+
+std::optional<MechanismType> TypeOf(const YamlNode& mechanism) {
+  const YamlNode* type = mechanism.Find("type");
+  if (type == nullptr) return std::nullopt;
+  for (const MechanismType t :
+       {MechanismType::kCLeg, MechanismType::kStraightLeg, MechanismType::kBall})
+    if (type->text == MechanismTypeName(t)) return t;
+  return std::nullopt;
+}
+
+const YamlNode* FindDotted(const YamlNode& root, const std::string& key) {
+  const std::size_t dot = key.find('.');
+  const YamlNode* node = root.Find(key.substr(0, dot));
+  if (dot == std::string::npos || node == nullptr) return node;
+  return FindDotted(*node, key.substr(dot + 1));
+}
+
+bool IsBlank(const YamlNode* node) {
+  return node != nullptr && node->kind == YamlNode::Kind::kNull;
+}
+
+}  // namespace
+
+std::vector<BlankValue> FindBlankValues(const YamlNode& dataset) {
+  std::vector<BlankValue> blanks;
+  const YamlNode* mechanism = dataset.Find("mechanism");
+  const std::optional<MechanismType> type =
+      mechanism == nullptr ? std::nullopt : TypeOf(*mechanism);
+  if (!type) return blanks;
+  for (const NeededValue& needed : NeededValues(*type)) {
+    const YamlNode* node = FindDotted(*mechanism, needed.key);
+    if (IsBlank(node)) blanks.push_back({node->place, "mechanism." + needed.key, needed.hint});
+  }
+  const YamlNode* trials = dataset.Find("trials");
+  if (trials == nullptr || *type == MechanismType::kBall) return blanks;
+  for (std::size_t i = 0; i < trials->items.size(); ++i) {
+    const YamlNode* angle = trials->items[i].Find("touchdown_angle_deg");
+    if (IsBlank(angle))
+      blanks.push_back({angle->place, "trials[" + std::to_string(i) + "].touchdown_angle_deg",
+                        kTouchdownAngleHint});
+  }
+  return blanks;
+}
+
+void CheckNothingIsBlank(const YamlNode& dataset) {
+  const std::vector<BlankValue> blanks = FindBlankValues(dataset);
+  // One alone reads best as any other missing key does.
+  if (blanks.size() < 2) return;
+  std::string list;
+  for (std::size_t i = 0; i < blanks.size(); ++i) {
+    // Trials all want the same: told of the first, with the lines of the others.
+    const bool likewise = i > 0 && blanks[i].hint == blanks[i - 1].hint;
+    const bool second = likewise && (i < 2 || blanks[i - 2].hint != blanks[i].hint);
+    const std::string line = blanks[i].place.substr(blanks[i].place.rfind(':') + 1);
+    list += likewise ? (second ? ", likewise line " : ", ") + line
+                     : "\n  line " + line + "  " + blanks[i].key + "  (" + blanks[i].hint + ")";
+  }
+  const std::string& place = blanks.front().place;
+  throw InputError({place.substr(0, place.rfind(':')), "",
+                    std::to_string(blanks.size()) + " values are still blank, and a fit needs them",
+                    "Write each behind its key:" + list});
+}
+
+}  // namespace hoplab

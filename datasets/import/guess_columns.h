@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/import/column_map.h"
+
+namespace hoplab {
+
+// Guesses at what a log's columns are, from their names and from physics: between contacts a height
+// falls at 9.81 m/s^2, which tells the vertical axis, its sign and its unit. Each says why; none is
+// used unless the user confirms it.
+
+/// The column of time: the one of that name, else the first that increases throughout. Throws
+/// InputError if there is none.
+MappedColumn GuessTime(const Table& table);
+
+/// Channels by what their columns are called and how they move. `map` has the time. A channel's
+/// unit is left empty where the file states it.
+std::vector<MappedColumn> GuessChannels(const Table& table, const ColumnMap& map);
+
+struct GuessedUnit {
+  Unit unit;
+  std::string why;
+};
+
+/// The unit of a column from its numbers: a time by its steps, a height by how it falls, another
+/// length as one that is known already; nothing for the rest.
+std::optional<GuessedUnit> GuessUnit(const Table& table, const ColumnMap& map,
+                                     const MappedColumn& mapped);
+
+}  // namespace hoplab

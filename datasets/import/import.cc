@@ -1,0 +1,150 @@
+#include "datasets/import/import.h"
+
+#include <algorithm>
+
+#include "base/input_error.h"
+#include "base/text.h"
+#include "datasets/import/dataset_text.h"
+#include "datasets/read_dataset.h"
+#include "datasets/yaml_tree.h"
+
+namespace hoplab {
+namespace {
+
+// "run 17.mot" gives "run-17.csv", its second part "run-17-2.csv".
+std::string TrialFileName(const std::filesystem::path& log, const std::string& part) {
+  std::string name = log.stem().string();
+  for (char& c : name) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                       c == '.' || c == '_' || c == '-';
+    if (!plain) c = '-';
+  }
+  if (name.empty() || name.front() == '.' || name.front() == '-') name.insert(0, "trial");
+  return name + part + ".csv";
+}
+
+// The map of the first log as entries for the others.
+std::vector<MapEntry> EntriesOf(const Table& table, const ColumnMap& map) {
+  std::vector<MapEntry> entries;
+  for (const MappedColumn& mapped : map.columns) {
+    // Positions stand for names that are not unique.
+    const std::string& name = table.columns[mapped.column].name;
+    const auto alike = std::count_if(table.columns.begin(), table.columns.end(),
+                                     [&](const SourceColumn& c) { return c.name == name; });
+    entries.push_back({mapped.channel, alike == 1 ? name : "#" + std::to_string(mapped.column + 1),
+                       mapped.negate,
+                       mapped.unit.dimension == Dimension::kNone ? "" : mapped.unit.name});
+  }
+  return entries;
+}
+
+class Importer {
+ public:
+  explicit Importer(const ImportRequest& request) : request_(request), entries_(request.map) {}
+
+  ImportResult Import() {
+    for (const LogRequest& log : request_.logs) AddLog(log);
+    CheckSamples();
+    WriteYaml();
+    return std::move(result_);
+  }
+
+ private:
+  void AddLog(const LogRequest& log) {
+    const Table table = ReadLog(log.file, request_.format.value_or(FormatOfFile(log.file)));
+    const bool first = result_.logs.empty();
+    const ColumnMap map = ResolveColumns(table, entries_, request_.options.rate_hz.has_value());
+    if (first) {
+      Describe(table, map);
+      entries_ = EntriesOf(table, map);
+    }
+    for (const std::string& note : table.notes) result_.notes.push_back(table.file + ": " + note);
+    for (const std::string& warning : map.warnings) result_.notes.push_back(warning);
+
+    const std::vector<LogCut> cuts = log.cuts.empty() ? std::vector<LogCut>(1) : log.cuts;
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      const std::string part = cuts.size() > 1 ? "-" + std::to_string(i + 1) : "";
+      AddTrial(table, map, log, cuts[i], TrialFileName(log.file, part));
+    }
+  }
+
+  void AddTrial(const Table& table, const ColumnMap& map, const LogRequest& log, const LogCut& cut,
+                const std::string& file) {
+    ImportedLog imported;
+    imported.source = table.file;
+    imported.file = file;
+    imported.format = table.format;
+    imported.role = log.role;
+    TraceOptions options = request_.options;
+    options.from_s = cut.from_s;
+    options.to_s = cut.to_s;
+    imported.trace = TraceOfTable(table, map, options);
+    // Should a trace be refused after all, its message is the format's own.
+    ParseTraceCsv(imported.trace.csv, imported.file);
+    if (!result_.files.emplace(imported.file, std::move(imported.trace.csv)).second)
+      throw InputError({table.file, imported.file, "is the trial of an earlier file already",
+                        "Rename one of the two files."});
+    result_.logs.push_back(std::move(imported));
+  }
+
+  void Describe(const Table& table, const ColumnMap& map) {
+    result_.map = map;
+    std::vector<bool> used(table.columns.size(), false);
+    for (const MappedColumn& mapped : map.columns) {
+      result_.columns.push_back(table.columns[mapped.column].name);
+      result_.map_texts.push_back(MapText(table, mapped));
+      used[mapped.column] = true;
+    }
+    for (std::size_t i = 0; i < used.size(); ++i)
+      if (!used[i]) result_.unused.push_back(table.columns[i].name);
+  }
+
+  // A channel may be missing in some logs, not in all.
+  void CheckSamples() const {
+    for (std::size_t i = 0; i < result_.columns.size(); ++i) {
+      const std::optional<ChannelId>& channel = result_.map.columns[i].channel;
+      if (!channel) continue;
+      const bool found =
+          std::any_of(result_.logs.begin(), result_.logs.end(), [&](const ImportedLog& log) {
+            const auto missing = log.trace.missing.find(*channel);
+            return missing == log.trace.missing.end() || missing->second < log.trace.rows;
+          });
+      if (!found)
+        throw InputError({result_.logs.front().source, "column " + Printable(result_.columns[i]),
+                          "has no sample at all",
+                          std::string("Map another column to ") + ChannelName(*channel) +
+                              " or leave the channel out."});
+    }
+  }
+
+  void WriteYaml() {
+    DatasetText text;
+    text.name = request_.name;
+    text.type = request_.type;
+    text.values = request_.values;
+    for (std::size_t i = 0; i < result_.columns.size(); ++i) {
+      const MappedColumn& mapped = result_.map.columns[i];
+      text.note += (i == 0 ? "imported: " : ", ") + TargetName(mapped.channel) + " = " +
+                   (mapped.negate ? "-" : "") + Printable(result_.columns[i], 200) +
+                   (mapped.unit.dimension == Dimension::kNone ? "" : " in " + mapped.unit.name);
+      if (mapped.channel) text.channels.push_back(*mapped.channel);
+    }
+    std::sort(text.channels.begin(), text.channels.end());
+    for (const ImportedLog& log : result_.logs) text.trials.push_back({log.file, log.role});
+    // With ones in the blanks it must be a dataset like any other.
+    ReadDatasetText(FormatDatasetText(text, "1"), result_.files, request_.name);
+    std::string yaml = FormatDatasetText(text, "");
+    result_.blanks = FindBlankValues(ParseYaml(yaml, "dataset.yaml"));
+    result_.files["dataset.yaml"] = std::move(yaml);
+  }
+
+  const ImportRequest& request_;
+  std::vector<MapEntry> entries_;
+  ImportResult result_;
+};
+
+}  // namespace
+
+ImportResult ImportLogs(const ImportRequest& request) { return Importer(request).Import(); }
+
+}  // namespace hoplab
