@@ -220,7 +220,7 @@ TEST(DiagnosisStatistics, AnEffectOfTheWrongSignIsNotNamed) {
     itself += o.Holds(o.truth.effects.front().name);
   }
   for (const auto& [name, c] : counts) {
-    const auto share = [&](int part) { return Cell("%.0f", PerCent(part, c.cases)); };
+    const auto share = [cases = c.cases](int part) { return Cell("%.0f", PerCent(part, cases)); };
     report.Row({name, Cell("%d", c.cases), share(c.itself), share(c.adequate), share(c.unexplained),
                 share(c.other)});
   }
