@@ -326,11 +326,6 @@ Json ResolvedOptions(const std::string& dataset_argument, const DiagnosisOptions
 
 }  // namespace
 
-std::string DiagnosisRun::Failure() const {
-  if (diagnosis.interrupted) return "interrupted before there was a verdict";
-  return diagnosis.refusal;
-}
-
 Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument,
                      const DiagnosisOptions& options, const DiagnosisRun& run) {
   const Diagnosis& d = run.diagnosis;

@@ -41,6 +41,13 @@ Json ProfilesRecord(const FitRun& run) {
   return out;
 }
 
+// The cost of the train trials and its derivative by the shared values, starts held.
+Json ObjectiveRecord(const FitProblem& problem, const std::optional<Objective>& objective) {
+  const bool known = objective && objective->complete;
+  return {{"cost", known ? NumberOrNull(objective->cost) : Json(nullptr)},
+          {"gradient", known ? ByParameter(problem, objective->gradient) : Json(nullptr)}};
+}
+
 // What the terminal says in words, for the report to say the same.
 Json FitSentences(const FitRun& run) {
   const bool assessed = run.uncertainty.has_value();
@@ -77,6 +84,8 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
       run.uncertainty
           ? IdentifiabilityRecord(run.problem, run.uncertainty->identifiability)
           : Json{{"condition_number", nullptr}, {"weak_directions", nullptr}, {"rank", nullptr}};
+  record["objective"] = {{"at_nominal", ObjectiveRecord(run.problem, run.at_nominal)},
+                         {"at_optimum", ObjectiveRecord(run.problem, run.at_optimum)}};
   record["gradient_check"] = CertificateRecord(run.certificate);
   record["starts"] = StartsRecord(run);
   record["best_start"] = run.has_result ? Json(run.fit.best_start) : Json(nullptr);

@@ -48,6 +48,15 @@ void AddProfiles(const FitRunOptions& options, const std::vector<int>& targets, 
   }
 }
 
+void AddObjectives(const FitOptions& fit, const std::vector<TrialProblem>& train, FitRun& run) {
+  std::vector<std::array<double, 4>> nominal;
+  for (const TrialProblem& trial : train) nominal.push_back(trial.start);
+  run.at_nominal = EvaluateObjective(run.problem, train, InitialShared(run.problem), nominal,
+                                     fit.loss, fit.jobs);
+  run.at_optimum =
+      EvaluateObjective(run.problem, train, run.fit.shared, run.fit.starts, fit.loss, fit.jobs);
+}
+
 }  // namespace
 
 int FitRun::finished_starts() const {
@@ -107,6 +116,7 @@ FitRun RunFit(const Dataset& dataset, const FitRunOptions& options) {
   const std::vector<TrialProblem> train = TrialsOf(run.problem, TrialRole::kTrain);
   run.uncertainty = AssessUncertainty(run.problem, train, run.fit.shared, run.fit.starts,
                                       options.fit.loss, options.fit.jobs);
+  AddObjectives(options.fit, train, run);
   run.certificate =
       CertifyGradients(run.problem, train, run.fit.shared, run.fit.starts, options.fit.jobs);
   run.trials = AssessTrials(run.problem, run.fit, to_the_end);

@@ -11,6 +11,7 @@
 #include "fitting/fit.h"
 #include "fitting/fit_dataset.h"
 #include "fitting/gradient_certificate.h"
+#include "fitting/objective.h"
 #include "fitting/profile.h"
 #include "fitting/trial_errors.h"
 #include "fitting/uncertainty.h"
@@ -40,6 +41,8 @@ struct FitRun {
   bool has_result = false;
   /// Stopped from outside; profiles may be missing, starts are.
   bool interrupted = false;
+  /// Of the train trials, where the search begins (nominal values and starts) and at the optimum.
+  std::optional<Objective> at_nominal, at_optimum;
   std::optional<Uncertainty> uncertainty;
   std::optional<GradientCertificate> certificate;
   std::vector<TrialErrors> trials;

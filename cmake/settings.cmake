@@ -4,10 +4,15 @@ target_include_directories(hoplab_settings INTERFACE ${PROJECT_SOURCE_DIR} ${PRO
 target_compile_options(hoplab_settings INTERFACE -Wall -Wextra -Wpedantic -Werror -Wno-psabi
                        # Settings structs are filled by name; the rest keep their defaults.
                        -Wno-missing-field-initializers)
+# A failed check names its file within the project, wherever that was built.
+target_compile_options(hoplab_settings INTERFACE -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports false positives inside Eigen and std::string at -O3.
   target_compile_options(hoplab_settings INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds
                                                    -Wno-stringop-overread -Wno-restrict)
+  # Nobody puts other functions in place of ours at load time: position-independent code may inline
+  # them as a program's own code does.
+  target_compile_options(hoplab_settings INTERFACE -fno-semantic-interposition)
 endif()
 if(HOPLAB_SANITIZE)
   target_compile_options(hoplab_settings INTERFACE -fsanitize=address,undefined

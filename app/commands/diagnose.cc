@@ -70,13 +70,7 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
   Progress progress(console, settings.quiet);
   options.fit.stop = interrupt.flag();
   ShowProgress(options, progress);
-  DiagnosisRun run;
-  run.diagnosis = Diagnose(dataset, options);
-  if (!run.diagnosis.before.trials.empty()) {
-    const auto& extension = run.diagnosis.extension;
-    run.energy =
-        LedgerOf(run.diagnosis.null, run.diagnosis.before, extension ? &extension->after : nullptr);
-  }
+  const DiagnosisRun run = RunDiagnosis(dataset, options);
   progress.Clear();
 
   Json record = DiagnosisRecord(dataset, settings.problem.dataset, options, run);

@@ -106,7 +106,7 @@ TEST_F(FitCli, JsonIsAllThatStandsOnStandardOutput) {
   const ProcessResult run = Hoplab({"fit", drops_, "--json", "--out", "run"});
   ASSERT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.out, ReadText(temp_.path() / "run" / "run.json"));
-  EXPECT_NO_THROW(nlohmann::json::parse(run.out));
+  EXPECT_TRUE(nlohmann::json::accept(run.out));
 }
 
 std::string WithoutSeconds(const std::string& record) {

@@ -35,7 +35,7 @@ TEST(RunRecord, NumbersReadBackExactly) {
 }
 
 TEST(RunRecord, BytesThatAreNoTextDoNotStopIt) {
-  EXPECT_NO_THROW(Json::parse(TextOf(FailureRecord("fit", "caf\xe9"))));
+  EXPECT_TRUE(Json::accept(TextOf(FailureRecord("fit", "caf\xe9"))));
 }
 
 TEST(CsvText, QuotesAndEmptyCells) {
