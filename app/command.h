@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "app/console.h"
@@ -12,18 +13,22 @@ namespace hoplab {
 /// What the command line asked for: filled while it is parsed, run afterwards.
 struct Invocation {
   std::string command;
-  bool json = false;  // run.json on standard output, and nothing else there
+  bool json = false;   // run.json on standard output, and nothing else there
+  bool plain = false;  // no escape sequence anywhere
   std::function<ExitCode(Console&)> run;
 };
 
-/// Adds the options every subcommand has (its settings live in `Settings`, with a `json` among
-/// them;
-/// `--quiet` is taken by those without progress, too), and lets `invocation` run `body` with them.
+/// Adds the options every subcommand has, `--quiet` and `--plain` to those without progress, too,
+/// and lets `invocation` run `body` with its settings, `json` and perhaps `quiet` among them.
 template <class Settings, class Body>
 void OnParsed(CLI::App& sub, Invocation& invocation, std::shared_ptr<Settings> settings,
               Body body) {
-  if (sub.get_option_no_throw("--quiet") == nullptr)
-    sub.add_flag("--quiet")->description("No progress on standard error");
+  const char* const kQuiet = "No progress on standard error";
+  if constexpr (requires { settings->quiet; })
+    sub.add_flag("--quiet", settings->quiet, kQuiet);
+  else
+    sub.add_flag("--quiet")->description(kQuiet);
+  sub.add_flag("--plain", invocation.plain, "No colours, no line that is written over");
   sub.add_flag("--json", settings->json, "Print run.json on standard output, nothing else");
   sub.callback([name = sub.get_name(), &invocation, settings, body] {
     invocation.command = name;

@@ -6,20 +6,24 @@
 #include "app/command.h"
 #include "app/commands/check.h"
 #include "app/commands/compare.h"
+#include "app/commands/completion.h"
 #include "app/commands/diagnose.h"
 #include "app/commands/effects.h"
+#include "app/commands/explain.h"
 #include "app/commands/fit.h"
 #include "app/commands/gait.h"
 #include "app/commands/generate.h"
 #include "app/commands/identify.h"
 #include "app/commands/import.h"
 #include "app/commands/laws.h"
+#include "app/commands/man.h"
 #include "app/commands/optimize.h"
 #include "app/commands/report.h"
 #include "app/commands/reproduce.h"
 #include "app/commands/simulate.h"
 #include "app/commands/sweep.h"
 #include "app/commands/version.h"
+#include "app/help_text.h"
 #include "app/run_record.h"
 #include "app/usage_error.h"
 #include "app/version.h"
@@ -29,13 +33,11 @@
 namespace hoplab {
 namespace {
 
-constexpr std::size_t kNameColumn = 30;
-
 class CommandLine {
  public:
   explicit CommandLine(Console& console) : console_(console) {
     app_.name("hoplab");
-    app_.get_formatter()->column_width(kNameColumn);
+    app_.formatter(std::make_shared<HelpFormatter>(console.out_columns));
     app_.set_version_flag("--version", "hoplab " + ProjectVersion());
     app_.require_subcommand(1);
     app_.footer("hoplab COMMAND --help says more. Begin with: hoplab fit datasets/rig-drops");
@@ -54,6 +56,9 @@ class CommandLine {
     AddReportCommand(app_, invocation_);
     AddLawsCommand(app_, invocation_);
     AddEffectsCommand(app_, invocation_);
+    AddExplainCommand(app_, invocation_);
+    AddCompletionCommand(app_, invocation_);
+    AddManCommand(app_, invocation_);
     AddVersionCommand(app_, invocation_);
   }
 
@@ -66,8 +71,9 @@ class CommandLine {
       app_.exit(done, console_.out, console_.err);
       return ExitCode::kDone;
     } catch (const CLI::ParseError& error) {
+      const std::string hint = OptionHint();
       return Fail(ExitCode::kWrongUse,
-                  Stop(error.what()) + OptionHint() + " See " + HelpCall() + ".");
+                  (hint.empty() ? Stop(error.what()) : hint) + " See " + HelpCall() + ".");
     } catch (const UsageError& error) {
       return Fail(ExitCode::kWrongUse, Stop(error.what()) + " See " + HelpCall() + ".");
     } catch (const InputError& error) {
@@ -94,6 +100,7 @@ class CommandLine {
       throw UsageError("there is no command " + Printable(first) + ". " + DidYouMean(first, known));
     }
     app_.parse(argc, argv);
+    if (invocation_.plain) MakePlain(console_);
     const ExitCode code = invocation_.run(console_);
     console_.out.flush();
     if (!console_.out) throw InputError({"standard output", "", "cannot be written", ""});
@@ -112,7 +119,7 @@ class CommandLine {
     return text;
   }
 
-  // The long option an unknown one was probably meant to be.
+  // An unknown long option with the one it was probably meant to be, whatever else is wrong.
   std::string OptionHint() {
     if (command_.empty()) return "";
     const CLI::App* sub = app_.get_subcommand(command_);
@@ -123,7 +130,7 @@ class CommandLine {
     for (const std::string& extra : app_.remaining(true)) {
       if (!extra.starts_with("--")) continue;
       if (const auto nearest = NearestWord(extra.substr(0, extra.find('=')), known))
-        return " Did you mean " + *nearest + "?";
+        return Printable(extra) + ": there is no such option. Did you mean " + *nearest + "?";
     }
     return "";
   }

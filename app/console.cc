@@ -1,9 +1,14 @@
 #include "app/console.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <optional>
+
+#include "base/text.h"
 
 namespace hoplab {
 namespace {
@@ -22,6 +27,21 @@ std::string_view CodeOf(Emphasis emphasis) {
   return "";
 }
 
+// Below this nothing could be read; a terminal of no size is none.
+constexpr std::size_t kLeastColumns = 40;
+
+// Columns of the terminal behind `descriptor`: what COLUMNS says, else what the terminal says.
+std::optional<std::size_t> ColumnsOf(int descriptor) {
+  if (const char* said = std::getenv("COLUMNS")) {
+    const std::optional<double> columns = ParseDouble(said);
+    if (columns && *columns >= kLeastColumns && *columns < 1e4)
+      return static_cast<std::size_t>(*columns);
+  }
+  winsize size{};
+  if (ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return std::nullopt;
+  return std::max<std::size_t>(size.ws_col, kLeastColumns);
+}
+
 }  // namespace
 
 Console ProcessConsole() {
@@ -30,8 +50,18 @@ Console ProcessConsole() {
   const bool dumb = !term || std::string_view(term) == "dumb";
   const bool wanted = !(no_color && *no_color) && !dumb;
   const bool err_terminal = isatty(STDERR_FILENO) != 0;
-  return {std::cout, std::cerr, wanted && isatty(STDOUT_FILENO) != 0, wanted && err_terminal,
-          err_terminal && !dumb};
+  const std::size_t out_columns = ColumnsOf(STDOUT_FILENO).value_or(kReportWidth);
+  return {.out = std::cout,
+          .err = std::cerr,
+          .out_colours = wanted && isatty(STDOUT_FILENO) != 0,
+          .err_colours = wanted && err_terminal,
+          .err_live = err_terminal && !dumb,
+          .out_columns = std::min(out_columns, kReportWidth),
+          .err_columns = ColumnsOf(STDERR_FILENO).value_or(kNoWidth)};
+}
+
+void MakePlain(Console& console) {
+  console.out_colours = console.err_colours = console.err_live = false;
 }
 
 std::string Styled(std::string_view text, Emphasis emphasis, bool colours) {

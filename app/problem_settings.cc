@@ -1,21 +1,11 @@
 #include "app/problem_settings.h"
 
 #include <cmath>
-#include <thread>
 
 #include "app/usage_error.h"
 #include "base/text.h"
 
 namespace hoplab {
-
-void AddIntegratorOptions(CLI::App& sub, std::string& integrator, double& tolerance) {
-  sub.add_option("--integrator", integrator, "dop853 (default), erkstep or cvodes")
-      ->check(CLI::IsMember({"dop853", "erkstep", "cvodes"}))
-      ->option_text("NAME");
-  sub.add_option("--tolerance", tolerance, "Relative tolerance of a step (default 1e-9)")
-      ->check(CLI::Range(1e-14, 1e-3))
-      ->option_text("NUMBER");
-}
 
 void AddProblemOptions(CLI::App& sub, ProblemSettings& settings) {
   sub.add_option("DATASET", settings.dataset, "Folder with a dataset.yaml")->required();
@@ -33,20 +23,8 @@ void AddProblemOptions(CLI::App& sub, ProblemSettings& settings) {
       ->delimiter(',')
       ->option_text("EFFECT,...")
       ->allow_extra_args(false);
-  AddIntegratorOptions(sub, settings.integrator, settings.tolerance);
-  sub.add_option("--jobs", settings.jobs, "Threads (default: all cores); never changes a result")
-      ->check(CLI::Range(1, 1024))
-      ->option_text("N");
-}
-
-IntegratorOptions IntegratorOptionsOf(const std::string& integrator, double tolerance) {
-  return {*FindIntegrator(integrator), tolerance, 0.1 * tolerance};
-}
-
-int JobsOf(int jobs) {
-  if (jobs > 0) return jobs;
-  const unsigned cores = std::thread::hardware_concurrency();
-  return cores > 0 ? static_cast<int>(cores) : 1;
+  AddSolverOptions(sub, settings.solver);
+  AddJobsOption(sub, settings.jobs);
 }
 
 std::map<std::string, double> ParseAssignments(const std::vector<std::string>& texts,
@@ -71,7 +49,7 @@ ProblemOptions ProblemOptionsOf(const ProblemSettings& settings) {
   options.law = settings.law;
   options.free = settings.free;
   options.with_effects = settings.with;
-  options.integrator = IntegratorOptionsOf(settings.integrator, settings.tolerance);
+  options.integrator = IntegratorOptionsOf(settings.solver);
   options.fix = ParseAssignments(settings.fix, "--fix");
   return options;
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/console.h"
+#include "app/pace.h"
 
 namespace hoplab {
 
@@ -16,21 +17,26 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  /// A new stage: always shown.
-  void Stage(const std::string& text);
-  /// How far the stage is: shown at most ten times a second on a terminal, every five seconds else.
+  /// A new stage: always shown. `done` of its countable work stand already.
+  void Stage(const std::string& text, long done = 0);
+  /// How far the stage is, with the time it has taken: shown at most ten times a second on a
+  /// terminal, every five seconds else.
   void Step(const std::string& text);
+  /// The same where the end is known: with the rate and the time left.
+  void Step(const std::string& text, long done, long total);
   /// Takes the live line away, before something else is written.
   void Clear();
 
  private:
   using Clock = std::chrono::steady_clock;
+  bool IsDue() const;
   void Show(const std::string& text);
 
   const Console& console_;
   bool silent_;
   bool line_shown_ = false;
-  Clock::time_point last_ = {};
+  Clock::time_point last_ = {}, stage_begin_ = Clock::now();
+  Pace pace_{0};
 };
 
 }  // namespace hoplab

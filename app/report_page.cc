@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/explain.h"
 #include "app/report_headline.h"
 #include "app/report_table.h"
 #include "base/check.h"
@@ -168,8 +169,10 @@ std::string ReportPage(const Json& record, const std::map<std::string, std::stri
   const Headline headline = HeadlineOf(record);
   const std::string plotting_3d(HasSurfaces(record) ? WebAsset("plotly-3d.js") : "");
   const std::string run = ScriptJson(WithoutLongLists(record));
-  const auto taken = static_cast<double>(WebAsset("plotly.js").size() + plotting_3d.size() +
-                                         WebAsset("report.js").size() + run.size());
+  const std::string explanations = ScriptJson(ExplanationsFor(record));
+  const auto taken =
+      static_cast<double>(WebAsset("plotly.js").size() + plotting_3d.size() +
+                          WebAsset("report.js").size() + run.size() + explanations.size());
   const auto asset = [](const char* name) {
     return [name] { return std::string(WebAsset(name)); };
   };
@@ -185,6 +188,7 @@ std::string ReportPage(const Json& record, const std::map<std::string, std::stri
        {"plotting_3d", text(plotting_3d)},
        {"script", asset("report.js")},
        {"run", text(run)},
+       {"explanations", text(explanations)},
        {"tables",
         [&] { return ScriptJson(PackedTables(files, std::max(0.0, kPageBytes - taken))); }},
        {"plotting_license", text(HtmlText(std::string(WebAsset("plotly-license.txt"))))},

@@ -11,13 +11,13 @@ std::string Plural(long count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-std::string Wrapped(const std::string& text, std::size_t begin) {
+std::string Wrapped(const std::string& text, std::size_t begin, std::size_t width) {
   std::string out;
   std::size_t column = begin;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
     const std::size_t length = end - at;
-    if (column > begin && column + 1 + length > kReportWidth) {
+    if (column > begin && column + 1 + length > width) {
       out += "\n" + std::string(begin, ' ');
       column = begin;
     } else if (column > begin) {

@@ -13,7 +13,7 @@ std::vector<Variant> AllLaws(const Dataset& dataset) {
 
 LawComparison CompareLaws(const Dataset& dataset, const std::vector<Variant>& variants,
                           const ProblemOptions& problem_options, const FitOptions& fit_options,
-                          FitSpan span) {
+                          FitSpan span, const std::function<void(int done)>& progress) {
   LawComparison comparison;
   for (const Variant& variant : variants) {
     if (fit_options.stop && *fit_options.stop) break;
@@ -32,6 +32,7 @@ LawComparison CompareLaws(const Dataset& dataset, const std::vector<Variant>& va
       row.test = Summarise(problem, errors, TrialRole::kTest);
     }
     comparison.rows.push_back(std::move(row));
+    if (progress) progress(static_cast<int>(comparison.rows.size()));
   }
   return comparison;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,9 +30,11 @@ struct LawComparison {
 };
 
 /// Fits the same dataset with each variant; what is fixed and freed otherwise is the same for all.
+/// `progress` is called after each.
 LawComparison CompareLaws(const Dataset& dataset, const std::vector<Variant>& variants,
                           const ProblemOptions& problem_options, const FitOptions& fit_options,
-                          FitSpan span = FitSpan::kWholeElseHops);
+                          FitSpan span = FitSpan::kWholeElseHops,
+                          const std::function<void(int done)>& progress = nullptr);
 
 /// Every law of the dataset's mechanism, the default first, without effects.
 std::vector<Variant> AllLaws(const Dataset& dataset);

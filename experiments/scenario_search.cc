@@ -33,6 +33,12 @@ std::string KeyOf(const std::string& name) {
 SearchVariable VariableOf(const OverOption& option, const ScenarioDocument& document,
                           const std::vector<KeyRange>& ranges) {
   const std::string key = KeyOf(option.name);
+  if (key == option.name && key.find('.') == key.npos && !document.NumberAt(key)) {
+    std::vector<std::string> names;
+    for (const Alias& alias : kAliases) names.emplace_back(alias.name);
+    throw InputError({"--over", Printable(key), "is no number of the scenario",
+                      DidYouMean(key, names) + " Or a dotted key, as initial.y_m."});
+  }
   if (option.low) {
     document.ReadAt({{key, *option.low}}, "--over");
     document.ReadAt({{key, *option.high}}, "--over");

@@ -238,13 +238,16 @@ GainSearchResult SearchGains(const SearchProblem& problem, const GainSearchOptio
 }
 
 std::vector<MapCell> MapObjective(const SearchProblem& problem, std::span<const double> at,
-                                  int size, int jobs, const std::atomic<bool>* stop) {
+                                  int size, int jobs, const std::atomic<bool>* stop,
+                                  const std::function<void(int done, int of)>& progress) {
   const int columns = problem.variables.size() > 1 ? size : 1;
   std::vector<MapCell> cells(static_cast<std::size_t>(size) * columns);
   const auto value = [&](std::size_t variable, int i) {
     const SearchVariable& v = problem.variables[variable];
     return size > 1 ? v.low + (v.high - v.low) * i / (size - 1) : 0.5 * (v.low + v.high);
   };
+  std::mutex mutex;
+  int done = 0;
   ParallelFor(static_cast<int>(cells.size()), jobs, [&](int i) {
     if (stop && *stop) return;
     std::vector<double> x(at.begin(), at.end());
@@ -252,6 +255,9 @@ std::vector<MapCell> MapObjective(const SearchProblem& problem, std::span<const 
     if (columns > 1) x[1] = value(1, i % columns);
     cells[i] = {x[0], columns > 1 ? x[1] : std::numeric_limits<double>::quiet_NaN(),
                 EvaluatePoint(problem, x)};
+    if (!progress) return;
+    const std::lock_guard lock(mutex);
+    progress(++done, static_cast<int>(cells.size()));
   });
   const auto missing = [](const MapCell& cell) { return cell.point.x.empty(); };
   cells.erase(std::find_if(cells.begin(), cells.end(), missing), cells.end());

@@ -71,8 +71,10 @@ struct MapCell {
 };
 /// The objective on a grid of `size` x `size` over the first two variables, the others held at
 /// `at`. Row-major, the first variable slowest. With one variable: `size` points. Cells that were
-/// not reached before a stop are missing at the end.
+/// not reached before a stop are missing at the end. `progress` is called after each, one at a
+/// time.
 std::vector<MapCell> MapObjective(const SearchProblem& problem, std::span<const double> at,
-                                  int size, int jobs, const std::atomic<bool>* stop = nullptr);
+                                  int size, int jobs, const std::atomic<bool>* stop = nullptr,
+                                  const std::function<void(int done, int of)>& progress = nullptr);
 
 }  // namespace hoplab

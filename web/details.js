@@ -20,7 +20,7 @@ function gradientPart(check, sentence) {
   return el('div', {}, paragraph(`Gradient certificate: ${sentence ?? `the worst of ${plural(columns.length, 'column')} is off by ${check.max_relative_error.toExponential(1)} (${check.worst_parameter})`}.`),
     flags.length ? dataTable(['trial', 'flag'], flags.map((f) => [f.trial, f.text])) : undefined,
     columns.length ? details('Every derivative', dataTable(['by', 'trial', 'relative difference'],
-      columns.map((c) => [c.name, c.trial, isNumber(c.relative_error) ? c.relative_error.toExponential(1) : notComputed]), 'llr')) : undefined);
+      columns.map((c) => [c.name, c.trial, isNumber(c.relative_error) ? c.relative_error.toExponential(1) : notComputed]), 'llr')) : undefined, explained('gradient-certificate', 'sensitivity', 'grazing'));
 }
 
 function startsPart() {

@@ -2,12 +2,6 @@
 
 const statusKinds = {supported: 'one', indistinguishable: 'three', excluded: 'two', not_tested: 'soft'};
 const statusSymbols = {supported: 'circle', indistinguishable: 'diamond', excluded: 'x-thin-open', not_tested: 'circle-open'};
-const statusMeaning = {
-  supported: 'supported: the data want it',
-  indistinguishable: 'indistinguishable: does as well as the best',
-  excluded: 'excluded: not above the size told',
-  not_tested: 'not tested: at its typical size these data could not have shown it',
-};
 
 const causeText = (c) => (c.only_in_trial ? `${c.effect} (${c.only_in_trial} only)` : c.effect);
 
@@ -160,7 +154,8 @@ function groupPart() {
       significant(m.nats_behind, 3), list(m.with).join(', ')]), 'lrl', 'Causes that do equally well')),
     el('h3', {}, 'The trial to record next'),
     proposed ? paragraph(`${proposed.description.replace(/^./, (c) => c.toUpperCase())}: expected to set the best apart from ${proposed.closest_rival} by ${significant(proposed.expected_nats, 3)} nats.`)
-      : paragraph(search ? `No trial was found that would settle it; the best of ${search.designs_tried} tried, ${search.description}, is expected to bring ${significant(search.expected_nats, 3)} nats.` : 'No trial was looked for.'));
+      : paragraph(search ? `No trial was found that would settle it; the best of ${search.designs_tried} tried, ${search.description}, is expected to bring ${significant(search.expected_nats, 3)} nats.` : 'No trial was looked for.'),
+    explained('indistinguishable', 'separating-experiment'));
 }
 
 function forcePlot(force, points) {
@@ -180,7 +175,8 @@ function forcesPart() {
   const single = forces.filter((f) => !curves.includes(f));
   return section('What the missing part looks like', paragraph('Free forces, impulses and offsets, fitted to what the model leaves; the bands are 95 %.'),
     el('div', {class: 'pair'}, curves.slice(0, 8).map((f) => forcePlot(f, f.seen.filter((p) => isNumber(p.at))))),
-    single.length ? dataTable(['', 'value', '95 %', 'p'], single.map((f) => [f.name, quantity(f.seen[0].value, f.unit, 3), `± ${quantity(f.seen[0].band95, f.unit, 2)}`, significant(f.p_value, 2)]), 'lrrr') : undefined);
+    single.length ? dataTable(['', 'value', '95 %', 'p'], single.map((f) => [f.name, quantity(f.seen[0].value, f.unit, 3), `± ${quantity(f.seen[0].band95, f.unit, 2)}`, significant(f.p_value, 2)]), 'lrrr') : undefined,
+    explained('free-force'));
 }
 
 function diagnosisReport() {
@@ -196,7 +192,7 @@ function diagnosisReport() {
     const models = [{column: 'before', name: extension ? 'simulated before' : 'simulated', kind: extension ? 'two' : 'one', model: 'before'},
       ...(extension ? [{column: 'after', name: 'simulated after', kind: 'one', model: 'after'}] : [])];
     section(extension ? 'Before and after' : 'Measured and simulated',
-      extension ? heldOutTable(extension.test_before, extension.test_after) : undefined,
+      extension ? heldOutTable(extension.test_before, extension.test_after) : undefined, explained('held-out', 'rmse', 'residual'),
       ...traceView({residuals, models, start,
         describe: (trial) => `${roles.get(trial) === 'test' ? 'Held out' : 'Fitted'}${extension ? `; after: with ${list(run.effects).join(', ')}` : ''}.`,
         caption: 'Each channel with its residual below it, simulated minus measured.',
@@ -207,7 +203,8 @@ function diagnosisReport() {
   if (candidates.length) {
     const count = (status) => candidates.filter((c) => c.status === status).length;
     section('The evidence', paragraph(`${candidates.length} causes were tried: ${Object.keys(statusKinds).filter(count).map((s) => `${count(s)} ${words(s)}`).join(', ')}.`),
-      ladderPlot(candidates), paragraph(`${Object.keys(statusMeaning).filter(count).map((s) => statusMeaning[s]).join('; ')}.`.replace(/^./, (c) => c.toUpperCase()), 'note'), details('Table of all causes', ladderTable(candidates)));
+      ladderPlot(candidates), paragraph(`${Object.keys(statusKinds).filter(count).map((s) => `${words(s)}: ${judgement(s)}`).join('; ')}.`.replace(/^./, (c) => c.toUpperCase()), 'note'), details('Table of all causes', ladderTable(candidates)),
+      explained(run.verdict, ...list(run.effects), 'candidate', 'score', 'penalty', 'likelihood'));
   }
   const cells = list(run.localisation);
   if (cells.length) {
@@ -217,7 +214,7 @@ function diagnosisReport() {
   groupPart();
   forcesPart();
   if (extension || run.energy) {
-    section('What it does to the rest', movementPart(list(extension?.movements)), energyPlot(run.energy));
+    section('What it does to the rest', movementPart(list(extension?.movements)), energyPlot(run.energy), explained('extension', 'standard-error', 'energy-ledger'));
   }
   const fitted = extension ? list(extension.parameters) : list(run.null?.parameters);
   // Where something remains, the noise alone makes the intervals too narrow.

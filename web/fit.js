@@ -70,11 +70,12 @@ function fitReport() {
     parameterTable(parameters, run.misfit), intervalPlot(parameters, run.misfit),
     el('h3', {}, 'What the data determine'),
     paragraph(run.sentences?.determined ? `Determined: ${run.sentences.determined}.` : `Identifiability: ${notComputed}.`),
-    weakDirections(run.identifiability), correlationPlot(run.correlation), ...profilePlots(run.profiles, parameters));
+    weakDirections(run.identifiability), correlationPlot(run.correlation), ...profilePlots(run.profiles, parameters),
+    explained(run.law, 'confidence-interval', 'between-trials', 'misfit', 'identifiability', 'condition-number', 'weak-direction', 'profile'));
   const {channels, cell} = errorTable(run.test ?? run.train);
   const errorRows = [['fitted trials', run.train], ['held-out trials', run.test]].map(([name, errors]) =>
     [name, String(errors?.trials ?? notComputed), ...channels.map((c) => cell(errors, c)), significant(errors?.nll_per_sample, 4)]);
   section('Errors', dataTable(['', 'trials', ...channels.map((c) => splitUnit(c).name), 'negative log-likelihood a sample'], errorRows, 'lr' + 'r'.repeat(channels.length + 1)),
-    table('hops') ? hopErrorPlot(table('hops')) : undefined);
+    table('hops') ? hopErrorPlot(table('hops')) : undefined, explained('rmse', 'held-out', 'likelihood'));
   runDetails(gradientPart(run.gradient_check, run.sentences?.gradients), startsPart());
 }

@@ -46,7 +46,8 @@ function gaitReport() {
     section('The steady hop', gaitTable([['steady hop', {...fixed, period_s: run.period_s, spectral_radius: run.spectral_radius, stable: run.stable, events: run.events}]]),
       multiplierPlot([{name: 'multipliers', kind: 'one', values: list(run.multipliers)}], 'Multipliers of the return map: inside the unit circle a disturbance dies out, the nearer to 0 the sooner.'),
       cycles ? phasePlot([...(own ? [{name: 'from the scenario\'s start', kind: 'soft', trajectory: own, rows: own.where({}), faint: true}] : []),
-        {name: 'steady hop', kind: 'one', trajectory: cycles, rows: cycles.where({})}], 'The limit cycle, and the way to it.') : undefined);
+        {name: 'steady hop', kind: 'one', trajectory: cycles, rows: cycles.where({})}], 'The limit cycle, and the way to it.') : undefined,
+      explained('fixed-point', 'return-map', 'floquet-multiplier', 'spectral-radius'));
   }
   const moving = cycles ?? own;
   if (moving && run.mechanism) {
@@ -56,7 +57,7 @@ function gaitReport() {
   const effects = sensitivityPlot(run.d_spectral_radius, run.mechanism?.parameters);
   if (apexes.length > 1 || effects) {
     section('How fast it settles', paragraph(isNumber(run.counted?.hops) ? `In the scenario's own run the speed stays within ${run.counted.band_percent} % from apex ${run.counted.hops} on, after ${quantity(run.counted.time_s, 's')}.` : 'The scenario\'s own run does not settle, or does not reach its end.'),
-      apexes.length > 1 ? settlingPlot(apexes, fixed?.vx_m_per_s) : undefined, effects);
+      apexes.length > 1 ? settlingPlot(apexes, fixed?.vx_m_per_s) : undefined, effects, explained('convergence-time'));
   }
   branchPlots();
   runDetails();

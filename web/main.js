@@ -27,7 +27,7 @@ async function start() {
   const folded = () => [...document.querySelectorAll('details:not([open])')];
   let opened = [];
   addEventListener('beforeprint', () => {
-    opened = folded().filter((d) => !d.closest('footer'));
+    opened = folded().filter((d) => !d.closest('footer, .words')); // these are not printed
     for (const d of opened) d.open = true;
     document.documentElement.dataset.print = 'yes'; // dark colours do not go on paper
     for (const each of plots) each.show(); // at once: printing does not wait

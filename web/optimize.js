@@ -73,7 +73,7 @@ function gaitsInMotion(cycles, sets) {
 
 function optimizeReport() {
   const gaits = run.gaits ?? {};
-  section('Before and best', searchTable());
+  section('Before and best', searchTable(), explained('convergence-time', 'spectral-radius', 'fixed-point'));
   section('The search', paragraph(`${run.evaluations} evaluations by ${run.algorithm}; ${run.agreeing_seeds} of ${plural(list(run.seeds).length, 'seed')} end within 1 % of the best.`), mapPlot(), historyPlot());
   const cycles = table('cycles');
   const sets = [['before', 'two', 'diamond'], ['best', 'one', 'circle']].filter(([name]) => gaits[name]);

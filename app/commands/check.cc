@@ -14,6 +14,7 @@
 #include "app/record_parts.h"
 #include "app/report_text.h"
 #include "app/run_folder.h"
+#include "app/run_settings.h"
 #include "app/text_table.h"
 #include "app/warnings.h"
 #include "base/text.h"
@@ -23,10 +24,8 @@
 namespace hoplab {
 namespace {
 
-struct CheckSettings {
+struct CheckSettings : RunSettings {
   ProblemSettings problem;
-  std::string out;
-  bool force = false, json = false;
 };
 
 // What the traces alone show of a channel's noise.
@@ -147,9 +146,7 @@ ExitCode RunCheck(const CheckSettings& settings, Console& console) {
   const auto begin = std::chrono::steady_clock::now();
   const ProblemOptions options = ProblemOptionsOf(settings.problem);
   const Dataset dataset = ReadDataset(settings.problem.dataset);
-  RunFolderOptions place{std::nullopt, settings.force};
-  if (!settings.out.empty()) place.out = settings.out;
-  const RunFolder folder(place, dataset.name, "check");
+  const RunFolder folder(RunFolderOptionsOf(settings), dataset.name, "check");
   const FitProblem problem = MakeProblem(dataset, options);
   const CheckReport check = CheckDataset(dataset, problem, JobsOf(settings.problem.jobs));
   const std::vector<ChannelNoise> noise = NoiseOf(dataset);
@@ -157,13 +154,13 @@ ExitCode RunCheck(const CheckSettings& settings, Console& console) {
   Json record = RecordOf(dataset, settings, problem, check, noise);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
-  if (place.out) folder.Write({{"run.json", TextOf(record)}});
+  if (!settings.out.empty()) folder.Write({{"run.json", TextOf(record)}});
   if (settings.json) {
     console.out << TextOf(record);
     return ExitCode::kDone;
   }
   console.out << Report(dataset, problem, check, noise, console.out_colours);
-  if (place.out) console.out << "  run folder  " << settings.out << '\n';
+  if (!settings.out.empty()) console.out << "  run folder  " << settings.out << '\n';
   return ExitCode::kDone;
 }
 
@@ -174,9 +171,7 @@ void AddCheckCommand(CLI::App& app, Invocation& invocation) {
   CLI::App& sub = *app.add_subcommand(
       "check", "Data quality, identifiability and gradients of a dataset, before any fit");
   AddProblemOptions(sub, settings->problem);
-  sub.add_option("--out", settings->out, "Write a run folder here (default: nothing is written)")
-      ->option_text("DIR");
-  sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
+  AddRunFolderOptions(sub, *settings, "Write a run folder here (default: nothing is written)");
   sub.footer(
       "Examples:\n"
       "  hoplab check datasets/rig-drops\n"

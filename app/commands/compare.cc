@@ -127,8 +127,14 @@ ExitCode RunCompare(const CompareSettings& settings, Console& console) {
   fit.jobs = JobsOf(settings.problem.jobs);
   Progress progress(console, settings.quiet);
   progress.Stage("fitting each model");
+  const std::vector<Variant> variants = VariantsOf(settings, dataset);
   const LawComparison comparison =
-      CompareLaws(dataset, VariantsOf(settings, dataset), ProblemOptionsOf(settings.problem), fit);
+      CompareLaws(dataset, variants, ProblemOptionsOf(settings.problem), fit,
+                  FitSpan::kWholeElseHops, [&](int done) {
+                    progress.Step("fitting each model: " + std::to_string(done) + " of " +
+                                      std::to_string(variants.size()),
+                                  done, static_cast<long>(variants.size()));
+                  });
   progress.Clear();
   if (!settings.json) {
     PrintTable(comparison, truth, console);
@@ -150,6 +156,8 @@ void AddCompareCommand(CLI::App& app, Invocation& invocation) {
   auto settings = std::make_shared<CompareSettings>();
   CLI::App& sub = *app.add_subcommand("compare", "Fit the same hops with every law of the leg");
   AddProblemOptions(sub, settings->problem);
+  // A variant says both.
+  for (const char* name : {"--law", "--with"}) sub.remove_option(sub.get_option(name));
   sub.add_option("--variant", settings->variants,
                  "A law, and effects to fit with it; repeatable (default: every law)")
       ->option_text("LAW+EFFECT...")
@@ -158,12 +166,11 @@ void AddCompareCommand(CLI::App& app, Invocation& invocation) {
       ->delimiter(',')
       ->option_text("NAME=VALUE")
       ->allow_extra_args(false);
-  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
   sub.footer(
       "Examples:\n"
       "  hoplab compare datasets/rig-drops --true E=21.991e9\n"
-      "  hoplab compare datasets/rig-drops --variant consistent --variant "
-      "large_deflection+leg_material_damping");
+      "  hoplab compare my-hops --variant consistent\n"
+      "  hoplab compare my-hops --variant large_deflection+leg_material_damping");
   OnParsed(sub, invocation, settings, RunCompare);
 }
 

@@ -7,25 +7,25 @@
 #include "app/diagnosis_record.h"
 #include "app/diagnosis_report.h"
 #include "app/diagnosis_tables.h"
+#include "app/help_text.h"
 #include "app/interrupt.h"
 #include "app/problem_settings.h"
 #include "app/progress.h"
 #include "app/quantity.h"
 #include "app/run_folder.h"
+#include "app/run_settings.h"
 #include "datasets/read_dataset.h"
 
 namespace hoplab {
 namespace {
 
-struct DiagnoseSettings {
+struct DiagnoseSettings : RunSettings {
   ProblemSettings problem;
   std::vector<std::string> effects, without;
   int max_effects = DiagnosisOptions().max_effects;
   int starts = 1;
   std::uint64_t seed = 1;
   std::string span = "whole_else_hops";
-  std::string out;
-  bool force = false, json = false, quiet = false;
 };
 
 DiagnosisOptions OptionsOf(const DiagnoseSettings& settings) {
@@ -42,7 +42,7 @@ DiagnosisOptions OptionsOf(const DiagnoseSettings& settings) {
 
 void ShowProgress(DiagnosisOptions& options, Progress& progress) {
   options.stage = [&](std::string_view stage) { progress.Stage(std::string(stage)); };
-  options.step = [&](const std::string& text) { progress.Step(text); };
+  options.step = [&](const std::string& text, int done, int of) { progress.Step(text, done, of); };
   const int starts = options.fit.starts;
   options.fit.progress = [&progress, starts](int start, std::string_view stage, int iteration,
                                              double cost) {
@@ -64,9 +64,7 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
   const auto begin = std::chrono::steady_clock::now();
   DiagnosisOptions options = OptionsOf(settings);
   const Dataset dataset = ReadDataset(settings.problem.dataset);
-  RunFolderOptions place{std::nullopt, settings.force};
-  if (!settings.out.empty()) place.out = settings.out;
-  const RunFolder folder(place, dataset.name, "diagnose");
+  const RunFolder folder(RunFolderOptionsOf(settings), dataset.name, "diagnose");
 
   const InterruptGuard interrupt;
   Progress progress(console, settings.quiet);
@@ -122,22 +120,17 @@ void AddDiagnoseCommand(CLI::App& app, Invocation& invocation) {
                  "Searches for the model as it is: from the nominal values, then scattered")
       ->check(CLI::Range(1, 1000000))
       ->option_text("N");
-  sub.add_option("--seed", settings->seed,
-                 "Of scattered starts, noise draws and bootstraps (default 1)")
-      ->option_text("N");
+  AddSeedOption(sub, settings->seed, "Of scattered starts, noise draws and bootstraps");
   sub.add_option("--span", settings->span,
                  "whole traces, else single hops where a law falls (default), whole or hops")
-      ->check(CLI::IsMember({"whole_else_hops", "whole", "hops"}))
+      ->check(OneOf({"whole_else_hops", "whole", "hops"}))
       ->option_text("NAME");
-  sub.add_option("--out", settings->out, "Run folder (default runs/<dataset>-diagnose-NNN)")
-      ->option_text("DIR");
-  sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
-  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
+  AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-diagnose-NNN)");
   sub.footer(
       "Examples:\n"
-      "  hoplab diagnose datasets/rig-drops --law thesis\n"
+      "  hoplab diagnose datasets/rig-drops --effects touchdown_loss,air_drag\n"
       "  hoplab diagnose my-hops --without sensor_delay,clock_scale --jobs 4\n"
-      "  hoplab diagnose my-hops --with air_drag --effects guide_viscous_friction,ground_slope");
+      "  hoplab diagnose my-hops --with air_drag --effects ground_slope,foot_slip");
   OnParsed(sub, invocation, settings, RunDiagnose);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <ostream>
 
+#include "app/effect_catalogue.h"
+#include "app/effect_words.h"
 #include "app/quantity.h"
 #include "app/report_text.h"
 #include "app/run_record.h"
@@ -15,40 +17,11 @@
 namespace hoplab {
 namespace {
 
-constexpr std::array kMechanisms = {MechanismKind::kCLeg, MechanismKind::kStraightLeg,
-                                    MechanismKind::kBall};
-constexpr std::array kKinds = {EffectKind::kForce, EffectKind::kParameter, EffectKind::kGuard,
-                               EffectKind::kObservation};
-
 struct EffectsSettings {
   std::string name;  // empty: all
   std::string law;   // likewise
-  bool json = false;
+  bool markdown = false, json = false;
 };
-
-std::string_view TitleOf(EffectKind kind) {
-  switch (kind) {
-    case EffectKind::kForce:
-      return "Forces, torques and impacts";
-    case EffectKind::kParameter:
-      return "The mechanism and what it stands on";
-    case EffectKind::kGuard:
-      return "When contact begins";
-    case EffectKind::kObservation:
-      return "What the sensors report";
-  }
-  return "";
-}
-
-std::vector<Law> LawsWith(const Effect& effect) {
-  std::vector<Law> laws;
-  for (const MechanismKind mechanism : kMechanisms) {
-    for (const Law law : LawsOf(mechanism)) {
-      if (AppliesTo(effect, law)) laws.push_back(law);
-    }
-  }
-  return laws;
-}
 
 Json RecordOf(const Effect& effect) {
   Json parameters = Json::array();
@@ -77,20 +50,6 @@ Json RecordOf(const Effect& effect) {
           {"parameters", parameters}};
 }
 
-// "ball only", "laws thesis, no_slip", "massless legs only"; empty where it goes with everything.
-std::string RestrictionOf(const Effect& effect) {
-  const EffectInfo& info = effect.info;
-  if (!info.only_laws.empty()) {
-    std::vector<std::string> names;
-    for (const Law law : info.only_laws) names.emplace_back(NameOf(law));
-    return (names.size() == 1 ? "law " : "laws ") + Join(names) +
-           (info.massless_leg_only ? ", massless" : "");
-  }
-  if (info.for_legs && info.for_ball) return "";
-  if (info.massless_leg_only) return "massless legs only";
-  return info.for_legs ? "legs only" : "ball only";
-}
-
 std::string Quantity(double value, const EffectParameter& p) {
   const ReadableUnit unit = ReadableUnitOf(value, std::string(p.unit));
   return FormatDouble(value * unit.factor) + (unit.unit.empty() ? "" : " " + unit.unit);
@@ -99,7 +58,7 @@ std::string Quantity(double value, const EffectParameter& p) {
 // Two lines an effect: name, parameters with their typical sizes, restriction; what it is.
 void PrintList(const std::vector<const Effect*>& effects, Console& console) {
   using enum TextTable::Align;
-  for (const EffectKind kind : kKinds) {
+  for (const EffectKind kind : kEffectKinds) {
     TextTable table({kLeft, kLeft, kLeft});
     table.AddRow({"effect", "parameter, typical size", "goes with"});
     std::vector<const Effect*> rows;
@@ -123,7 +82,7 @@ void PrintList(const std::vector<const Effect*>& effects, Console& console) {
     console.out << '\n';
   }
   console.out << Plural(static_cast<long>(effects.size()), "effect")
-              << "; hoplab effects NAME says more of one\n";
+              << "; hoplab effects EFFECT says more of one\n";
 }
 
 void PrintOne(const Effect& effect, Console& console) {
@@ -152,7 +111,7 @@ void PrintOne(const Effect& effect, Console& console) {
 }
 
 std::vector<const Effect*> Chosen(const EffectsSettings& settings) {
-  if (!settings.name.empty()) return {&ResolveEffect(settings.name, "NAME")};
+  if (!settings.name.empty()) return {&ResolveEffect(settings.name, "effects")};
   std::vector<const Effect*> chosen;
   for (const Effect* effect : AllEffects()) {
     const std::vector<Law> laws = LawsWith(*effect);
@@ -165,9 +124,7 @@ std::vector<const Effect*> Chosen(const EffectsSettings& settings) {
 
 void CheckLaw(const std::string& name) {
   std::vector<std::string> known;
-  for (const MechanismKind mechanism : kMechanisms) {
-    for (const Law law : LawsOf(mechanism)) known.emplace_back(NameOf(law));
-  }
+  for (const Law law : AllLaws()) known.emplace_back(NameOf(law));
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
   throw InputError({"--law", Printable(name), "is not a law", DidYouMean(name, known)});
 }
@@ -183,6 +140,8 @@ ExitCode RunEffects(const EffectsSettings& settings, Console& console) {
     record["effects"] = Json::array();
     for (const Effect* effect : effects) record["effects"].push_back(RecordOf(*effect));
     console.out << TextOf(record);
+  } else if (settings.markdown) {
+    console.out << EffectCatalogue(effects);
   } else if (settings.name.empty()) {
     PrintList(effects, console);
   } else {
@@ -196,8 +155,9 @@ ExitCode RunEffects(const EffectsSettings& settings, Console& console) {
 void AddEffectsCommand(CLI::App& app, Invocation& invocation) {
   auto settings = std::make_shared<EffectsSettings>();
   CLI::App& sub = *app.add_subcommand("effects", "Physical effects that can be added to a model");
-  sub.add_option("NAME", settings->name, "One effect, in full");
+  sub.add_option("EFFECT", settings->name, "One effect, in full");
   sub.add_option("--law", settings->law, "Only those that go with this law")->option_text("LAW");
+  sub.add_flag("--markdown", settings->markdown, "As a page of documentation (docs/effects.md)");
   sub.footer(
       "Examples:\n"
       "  hoplab effects --law consistent\n"

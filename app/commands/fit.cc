@@ -8,18 +8,20 @@
 #include "app/fit_report.h"
 #include "app/fit_run.h"
 #include "app/fit_tables.h"
+#include "app/help_text.h"
 #include "app/interrupt.h"
 #include "app/problem_settings.h"
 #include "app/progress.h"
 #include "app/quantity.h"
 #include "app/run_folder.h"
+#include "app/run_settings.h"
 #include "app/warnings.h"
 #include "datasets/read_dataset.h"
 
 namespace hoplab {
 namespace {
 
-struct FitSettings {
+struct FitSettings : RunSettings {
   ProblemSettings problem;
   int starts = 1;
   std::uint64_t seed = 1;
@@ -28,8 +30,6 @@ struct FitSettings {
   std::string loss = "squared";
   double loss_scale = Loss().scale;
   std::vector<std::string> profile;
-  std::string out;
-  bool force = false, json = false, quiet = false;
 };
 
 FitRunOptions OptionsOf(const FitSettings& settings) {
@@ -63,9 +63,7 @@ ExitCode RunFitCommand(const FitSettings& settings, Console& console) {
   const auto begin = std::chrono::steady_clock::now();
   FitRunOptions options = OptionsOf(settings);
   const Dataset dataset = ReadDataset(settings.problem.dataset);
-  RunFolderOptions place{std::nullopt, settings.force};
-  if (!settings.out.empty()) place.out = settings.out;
-  const RunFolder folder(place, dataset.name, "fit");
+  const RunFolder folder(RunFolderOptionsOf(settings), dataset.name, "fit");
 
   const InterruptGuard interrupt;
   Progress progress(console, settings.quiet);
@@ -76,7 +74,7 @@ ExitCode RunFitCommand(const FitSettings& settings, Console& console) {
     for (const std::string& warning : CollapseWarnings(check.warnings)) Warn(console, warning);
   };
   options.fit.progress = [&](int start, std::string_view stage, int iteration, double cost) {
-    progress.Step(StepText(start, settings.starts, stage, iteration, cost));
+    progress.Step(StepText(start, settings.starts, stage, iteration, cost), start, settings.starts);
   };
   const FitRun run = RunFit(dataset, options);
   progress.Clear();
@@ -112,17 +110,17 @@ void AddFitCommand(CLI::App& app, Invocation& invocation) {
                  "Searches: one from the nominal values, then scattered")
       ->check(CLI::Range(1, 1000000))
       ->option_text("N");
-  sub.add_option("--seed", settings->seed, "Of the scattered starts (default 1)")->option_text("N");
+  AddSeedOption(sub, settings->seed, "Of the scattered starts");
   sub.add_option("--strategy", settings->strategy,
                  "apex_shooting (default), growing_horizon or raw")
-      ->check(CLI::IsMember({"raw", "growing_horizon", "apex_shooting"}))
+      ->check(OneOf({"raw", "growing_horizon", "apex_shooting"}))
       ->option_text("NAME");
   sub.add_option("--span", settings->span,
                  "whole traces, else single hops where a law falls (default), whole or hops")
-      ->check(CLI::IsMember({"whole_else_hops", "whole", "hops"}))
+      ->check(OneOf({"whole_else_hops", "whole", "hops"}))
       ->option_text("NAME");
   sub.add_option("--loss", settings->loss, "squared (default) or pseudo_huber")
-      ->check(CLI::IsMember({"squared", "pseudo_huber"}))
+      ->check(OneOf({"squared", "pseudo_huber"}))
       ->option_text("NAME");
   sub.add_option("--loss-scale", settings->loss_scale,
                  "Standard deviations from which pseudo_huber is linear (default 2)")
@@ -132,15 +130,12 @@ void AddFitCommand(CLI::App& app, Invocation& invocation) {
       ->delimiter(',')
       ->option_text("NAME,...")
       ->allow_extra_args(false);
-  sub.add_option("--out", settings->out, "Run folder (default runs/<dataset>-fit-NNN)")
-      ->option_text("DIR");
-  sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
-  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
+  AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-fit-NNN)");
   sub.footer(
       "Examples:\n"
       "  hoplab fit datasets/rig-drops\n"
-      "  hoplab fit datasets/rig-drops --law consistent --free E,d,G --starts 8 --seed 3\n"
-      "  hoplab fit my-hops --with air_drag --fix g=9.80665 --profile E --out runs/drag");
+      "  hoplab fit datasets/rig-drops --law consistent --free E,d,G --starts 8\n"
+      "  hoplab fit my-hops --with air_drag --fix g=9.80665 --profile E");
   OnParsed(sub, invocation, settings, RunFitCommand);
 }
 

@@ -8,19 +8,17 @@
 #include "app/problem_settings.h"
 #include "app/progress.h"
 #include "app/run_folder.h"
+#include "app/run_settings.h"
 #include "app/scenario_settings.h"
 #include "experiments/scenario_hopper.h"
 
 namespace hoplab {
 namespace {
 
-struct GaitSettings {
+struct GaitSettings : RunSettings {
   ScenarioSettings scenario;
   std::string along;
-  std::string integrator = "dop853";
-  double tolerance = 1e-12;
-  std::string out;
-  bool force = false, json = false, quiet = false;
+  SolverSettings solver{.tolerance = 1e-12};
 };
 
 Json NewGaitRecord(const GaitSettings& settings, const Scenario& scenario, Law law) {
@@ -31,10 +29,8 @@ Json NewGaitRecord(const GaitSettings& settings, const Scenario& scenario, Law l
   header.options = {{"scenario", settings.scenario.scenario},
                     {"set", settings.scenario.set},
                     {"with", settings.scenario.with},
-                    {"along", settings.along.empty() ? Json(nullptr) : Json(settings.along)},
-                    {"integrator", settings.integrator},
-                    {"relative_tolerance", settings.tolerance},
-                    {"absolute_tolerance", 0.1 * settings.tolerance}};
+                    {"along", settings.along.empty() ? Json(nullptr) : Json(settings.along)}};
+  RecordSolver(settings.solver, header.options);
   Json record = NewRecord(header);
   record["scenario"] = scenario.name;
   return record;
@@ -45,11 +41,8 @@ ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
   GaitOptions options;
   if (!settings.along.empty()) options.along = ParseAlong(settings.along);
   const Scenario scenario = ReadScenarioOf(settings.scenario);
-  RunFolderOptions place{std::nullopt, settings.force};
-  if (!settings.out.empty()) place.out = settings.out;
-  const RunFolder folder(place, scenario.name, "gait");
-  const Hopper hopper = LeggedHopperOfScenario(
-      scenario, IntegratorOptionsOf(settings.integrator, settings.tolerance));
+  const RunFolder folder(RunFolderOptionsOf(settings), scenario.name, "gait");
+  const Hopper hopper = LeggedHopperOfScenario(scenario, IntegratorOptionsOf(settings.solver));
 
   const InterruptGuard interrupt;
   Progress progress(console, settings.quiet);
@@ -89,12 +82,8 @@ void AddGaitCommand(CLI::App& app, Invocation& invocation) {
   sub.add_option("--along", settings->along,
                  "Follow the steady hop along a parameter, SI units, as kp=0.5:12")
       ->option_text("NAME=LOW:HIGH");
-  AddIntegratorOptions(sub, settings->integrator, settings->tolerance);
-  sub.get_option("--tolerance")->description("Relative tolerance of a step (default 1e-12)");
-  sub.add_option("--out", settings->out, "Run folder (default runs/<scenario>-gait-NNN)")
-      ->option_text("DIR");
-  sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
-  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
+  AddSolverOptions(sub, settings->solver);
+  AddRunFolderOptions(sub, *settings, "Run folder (default runs/<scenario>-gait-NNN)");
   sub.footer(
       "Examples:\n"
       "  hoplab gait experiments/controlled-hopping.yaml\n"

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "app/run_record.h"
+#include "app/run_settings.h"
 #include "app/scenario_settings.h"
 #include "base/atomic_file.h"
 #include "datasets/write_dataset.h"
@@ -80,16 +81,15 @@ void AddGenerateCommand(CLI::App& app, Invocation& invocation) {
                  "1 standard deviation of every channel, in its unit (default: the scenario's)")
       ->check(CLI::NonNegativeNumber)
       ->option_text("SIGMA");
-  sub.add_option("--seed", settings->seed, "Of the noise (default 1)")->option_text("N");
+  AddSeedOption(sub, settings->seed, "Of the noise");
   sub.add_option("--out", settings->out, "Folder of the new dataset")
       ->required()
       ->option_text("DATASET");
   sub.add_flag("--force", settings->force, "Replace the dataset that stands there");
   sub.footer(
       "Examples:\n"
-      "  hoplab generate hopping.yaml --out my-hops\n"
-      "  hoplab generate hopping.yaml --with air_drag:c_drag=0.05 --noise 0.001 --seed 7 --out "
-      "windy");
+      "  hoplab generate experiments/three-drops.yaml --out my-hops\n"
+      "  hoplab generate hopping.yaml --with air_drag:c_drag=0.05 --seed 7 --out windy");
   OnParsed(sub, invocation, settings, RunGenerate);
 }
 

@@ -10,20 +10,18 @@
 #include "app/problem_settings.h"
 #include "app/progress.h"
 #include "app/run_folder.h"
+#include "app/run_settings.h"
 
 namespace hoplab {
 namespace {
 
-struct IdentifySettings {
+struct IdentifySettings : RunSettings {
   int budget = IdentificationRequest().budget;
   int keep = IdentificationRequest().keep;
   std::uint64_t seed = IdentificationRequest().seed;
   bool free_damping_scale = false, free_rolling_blend = false, free_toe_mass = false;
   int jobs = 0;
-  std::string integrator = "dop853";
-  double tolerance = 1e-9;
-  std::string out;
-  bool force = false, json = false, quiet = false;
+  SolverSettings solver;
 };
 
 IdentificationRequest RequestOf(const IdentifySettings& settings) {
@@ -48,7 +46,7 @@ IdentificationRequest RequestOf(const IdentifySettings& settings) {
   request.keep = settings.keep;
   request.seed = settings.seed;
   request.jobs = JobsOf(settings.jobs);
-  request.integrator = IntegratorOptionsOf(settings.integrator, settings.tolerance);
+  request.integrator = IntegratorOptionsOf(settings.solver);
   return request;
 }
 
@@ -61,10 +59,8 @@ Json NewIdentifyRecord(const IdentifySettings& settings) {
                     {"keep", settings.keep},
                     {"free_damping_scale", settings.free_damping_scale},
                     {"free_rolling_blend", settings.free_rolling_blend},
-                    {"free_toe_mass", settings.free_toe_mass},
-                    {"integrator", settings.integrator},
-                    {"relative_tolerance", settings.tolerance},
-                    {"absolute_tolerance", 0.1 * settings.tolerance}};
+                    {"free_toe_mass", settings.free_toe_mass}};
+  RecordSolver(settings.solver, header.options);
   return NewRecord(header);
 }
 
@@ -83,15 +79,16 @@ std::string OriginText(const IdentifySettings& settings) {
 
 ExitCode RunIdentify(const IdentifySettings& settings, Console& console) {
   const auto begin = std::chrono::steady_clock::now();
-  RunFolderOptions place{std::nullopt, settings.force};
-  if (!settings.out.empty()) place.out = settings.out;
-  const RunFolder folder(place, "published", "identify");
+  const RunFolder folder(RunFolderOptionsOf(settings), "published", "identify");
   IdentificationRequest request = RequestOf(settings);
   const InterruptGuard interrupt;
   Progress progress(console, settings.quiet);
   request.stop = interrupt.flag();
+  std::string stage_shown;
   request.progress = [&](const std::string& stage, int done, int of) {
-    progress.Step(stage + ": " + std::to_string(done) + " of " + std::to_string(of) + " readings");
+    if (stage != stage_shown) progress.Stage(stage_shown = stage);
+    progress.Step(stage + ": " + std::to_string(done) + " of " + std::to_string(of) + " readings",
+                  done, of);
   };
   const IdentificationResult result = Identify(request);
   progress.Clear();
@@ -142,18 +139,13 @@ void AddIdentifyCommand(CLI::App& app, Invocation& invocation) {
                "Search the share of the arc laid down in the rolling (effect rolling_law), too");
   sub.add_flag("--free-toe-mass", settings->free_toe_mass,
                "Search a mass at the toe, too; lift-off by force only then");
-  sub.add_option("--seed", settings->seed, "Of the searches (default 1)")->option_text("N");
-  sub.add_option("--jobs", settings->jobs, "Threads (default: all cores); never changes a result")
-      ->check(CLI::Range(1, 1024))
-      ->option_text("N");
-  AddIntegratorOptions(sub, settings->integrator, settings->tolerance);
-  sub.add_option("--out", settings->out, "Run folder (default runs/published-identify-NNN)")
-      ->option_text("DIR");
-  sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
-  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
+  AddSeedOption(sub, settings->seed, "Of the searches");
+  AddJobsOption(sub, settings->jobs);
+  AddSolverOptions(sub, settings->solver);
+  AddRunFolderOptions(sub, *settings, "Run folder (default runs/published-identify-NNN)");
   sub.footer(
       "Examples:\n"
-      "  hoplab identify\n"
+      "  hoplab identify --budget 20 --keep 1\n"
       "  hoplab identify --budget 2000 --free-damping-scale --out constants");
   OnParsed(sub, invocation, settings, RunIdentify);
 }

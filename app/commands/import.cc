@@ -4,6 +4,7 @@
 #include <chrono>
 #include <ostream>
 
+#include "app/help_text.h"
 #include "app/quantity.h"
 #include "app/report_text.h"
 #include "app/run_record.h"
@@ -301,12 +302,12 @@ void AddImportCommand(CLI::App& app, Invocation& invocation) {
   sub.add_flag("--zero-time", settings->zero_time, "Let time begin at the first row kept");
   list("--role", settings->role, "train (default) or test", "FILE=ROLE");
   sub.add_option("--type", settings->type, "c_leg (default), straight_leg or ball")
-      ->check(CLI::IsMember({"c_leg", "straight_leg", "ball"}))
+      ->check(OneOf({"c_leg", "straight_leg", "ball"}))
       ->option_text("MECHANISM");
   list("--set", settings->set, "A value a fit needs, as mechanism.body_mass_kg=1.01", "KEY=VALUE");
   sub.add_option("--format", settings->format,
                  "csv, motive, trc, sto, mat or hdf5 (default: by the file)")
-      ->check(CLI::IsMember(LogFormatNames()))
+      ->check(OneOf(LogFormatNames()))
       ->option_text("NAME");
   sub.add_option("--name", settings->name, "Of the dataset (default: its folder's)")
       ->option_text("TEXT");
@@ -315,11 +316,11 @@ void AddImportCommand(CLI::App& app, Invocation& invocation) {
       ->option_text("DATASET");
   sub.add_flag("--force", settings->force, "Replace the dataset that stands there");
   sub.footer(
-      "Channels: t x y vx vy leg_angle leg_length fx fy torque contact, x forward and y up.\n\n"
+      "Channels: t x y vx vy leg_angle leg_length fx fy torque contact; x ahead, y up.\n"
+      "Without --accept-guesses it shows what it would take for what.\n"
       "Examples:\n"
-      "  hoplab import run17.csv --out mine          # shows what it would take for what\n"
-      "  hoplab import run17.csv run18.csv --map t=Time:ms --map y=z:mm --role run18.csv=test "
-      "--out mine");
+      "  hoplab import docs/tutorial/run-1.csv --accept-guesses --out mine\n"
+      "  hoplab import run17.csv run18.csv --map t=Time:ms --map y=z:mm --out mine");
   OnParsed(sub, invocation, settings, RunImport);
 }
 

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <ostream>
 
+#include "app/help_text.h"
 #include "app/interrupt.h"
 #include "app/optimize_record.h"
 #include "app/problem_settings.h"
 #include "app/progress.h"
 #include "app/quantity.h"
 #include "app/run_folder.h"
+#include "app/run_settings.h"
 #include "app/scenario_settings.h"
 #include "app/usage_error.h"
 #include "base/input_error.h"
@@ -20,7 +22,7 @@
 namespace hoplab {
 namespace {
 
-struct OptimizeSettings {
+struct OptimizeSettings : RunSettings {
   ScenarioSettings scenario;
   std::vector<std::string> over;
   std::string algorithm{NameOf(GainSearchOptions().algorithm)};
@@ -30,10 +32,7 @@ struct OptimizeSettings {
   double weight = SearchProblem().weight;
   int map_size = 25;
   int jobs = 0;
-  std::string integrator = "dop853";
-  double tolerance = 1e-9;
-  std::string out;
-  bool force = false, json = false, quiet = false;
+  SolverSettings solver;
 };
 
 OverOption ParseOver(const std::string& text) {
@@ -88,10 +87,8 @@ Json NewOptimizeRecord(const OptimizeSettings& settings, const Scenario& scenari
                     {"budget", run.options.budget},
                     {"seeds", settings.seeds},
                     {"weight", settings.weight},
-                    {"map", settings.map_size},
-                    {"integrator", settings.integrator},
-                    {"relative_tolerance", settings.tolerance},
-                    {"absolute_tolerance", 0.1 * settings.tolerance}};
+                    {"map", settings.map_size}};
+  RecordSolver(settings.solver, header.options);
   Json record = NewRecord(header);
   record["scenario"] = scenario.name;
   return record;
@@ -110,7 +107,11 @@ void Assess(OptimizeRun& run, const OptimizeSettings& settings, Progress& progre
   if (settings.map_size == 0 || run.result.interrupted) return;
   progress.Stage("mapping the objective");
   run.map = MapObjective(run.problem, run.result.best.x, settings.map_size, run.options.jobs,
-                         run.options.stop);
+                         run.options.stop, [&](int done, int of) {
+                           progress.Step("mapping the objective: " + std::to_string(done) + " of " +
+                                             std::to_string(of) + " points",
+                                         done, of);
+                         });
 }
 
 ExitCode RunOptimizeCommand(const OptimizeSettings& settings, Console& console) {
@@ -119,12 +120,10 @@ ExitCode RunOptimizeCommand(const OptimizeSettings& settings, Console& console) 
   for (const std::string& text : settings.over) over.push_back(ParseOver(text));
   const ScenarioDocument document = ScenarioDocumentOf(settings.scenario);
   const Scenario scenario = document.Read();
-  RunFolderOptions place{std::nullopt, settings.force};
-  if (!settings.out.empty()) place.out = settings.out;
-  const RunFolder folder(place, scenario.name, "optimize");
+  const RunFolder folder(RunFolderOptionsOf(settings), scenario.name, "optimize");
   OptimizeRun run;
-  run.problem = SearchProblemOfScenario(
-      document, scenario, over, IntegratorOptionsOf(settings.integrator, settings.tolerance));
+  run.problem =
+      SearchProblemOfScenario(document, scenario, over, IntegratorOptionsOf(settings.solver));
   run.problem.weight = settings.weight;
   run.options = SearchOptionsOf(settings, scenario);
   for (const SearchVariable& variable : run.problem.variables)
@@ -134,11 +133,14 @@ ExitCode RunOptimizeCommand(const OptimizeSettings& settings, Console& console) 
   Progress progress(console, settings.quiet);
   run.options.stop = interrupt.flag();
   progress.Stage("searching");
+  const long most = static_cast<long>(run.options.budget) * run.options.seeds;
+  long evaluations = 0;
   run.options.progress = [&](int seed, int evaluation, const SearchPoint& best) {
     progress.Step("searching: seed " + std::to_string(seed + 1) + ", evaluation " +
-                  std::to_string(evaluation) + ", best " +
-                  (std::isnan(best.objective) ? std::string(NameOf(best.verdict))
-                                              : Significant(best.objective, 5)));
+                      std::to_string(evaluation) + ", best " +
+                      (std::isnan(best.objective) ? std::string(NameOf(best.verdict))
+                                                  : Significant(best.objective, 5)),
+                  ++evaluations, most);
   };
   run.before = EvaluatePoint(run.problem, run.scenario_x);
   if (std::isnan(run.before.spectral_radius))
@@ -187,7 +189,7 @@ void AddOptimizeCommand(CLI::App& app, Invocation& invocation) {
       ->allow_extra_args(false);
   sub.add_option("--algorithm", settings->algorithm,
                  "Global search (default " + settings->algorithm + ")")
-      ->check(CLI::IsMember(SearchAlgorithmNames()))
+      ->check(OneOf(SearchAlgorithmNames()))
       ->option_text("NAME");
   sub.add_option("--budget", settings->budget,
                  "Evaluations of each seed (default: the scenario's, else 1000)")
@@ -196,7 +198,7 @@ void AddOptimizeCommand(CLI::App& app, Invocation& invocation) {
   sub.add_option("--seeds", settings->seeds, "Independent searches (default 5)")
       ->check(CLI::Range(1, 10000))
       ->option_text("N");
-  sub.add_option("--seed", settings->seed, "Of the first search (default 1)")->option_text("N");
+  AddSeedOption(sub, settings->seed, "Of the first search");
   sub.add_option("--weight", settings->weight,
                  "Of the spectral radius where the objective is weighted (default 0.5)")
       ->check(CLI::Range(0.0, 1.0))
@@ -205,18 +207,13 @@ void AddOptimizeCommand(CLI::App& app, Invocation& invocation) {
                  "Points a side of the objective's map; 0: none (default 25)")
       ->check(CLI::Range(0, 1000))
       ->option_text("N");
-  sub.add_option("--jobs", settings->jobs, "Threads (default: all cores); never changes a result")
-      ->check(CLI::Range(1, 1024))
-      ->option_text("N");
-  AddIntegratorOptions(sub, settings->integrator, settings->tolerance);
-  sub.add_option("--out", settings->out, "Run folder (default runs/<scenario>-optimize-NNN)")
-      ->option_text("DIR");
-  sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
-  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
+  AddJobsOption(sub, settings->jobs);
+  AddSolverOptions(sub, settings->solver);
+  AddRunFolderOptions(sub, *settings, "Run folder (default runs/<scenario>-optimize-NNN)");
   sub.footer(
       "Examples:\n"
-      "  hoplab optimize experiments/fastest-convergence.yaml\n"
-      "  hoplab optimize experiments/fastest-convergence.yaml --over kp,v_des=1:3 --budget 500\n"
+      "  hoplab optimize experiments/fastest-convergence.yaml --budget 20\n"
+      "  hoplab optimize experiments/fastest-convergence.yaml --over kp,v_des=1:3\n"
       "  hoplab optimize hopping.yaml --algorithm crs2 --seeds 10 --json");
   OnParsed(sub, invocation, settings, RunOptimizeCommand);
 }

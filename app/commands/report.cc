@@ -29,12 +29,11 @@ void AddReportCommand(CLI::App& app, Invocation& invocation) {
   auto settings = std::make_shared<ReportSettings>();
   CLI::App& sub =
       *app.add_subcommand("report", "Write report.html of a run folder anew, from what is in it");
-  sub.add_option("run", settings->folder, "A folder with run.json and the tables beside it")
-      ->required()
-      ->option_text("RUN_DIR");
+  sub.add_option("RUN_DIR", settings->folder, "A folder with run.json and the tables beside it")
+      ->required();
   sub.footer(
-      "Every command that writes a run folder writes report.html into it: one file that opens\n"
-      "without a network. This one writes it again, as after an update of hoplab.\n"
+      "Every command that writes a run folder writes report.html into it: one file that\n"
+      "opens without a network. This one writes it again, as after an update of hoplab.\n"
       "Example:\n"
       "  hoplab report runs/rig-drops-fit-001");
   OnParsed(sub, invocation, settings, RunReport);

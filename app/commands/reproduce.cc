@@ -9,6 +9,7 @@
 #include "app/reproduction_record.h"
 #include "app/reproduction_runs.h"
 #include "app/run_folder.h"
+#include "app/run_settings.h"
 #include "app/scenario_settings.h"
 #include "base/input_error.h"
 #include "base/range.h"
@@ -19,15 +20,12 @@ namespace {
 
 constexpr const char* kConstants = "experiments/published.yaml";
 
-struct ReproduceSettings {
+struct ReproduceSettings : RunSettings {
   std::vector<std::string> items;
   ScenarioSettings constants{.scenario = kConstants};
   TwoLegs legs;
   int jobs = 0;
-  std::string integrator = "dop853";
-  double tolerance = 1e-9;
-  std::string out;
-  bool force = false, json = false, quiet = false;
+  SolverSettings solver;
 };
 
 void CheckLength(const std::string& option, double value) {
@@ -46,10 +44,8 @@ Json NewReproductionRecord(const ReproduceSettings& settings, const Study& study
                     {"constants", settings.constants.scenario},
                     {"set", settings.constants.set},
                     {"hip_distance_m", settings.legs.hip_distance},
-                    {"leg_diameter_m", settings.legs.leg_diameter},
-                    {"integrator", settings.integrator},
-                    {"relative_tolerance", settings.tolerance},
-                    {"absolute_tolerance", 0.1 * settings.tolerance}};
+                    {"leg_diameter_m", settings.legs.leg_diameter}};
+  RecordSolver(settings.solver, header.options);
   Json record = NewRecord(header);
   record["scenario"] = study.constants.name;
   record["constants"] = constants;  // dotted.key=text, one a line
@@ -64,14 +60,11 @@ ExitCode RunReproduceCommand(const ReproduceSettings& settings, Console& console
   request.items =
       ResolveStudyItems(settings.items.empty() ? std::vector<std::string>{"all"} : settings.items);
   const ScenarioDocument document = ScenarioDocumentOf(settings.constants);
-  request.study = StudyOfScenario(document.Read(),
-                                  IntegratorOptionsOf(settings.integrator, settings.tolerance));
+  request.study = StudyOfScenario(document.Read(), IntegratorOptionsOf(settings.solver));
   request.legs = settings.legs;
   request.jobs = JobsOf(settings.jobs);
-  RunFolderOptions place{std::nullopt, settings.force};
-  if (!settings.out.empty()) place.out = settings.out;
   const std::string& name = request.study.constants.name;
-  const RunFolder folder(place, name, "reproduce");
+  const RunFolder folder(RunFolderOptionsOf(settings), name, "reproduce");
 
   const InterruptGuard interrupt;
   request.stop = interrupt.flag();
@@ -79,7 +72,8 @@ ExitCode RunReproduceCommand(const ReproduceSettings& settings, Console& console
   progress.Stage("reproducing " + std::to_string(request.items.size()) + " items");
   request.progress = [&](int done, const std::string& item) {
     progress.Step("reproducing: " + std::to_string(done) + " of " +
-                  std::to_string(request.items.size()) + ", last " + item);
+                      std::to_string(request.items.size()) + ", last " + item,
+                  done, static_cast<long>(request.items.size()));
   };
   const Reproduction reproduction = Reproduce(request);
   progress.Clear();
@@ -136,21 +130,15 @@ void AddReproduceCommand(CLI::App& app, Invocation& invocation) {
   sub.add_option("--leg-diameter", settings->legs.leg_diameter,
                  "Kinematics: of a leg's half circle, m (default 0.18)")
       ->option_text("M");
-  sub.add_option("--jobs", settings->jobs, "Threads (default: all cores); never changes a result")
-      ->check(CLI::Range(1, 1024))
-      ->option_text("N");
-  AddIntegratorOptions(sub, settings->integrator, settings->tolerance);
-  sub.add_option("--out", settings->out, "Run folder (default runs/<constants>-reproduce-NNN)")
-      ->option_text("DIR");
-  sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
-  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
+  AddJobsOption(sub, settings->jobs);
+  AddSolverOptions(sub, settings->solver);
+  AddRunFolderOptions(sub, *settings, "Run folder (default runs/<constants>-reproduce-NNN)");
   sub.footer(
-      "A verdict is \"reproduced\", \"only under stated settings\" or \"not reproduced\"; the "
-      "exit\n"
-      "code is 0 with any of them. docs/published-study.md says what they mean.\n"
+      "A verdict is \"reproduced\", \"only under stated settings\" or \"not reproduced\";\n"
+      "the exit code is 0 with any of them. See docs/published-study.md.\n"
       "Examples:\n"
-      "  hoplab reproduce all --out runs/study\n"
       "  hoplab reproduce table-6.5 claim-h\n"
+      "  hoplab reproduce all --out runs/study\n"
       "  hoplab reproduce kinematics --hip-distance 0.5\n"
       "  hoplab reproduce claims --law consistent");
   OnParsed(sub, invocation, settings, RunReproduceCommand);

@@ -8,6 +8,7 @@
 #include "app/problem_settings.h"
 #include "app/quantity.h"
 #include "app/run_folder.h"
+#include "app/run_settings.h"
 #include "app/scenario_settings.h"
 #include "app/simulation_record.h"
 #include "app/text_table.h"
@@ -20,13 +21,10 @@ namespace {
 
 constexpr double kTrajectoryRate = 1000.0;  // Hz
 
-struct SimulateSettings {
+struct SimulateSettings : RunSettings {
   ScenarioSettings scenario;
-  std::string integrator = "dop853";
-  double tolerance = 1e-9;
+  SolverSettings solver;
   std::vector<std::string> sensitivities;
-  std::string out;
-  bool force = false, json = false;
 };
 
 // Nothing was simulated that could be looked at.
@@ -94,10 +92,8 @@ Json NewSimulationRecord(const SimulateSettings& settings, const Scenario& scena
   header.options = {{"scenario", settings.scenario.scenario},
                     {"set", settings.scenario.set},
                     {"with", settings.scenario.with},
-                    {"sensitivities", settings.sensitivities},
-                    {"integrator", settings.integrator},
-                    {"relative_tolerance", settings.tolerance},
-                    {"absolute_tolerance", 0.1 * settings.tolerance}};
+                    {"sensitivities", settings.sensitivities}};
+  RecordSolver(settings.solver, header.options);
   Json record = NewRecord(header);
   record["scenario"] = scenario.name;
   return record;
@@ -106,15 +102,13 @@ Json NewSimulationRecord(const SimulateSettings& settings, const Scenario& scena
 ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
   const auto begin = std::chrono::steady_clock::now();
   const Scenario scenario = ReadScenarioOf(settings.scenario);
-  RunFolderOptions place{std::nullopt, settings.force};
-  if (!settings.out.empty()) place.out = settings.out;
-  const RunFolder folder(place, scenario.name, "simulate");
+  const RunFolder folder(RunFolderOptionsOf(settings), scenario.name, "simulate");
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
   const std::vector<EffectSetting> effects =
       ResolveEffects(scenario.effects, law, LegMassOfSpec(scenario.mechanism));
   SimulationRequest request = RequestOfScenario(scenario, effects);
-  request.integrator = IntegratorOptionsOf(settings.integrator, settings.tolerance);
+  request.integrator = IntegratorOptionsOf(settings.solver);
   std::vector<SensitivityDirection> directions;
   for (const std::string& name : settings.sensitivities)
     directions.push_back(
@@ -152,18 +146,16 @@ void AddSimulateCommand(CLI::App& app, Invocation& invocation) {
   auto settings = std::make_shared<SimulateSettings>();
   CLI::App& sub = *app.add_subcommand("simulate", "Run a scenario: events, energy, trajectory");
   AddScenarioOptions(sub, settings->scenario);
-  AddIntegratorOptions(sub, settings->integrator, settings->tolerance);
+  AddSolverOptions(sub, settings->solver);
   sub.add_option("--sensitivities", settings->sensitivities,
                  "Derivatives of the end and of event times, as E,d,x0,air_drag.c_drag")
       ->delimiter(',')
       ->option_text("NAME,...")
       ->allow_extra_args(false);
-  sub.add_option("--out", settings->out, "Run folder (default runs/<scenario>-simulate-NNN)")
-      ->option_text("DIR");
-  sub.add_flag("--force", settings->force, "Replace the run that stands in the run folder");
+  AddRunFolderOptions(sub, *settings, "Run folder (default runs/<scenario>-simulate-NNN)");
   sub.footer(
       "Examples:\n"
-      "  hoplab simulate hopping.yaml\n"
+      "  hoplab simulate experiments/controlled-hopping.yaml\n"
       "  hoplab simulate hopping.yaml --set controller.kp_N_s=4 --law consistent\n"
       "  hoplab simulate hopping.yaml --sensitivities E,d --json");
   OnParsed(sub, invocation, settings, RunSimulate);

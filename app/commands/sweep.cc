@@ -9,6 +9,7 @@
 #include "app/problem_settings.h"
 #include "app/progress.h"
 #include "app/run_folder.h"
+#include "app/run_settings.h"
 #include "app/scenario_settings.h"
 #include "app/sweep_record.h"
 #include "app/version.h"
@@ -20,19 +21,16 @@
 namespace hoplab {
 namespace {
 
-struct SweepSettings {
+struct SweepSettings : RunSettings {
   ScenarioSettings scenario;
   std::uint64_t seed = 1;
   int jobs = 0;
-  std::string integrator = "dop853";
-  double tolerance = 1e-9;
-  std::string out;
-  bool force = false, json = false, quiet = false;
+  SolverSettings solver;
 };
 
 SweepPlan PlanOf(const SweepSettings& settings) {
-  return {ScenarioDocumentOf(settings.scenario),
-          IntegratorOptionsOf(settings.integrator, settings.tolerance), settings.seed};
+  return {ScenarioDocumentOf(settings.scenario), IntegratorOptionsOf(settings.solver),
+          settings.seed};
 }
 
 Json NewSweepRecord(const SweepSettings& settings, const SweepPlan& plan) {
@@ -41,10 +39,10 @@ Json NewSweepRecord(const SweepSettings& settings, const SweepPlan& plan) {
   header.law = std::string(NameOf(plan.law()));
   header.variant = plan.variant();
   header.seed = settings.seed;
-  header.options = {
-      {"scenario", settings.scenario.scenario},   {"set", settings.scenario.set},
-      {"with", settings.scenario.with},           {"integrator", settings.integrator},
-      {"relative_tolerance", settings.tolerance}, {"absolute_tolerance", 0.1 * settings.tolerance}};
+  header.options = {{"scenario", settings.scenario.scenario},
+                    {"set", settings.scenario.set},
+                    {"with", settings.scenario.with}};
+  RecordSolver(settings.solver, header.options);
   Json record = NewRecord(header);
   record["scenario"] = plan.name();
   record["settings_hash"] = plan.fingerprint();
@@ -64,7 +62,7 @@ void ComputeOnThreads(const SweepPlan& plan, SweepJournal& journal, int jobs,
     const SweepRow row = plan.Compute(missing[i]);
     const std::lock_guard lock(mutex);
     journal.Add(missing[i], row);
-    progress.Step("sweeping: " + DoneText(journal, plan));
+    progress.Step("sweeping: " + DoneText(journal, plan), journal.done(), plan.size());
   });
 }
 
@@ -86,8 +84,9 @@ void ComputeOnRanks(const SweepPlan& plan, SweepJournal& journal, MpiJob& job,
     const auto row = RowOfLine(line, plan);
     HOPLAB_CHECK(row && row->first == index);
     journal.Add(index, row->second);
-    progress.Step("sweeping on " + std::to_string(job.size()) +
-                  " ranks: " + DoneText(journal, plan));
+    progress.Step(
+        "sweeping on " + std::to_string(job.size()) + " ranks: " + DoneText(journal, plan),
+        journal.done(), plan.size());
   };
   try {
     const MpiJob::Served served = job.Serve(journal.Missing(), compute, accept, stop);
@@ -123,15 +122,14 @@ ExitCode Lead(const SweepSettings& settings, Console& console, MpiJob* job) {
   const auto begin = std::chrono::steady_clock::now();
   const InterruptGuard interrupt;  // before there is anything to keep
   const SweepPlan plan = PlanOf(settings);
-  RunFolderOptions place{std::nullopt, settings.force};
-  if (!settings.out.empty()) place.out = settings.out;
-  const RunFolder folder(place, plan.name(), "sweep");
+  const RunFolder folder(RunFolderOptionsOf(settings), plan.name(), "sweep");
   SweepJournal journal(folder.Partial(), plan, ProjectVersion(), settings.force);
 
   Progress progress(console, settings.quiet);
   progress.Stage("sweeping" + (journal.done() > 0 ? ", " + DoneText(journal, plan) + " stand in " +
                                                         journal.file().string()
-                                                  : std::string()));
+                                                  : std::string()),
+                 journal.done());
   if (job)
     ComputeOnRanks(plan, journal, *job, interrupt.flag(), progress, console);
   else
@@ -182,17 +180,12 @@ void AddSweepCommand(CLI::App& app, Invocation& invocation) {
   auto settings = std::make_shared<SweepSettings>();
   CLI::App& sub = *app.add_subcommand("sweep", "Run a scenario over grids, lists or hypercubes");
   AddScenarioOptions(sub, settings->scenario);
-  sub.add_option("--seed", settings->seed, "Of a Latin hypercube (default 1)")->option_text("N");
-  sub.add_option("--jobs", settings->jobs,
-                 "Threads (default: all cores; one a rank under mpirun); never changes a result")
-      ->check(CLI::Range(1, 1024))
-      ->option_text("N");
-  AddIntegratorOptions(sub, settings->integrator, settings->tolerance);
-  sub.add_option("--out", settings->out, "Run folder (default runs/<scenario>-sweep-NNN)")
-      ->option_text("DIR");
-  sub.add_flag("--force", settings->force,
-               "Replace the run that stands in the run folder, begin an interrupted one anew");
-  sub.add_flag("--quiet", settings->quiet, "No progress on standard error");
+  AddSeedOption(sub, settings->seed, "Of a Latin hypercube");
+  AddJobsOption(sub, settings->jobs, "; one a rank under mpirun");
+  AddSolverOptions(sub, settings->solver);
+  AddRunFolderOptions(
+      sub, *settings, "Run folder (default runs/<scenario>-sweep-NNN)",
+      "Replace the run that stands in the run folder, begin an interrupted one anew");
   sub.footer(
       "An interrupted sweep goes on where it was: start the same command again.\n"
       "Examples:\n"

@@ -178,8 +178,10 @@ class Pipeline {
     naming.jobs = options_.fit.jobs;
     naming.stop = options_.fit.stop;
     if (options_.step) {
-      naming.progress = [&](int refits, std::string_view what) {
-        options_.step("refit " + std::to_string(refits) + ": " + std::string(what));
+      naming.progress = [&](int refits, int of, std::string_view what) {
+        options_.step("refit " + std::to_string(refits) + " of " + std::to_string(of) + ": " +
+                          std::string(what),
+                      refits, of);
       };
     }
     d_.naming = NameCauses(d_.null, candidates, d_.null_at, train_, naming);

@@ -43,7 +43,8 @@ struct DiagnosisOptions {
   int max_effects = 4;
   /// Called where a stage begins, and how far it is (may come from several threads, one at a time).
   std::function<void(std::string_view stage)> stage = nullptr;
-  std::function<void(const std::string& text)> step = nullptr;
+  /// `of` is what is planned so far: more may follow from what is found.
+  std::function<void(const std::string& text, int done, int of)> step = nullptr;
 };
 
 /// One test of the detection: a candidate's score or a probe group's chi-square.

@@ -18,8 +18,8 @@ struct NamingOptions {
   int max_effects = 4;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
-  /// How far the search is: refits done, and what it does.
-  std::function<void(int refits, std::string_view what)> progress = nullptr;
+  /// How far the search is: refits done, how many are planned so far, and what the last one was.
+  std::function<void(int refits, int of, std::string_view what)> progress = nullptr;
 };
 
 /// What the data say about one candidate.

@@ -49,12 +49,13 @@ void Refits::RefitAll(const std::vector<Model>& models) {
       missing.push_back(m);
   }
   std::vector<Extension> results(missing.size());
+  const int planned = naming_.refits + static_cast<int>(missing.size());
   ParallelFor(static_cast<int>(missing.size()), options_.jobs, [&](int i) {
     if (Stopped()) return;
     results[i] = RefitModel(missing[i]);
     if (options_.progress) {
       const std::lock_guard lock(mutex_);
-      options_.progress(++naming_.refits, NamesOf(missing[i]));
+      options_.progress(++naming_.refits, planned, NamesOf(missing[i]));
     }
   });
   for (std::size_t i = 0; i < missing.size(); ++i)

@@ -48,8 +48,9 @@ TEST(ReportPage, NothingInARunEndsTheScriptItStandsIn) {
   record["dataset"] = "</script><script>alert(1)</script><!-- \xc3\xa9 \xe2\x80\xa8 \xff";
   record["notes"] = {"</SCRIPT >", "<!--"};
   const std::string page = ReportPage(record, {{"a.csv", "word\n</script><!--\n"}});
-  // The template's own: run, tables, plotting library (two), the line between them, the report.
-  EXPECT_EQ(Count(page, "</script"), 6u);
+  // The template's own: run, explanations, tables, plotting library (two), the line between them,
+  // the report.
+  EXPECT_EQ(Count(page, "</script"), 7u);
   EXPECT_EQ(Count(page, "</SCRIPT"), 0u);
   EXPECT_EQ(Count(page, "<!--"), 0u);
   EXPECT_NE(page.find("&lt;/script&gt;"), std::string::npos) << "the title shows it as text";

@@ -181,16 +181,20 @@ TEST(NameCauses, DoesNotDependOnTheOrderOfTheCandidates) {
 
 TEST(NameCauses, CountsAndReportsEveryRefit) {
   const NullFit fit({.effects = {EffectOfSize("air_drag", 0.08)}});
-  int calls = 0, last = 0;
+  int calls = 0, last = 0, planned = 0;
   NamingOptions options{.max_effects = 1};
-  options.progress = [&](int refits, std::string_view what) {
+  options.progress = [&](int refits, int of, std::string_view what) {
     ++calls;
     last = refits;
+    EXPECT_GE(of, planned) << "more may follow, never less";
+    planned = of;
+    EXPECT_LE(refits, of);
     EXPECT_FALSE(what.empty());
   };
   const Naming n = NameSix(fit, options);
   EXPECT_EQ(calls, n.refits);
   EXPECT_EQ(last, n.refits);
+  EXPECT_EQ(planned, n.refits) << "what was planned was done";
   EXPECT_GE(n.refits, 6);
 }
 

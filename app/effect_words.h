@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/effects/effect.h"
+
+namespace hoplab {
+
+/// In the order in which effects are listed.
+inline constexpr std::array kEffectKinds = {EffectKind::kForce, EffectKind::kParameter,
+                                            EffectKind::kGuard, EffectKind::kObservation};
+/// "When contact begins".
+std::string_view TitleOf(EffectKind kind);
+
+/// "Air slows the body with the square of its speed."
+std::string SentenceOf(const Effect& effect);
+
+/// The laws of every mechanism, each mechanism's default first.
+std::vector<Law> AllLaws();
+std::vector<Law> LawsWith(const Effect& effect);
+
+/// "ball only", "laws thesis, no_slip", "massless legs only"; empty where it goes with everything.
+std::string RestrictionOf(const Effect& effect);
+
+}  // namespace hoplab

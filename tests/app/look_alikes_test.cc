@@ -1,0 +1,49 @@
+// What `hoplab explain` says of look-alikes, measured: columns of effects at the null fit of four
+// hops under the speed controller, fitted values and starts projected out.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "app/effect_advice.h"
+#include "tests/support/diagnosed_hops.h"
+
+namespace hoplab {
+namespace {
+
+TEST(LookAlikes, AreThoseWhoseColumnsNearlyCoincide) {
+  const testing::NullFit null(testing::HopDataset(4, 5));
+  std::vector<Candidate> candidates;
+  std::vector<std::string> owner;  // of each column
+  for (const Effect* effect : AllEffects()) {
+    // One that nobody has written about need not be in the table: adding it means adding one file.
+    if (!AppliesTo(*effect, Law::kLargeDeflection) || !AdviceOn(effect->info.name)) continue;
+    candidates.push_back({effect});
+    owner.insert(owner.end(), effect->info.parameters.size(), std::string(effect->info.name));
+  }
+  Eigen::MatrixXd columns = null.With(candidates).columns;
+  columns.colwise().normalize();
+  const Eigen::MatrixXd cosines = columns.transpose() * columns;
+  ASSERT_TRUE(cosines.allFinite());
+
+  std::map<std::string, std::map<std::string, double>> alike;
+  for (Eigen::Index i = 0; i < cosines.rows(); ++i) {
+    for (Eigen::Index j = 0; j < cosines.cols(); ++j) {
+      const std::string &a = owner[static_cast<std::size_t>(i)],
+                        &b = owner[static_cast<std::size_t>(j)];
+      const double size = std::abs(cosines(i, j));
+      if (a != b && size > kAlike) alike[a][b] = std::max(alike[a][b], size);
+    }
+  }
+  for (const std::string& effect : std::set<std::string>(owner.begin(), owner.end())) {
+    std::vector<std::pair<double, std::string>> nearest;
+    for (const auto& [other, size] : alike[effect]) nearest.emplace_back(-size, other);
+    std::sort(nearest.begin(), nearest.end());
+    std::string expected;
+    for (const auto& [size, other] : nearest) expected += (expected.empty() ? "" : ", ") + other;
+    EXPECT_EQ(AdviceOn(effect)->look_alikes, expected) << effect;
+  }
+}
+
+}  // namespace
+}  // namespace hoplab
