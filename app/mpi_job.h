@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -50,8 +51,9 @@ class MpiJob {
   int rank_ = 0, size_ = 1;
   bool took_part_ = false;
   // Messages that are on their way.
+  class Post;
+  std::unique_ptr<Post> post_;
   std::string incoming_;
-  std::vector<int> outgoing_;
 };
 
 }  // namespace hoplab
