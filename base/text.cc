@@ -132,6 +132,24 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+namespace {
+
+// The one word that goes on where `beginning` ends: "condition" for "condition-number".
+std::optional<std::string> OnlyWordThatBegins(std::string_view beginning,
+                                              const std::vector<std::string>& known) {
+  constexpr std::size_t kShortest = 3;
+  if (beginning.size() < kShortest) return std::nullopt;
+  std::optional<std::string> only;
+  for (const std::string& candidate : known) {
+    if (!candidate.starts_with(beginning)) continue;
+    if (only && *only != candidate) return std::nullopt;
+    only = candidate;
+  }
+  return only;
+}
+
+}  // namespace
+
 std::optional<std::string> NearestWord(std::string_view word,
                                        const std::vector<std::string>& known) {
   if (word.empty() || word.size() > kLongestWord) return std::nullopt;
@@ -146,7 +164,7 @@ std::optional<std::string> NearestWord(std::string_view word,
       nearest = candidate;
     }
   }
-  return nearest;
+  return nearest ? nearest : OnlyWordThatBegins(word, known);
 }
 
 std::string DidYouMean(std::string_view word, const std::vector<std::string>& known) {

@@ -31,7 +31,7 @@ std::string Join(const std::vector<std::string>& words, std::string_view separat
 std::size_t EditDistance(std::string_view a, std::string_view b);
 
 /// The word of `known` that `word` was probably meant to be: the nearest by EditDistance, the first
-/// of equals. Nothing where even the nearest differs in more than a third of its letters.
+/// of equals; where over a third of its letters differ, the only one that `word` begins, or none.
 std::optional<std::string> NearestWord(std::string_view word,
                                        const std::vector<std::string>& known);
 

@@ -109,6 +109,12 @@ TEST(NearestWord, FindsTheMisspeltOne) {
   EXPECT_EQ(NearestWord("tets", {"train", "test"}), "test");
 }
 
+TEST(NearestWord, GoesOnWithABeginningThatIsOneWordsAlone) {
+  EXPECT_EQ(NearestWord("condition", {"chi2", "condition-number"}), "condition-number");
+  EXPECT_FALSE(NearestWord("sensor", {"sensor_offset_x", "sensor_offset_y"}));
+  EXPECT_FALSE(NearestWord("se", {"sensor_offset_x"}));
+}
+
 TEST(NearestWord, KeepsSilentWhereNothingIsNear) {
   EXPECT_FALSE(NearestWord("banana", {"width_m", "thickness_m"}));
   EXPECT_FALSE(NearestWord("", {"a"}));
