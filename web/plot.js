@@ -13,7 +13,7 @@ function plotConfig(name, withImages) {
     click: (div) => withImages.downloadImage(div, {format: 'svg', filename: name}),
   };
   return {
-    responsive: true, displaylogo: false, doubleClick: 'reset+autosize',
+    responsive: true, displaylogo: false, displayModeBar: hovers.matches ? 'hover' : false, doubleClick: 'reset+autosize',
     toImageButtonOptions: {format: 'png', filename: name, scale: 2},
     modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d'],
     modeBarButtonsToAdd: [svg],

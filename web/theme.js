@@ -4,6 +4,8 @@ const style = () => getComputedStyle(document.documentElement);
 const colour = (name) => style().getPropertyValue(`--${name}`).trim();
 
 const darkScheme = matchMedia('(prefers-color-scheme: dark)');
+// Without a pointer that hovers, a plot's tools would always lie on its legend.
+const hovers = matchMedia('(hover: hover)');
 const narrow = matchMedia('(max-width: 600px)');
 
 const modeColours = {rolling: 'rolling', toe: 'toe', stance: 'rolling', flight: 'flight'};
@@ -26,6 +28,7 @@ function baseLayout() {
     margin: {l: 56, r: 12, t: 12, b: 44}, autosize: true,
     colorway: ['one', 'two', 'three', 'four'].map(colour),
     hoverlabel: {bgcolor: colour('paper'), bordercolor: colour('soft'), font: {color: colour('ink'), size: 13}},
+    modebar: {bgcolor: colour('paper'), color: colour('soft'), activecolor: colour('ink')},
     legend: {orientation: 'h', x: 0, y: 1.02, yanchor: 'bottom', bgcolor: 'rgba(0,0,0,0)'},
     xaxis: axis, yaxis: axis, hovermode: 'closest', dragmode: 'zoom',
   };
