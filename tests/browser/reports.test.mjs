@@ -134,6 +134,17 @@ for (const [kind, expected] of Object.entries(kinds)) {
   });
 }
 
+test('on a touch screen no tools lie over a plot', async () => {
+  const context = await browser.newContext({viewport: {width: 800, height: 1000}, hasTouch: true, isMobile: true});
+  const page = await context.newPage();
+  await page.goto(pageOf('fit'));
+  await ready(page);
+  assert.equal(await page.evaluate(() => matchMedia('(hover: hover)').matches), false);
+  assert.ok(await page.$$eval('.plot', (plots) => plots.length) > 0);
+  assert.equal(await page.$$eval('.modebar-btn', (buttons) => buttons.filter((b) => b.checkVisibility()).length), 0);
+  await context.close();
+});
+
 test('a report prints with everything unfolded but what words mean', async () => {
   const page = await browser.newPage({colorScheme: 'dark'});
   await page.goto(pageOf('fit'));
