@@ -80,6 +80,8 @@ void ErkStepSolver::Start(double t, const double* y, double first_step) {
     HOPLAB_CHECK(ERKStepSetTableNum(m.solver, ARKODE_FEHLBERG_13_7_8) == ARK_SUCCESS);
     HOPLAB_CHECK(ERKStepWFtolerances(m.solver, &Memory::Weights) == ARK_SUCCESS);
     HOPLAB_CHECK(ERKStepSetMaxNumSteps(m.solver, 1000000) == ARK_SUCCESS);
+    // A sharp effect turns over within one step, which then has to shrink far; 7 by default.
+    HOPLAB_CHECK(ERKStepSetMaxErrTestFails(m.solver, 50) == ARK_SUCCESS);
     HOPLAB_CHECK(ERKStepSetErrHandlerFn(
                      m.solver, [](int, const char*, const char*, char*, void*) {}, nullptr) ==
                  ARK_SUCCESS);

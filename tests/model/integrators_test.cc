@@ -89,6 +89,30 @@ TEST_P(Solvers, ErrorFallsWithTheTolerance) {
 INSTANTIATE_TEST_SUITE_P(EveryLaw, Solvers, ::testing::ValuesIn(kCLegLaws),
                          [](const auto& info) { return std::string(NameOf(info.param)); });
 
+// Dry friction turns over within a narrow band of speed: a step that meets it has to shrink.
+TEST(SharpEffect, IsMetByEverySolver) {
+  for (IntegratorKind kind : {IntegratorKind::kDop853, IntegratorKind::kErkStep}) {
+    for (int i = 1; i <= 60; ++i) {
+      SimulationRequest q;
+      q.law = Law::kStraightLeg;
+      q.parameters.m = 1.0;
+      q.parameters.k = 2500.0;
+      q.parameters.l0 = 0.18;
+      q.parameters.d = 3.0;
+      q.parameters.theta_td = Degrees(16.0);
+      q.initial = {0.0, 0.33, 1.2, 0.0};
+      q.horizon = 5.0;
+      q.max_hops = 2;
+      q.integrator = {kind, kOracleRelative, kOracleAbsolute};
+      EffectSetting friction = EffectSetting::Null(*FindEffect("guide_coulomb_friction"));
+      friction.values[0] = 0.005 * i;
+      q.effects = {&friction, 1};
+      EXPECT_EQ(Simulate(q).outcome, Outcome::kHopLimit)
+          << NameOf(kind) << ' ' << 0.005 * i << " N";
+    }
+  }
+}
+
 TEST(StiffStance, CvodesNeedsFarFewerStepsThanAnExplicitMethod) {
   // d = 5e4 N s/m on 1 kg: the chord speed dies in 20 us, the stance lasts for good.
   SimulationRequest q = ThickLegRequest(Law::kConsistent);

@@ -235,7 +235,11 @@ Dataset MakeExactDataset(Law law) {
 SealedCase::SealedCase(const std::filesystem::path& folder, const Truth& truth) : folder_(folder) {
   std::vector<std::string> notes;
   const Dataset made = MakeDataset(truth, &notes);
-  if (!notes.empty()) throw std::runtime_error("a sealed case does not run: " + notes.front());
+  if (!notes.empty()) {
+    const std::string what = truth.effects.empty() ? "no effect" : truth.effects.front().name;
+    throw std::runtime_error("a sealed case does not run: " + what + ", " +
+                             std::string(NameOf(truth.law)) + ": " + notes.front());
+  }
   std::filesystem::create_directories(folder_);
   WriteDataset(made, dataset());
   std::ofstream seal(folder_ / "sealed.txt");
