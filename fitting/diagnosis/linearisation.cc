@@ -160,8 +160,9 @@ Linearisation Linearise(const FitProblem& problem, int first_tested,
     out.r.segment(at, n) = p.r;
     out.raw.segment(at, n) = p.raw;
     out.leverage.segment(at, n) = p.leverage;
-    out.columns.middleRows(at, n) = p.tested;
-    S.middleRows(at, n) = p.fitted;
+    // Rows of a matrix without columns lie nowhere.
+    if (tested > 0) out.columns.middleRows(at, n) = p.tested;
+    if (S.cols() > 0) S.middleRows(at, n) = p.fitted;
     out.length += p.tested_square;
     out.labels.insert(out.labels.end(), p.labels.begin(), p.labels.end());
     out.fitted_rank += p.start_rank;
