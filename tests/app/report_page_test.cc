@@ -31,7 +31,7 @@ Json SmallFit() {
 }
 
 // Instrumented code takes several times as long; the bound is that of the program.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef HOPLAB_SANITIZE
 constexpr double kLongestWrite = 15.0;  // s
 #else
 constexpr double kLongestWrite = 1.0;  // s
