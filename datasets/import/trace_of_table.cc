@@ -103,12 +103,15 @@ class TraceBuilder {
       text = SiText(row, *time_);
       if (text.empty())
         Fail(row, *time_, "", "every row must have a time", "Remove the row or fill its time in.");
-      CheckTime(row, text);
+      CheckRange(row, text);
     }
     const double time = *ParseDouble(text);
     if (row == 0) first_s_ = time;
     last_s_ = time;
     if (time < options_.from_s.value_or(time) || time > options_.to_s.value_or(time)) return "";
+    if (time_ != nullptr) CheckOrder(row, time);
+    last_kept_ = row;
+    last_kept_s_ = time;
     if (!options_.zero_time) return text;
     if (!first_kept_) first_kept_ = row;
     if (time_ == nullptr)
@@ -117,18 +120,21 @@ class TraceBuilder {
     return Sum(row, *time_, text, zero_);
   }
 
-  void CheckTime(std::size_t row, const std::string& text) {
-    const double time = *ParseDouble(text);
-    const std::string_view cell = table_.columns[time_->column].cells[row];
-    if (!kTimeRange.Contains(time))
-      Fail(row, *time_, cell, "must be in " + kTimeRange.Text(), "Check its unit in --map.");
-    if (row > 0 && !(time > last_s_)) {
-      const std::string before(table_.columns[time_->column].cells[row - 1]);
-      Fail(row, *time_, cell,
-           (time == last_s_ ? "repeats the time before, " : "goes back behind the time before, ") +
-               before,
-           "Remove the row, sort the rows by time, or cut the log with --cut.");
-    }
+  void CheckRange(std::size_t row, const std::string& text) const {
+    if (!kTimeRange.Contains(*ParseDouble(text)))
+      Fail(row, *time_, table_.columns[time_->column].cells[row], "must be in " + kTimeRange.Text(),
+           "Check its unit in --map.");
+  }
+
+  // Of the rows within the cut.
+  void CheckOrder(std::size_t row, double time) const {
+    if (!last_kept_ || time > last_kept_s_) return;
+    const std::vector<std::string_view>& cells = table_.columns[time_->column].cells;
+    Fail(row, *time_, cells[row],
+         (time == last_kept_s_ ? "repeats the time before, "
+                               : "goes back behind the time before, ") +
+             std::string(cells[*last_kept_]),
+         "Remove the row, sort the rows by time, or cut the log with --cut.");
   }
 
   void AddRow(std::size_t row) {
@@ -160,8 +166,9 @@ class TraceBuilder {
   const TraceOptions& options_;
   const MappedColumn* time_ = nullptr;
   std::vector<const MappedColumn*> channels_;
-  std::optional<std::size_t> first_kept_;  // row
-  std::string zero_;                       // what takes its time to 0
+  std::optional<std::size_t> first_kept_, last_kept_;  // rows
+  double last_kept_s_ = 0;
+  std::string zero_;  // what takes its time to 0
   double first_s_ = 0, last_s_ = 0;
   ImportedTrace trace_;
 };

@@ -221,6 +221,24 @@ TEST_F(ImportMap, SeveralCutsOfALogAreSeveralTrials) {
   EXPECT_EQ(result.files.at("log-2.csv"), "time_s,body_y_m\n2,3\n3,4\n");
 }
 
+// A clock that stands still or starts anew outside the cut does no harm; inside it does.
+TEST_F(ImportMap, TimeMustIncreaseWithinTheCutAlone) {
+  ImportRequest request;
+  const auto file = Log("t [s],z [m]\n0,1\n0,1\n1,2\n2,3\n3,4\n0,5\n");
+  request.map = {ParseMapEntry("t=t").value(), ParseMapEntry("y=z").value()};
+  request.name = "clock";
+  request.logs = {{file, TrialRole::kTrain, {{1, 2}}}};
+  EXPECT_EQ(CsvOf(ImportLogs(request)), "time_s,body_y_m\n1,2\n2,3\n");
+  request.logs = {{file, TrialRole::kTrain, {{{}, 2}}}};
+  EXPECT_EQ(InputErrorOf([&] { ImportLogs(request); }),
+            file.string() +
+                ":3: t [s] = 0; repeats the time before, 0. Remove the row, sort the rows by time, "
+                "or cut the log with --cut.");
+  request.logs = {{Log("t [s],z [m]\n0,1\n1,2\n2,3\n1,4\n"), TrialRole::kTrain, {{1, 1}}}};
+  EXPECT_NE(InputErrorOf([&] { ImportLogs(request); }).find(":5: t [s] = 1; repeats"),
+            std::string::npos);
+}
+
 TEST_F(ImportMap, AShiftIsExact) {
   TraceOptions options;
   options.shifts[ChannelId::kBodyY] = "-0.0350";
