@@ -30,6 +30,21 @@ struct ProcessResult {
   std::string out, err;
 };
 
+/// In a child process: becomes the program, in `folder` unless that is empty.
+[[noreturn]] inline void Become(const std::vector<std::string>& command,
+                                const std::filesystem::path& folder) {
+  if (!folder.empty() && chdir(folder.c_str()) != 0) _exit(126);
+  std::vector<char*> argv;
+  for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  execv(argv[0], argv.data());
+  _exit(127);
+}
+/// Of a status that waitpid gave: 128 + signal if one ended the program.
+inline int ExitCodeOf(int status) {
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
 /// Runs a program to its end, or kills it at the timeout. Standard input is empty, output goes
 /// through files, so that no pipe fills up.
 inline ProcessResult RunProcess(const ProcessRequest& request) {
@@ -44,12 +59,7 @@ inline ProcessResult RunProcess(const ProcessRequest& request) {
     redirect("/dev/null", O_RDONLY, STDIN_FILENO);
     redirect(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
     redirect(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
-    if (!request.folder.empty() && chdir(request.folder.c_str()) != 0) _exit(126);
-    std::vector<char*> argv;
-    for (const std::string& word : request.command) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    execv(argv[0], argv.data());
-    _exit(127);
+    Become(request.command, request.folder);
   }
   ProcessResult result;
   const auto end = std::chrono::steady_clock::now() + request.timeout;
@@ -67,7 +77,7 @@ inline ProcessResult RunProcess(const ProcessRequest& request) {
     // Waiting for another process, not for a time: the pause only spares the processor.
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.exit_code = ExitCodeOf(status);
   result.out = ReadText(out);
   result.err = ReadText(err);
   return result;

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/run_process.h"
+
 namespace hoplab::testing {
 
 struct TerminalRequest {
@@ -35,12 +37,7 @@ inline TerminalResult RunOnTerminal(const TerminalRequest& request) {
   int master = -1;
   const pid_t child = forkpty(&master, nullptr, nullptr, &size);
   if (child == 0) {
-    if (!request.folder.empty() && chdir(request.folder.c_str()) != 0) _exit(126);
-    std::vector<char*> argv;
-    for (const std::string& word : request.command) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    execv(argv[0], argv.data());
-    _exit(127);
+    Become(request.command, request.folder);
   }
   TerminalResult result;
   const auto end = std::chrono::steady_clock::now() + request.timeout;
@@ -63,7 +60,7 @@ inline TerminalResult RunOnTerminal(const TerminalRequest& request) {
     kill(child, SIGKILL);
     waitpid(child, &status, 0);
   }
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.exit_code = ExitCodeOf(status);
   return result;
 }
 
