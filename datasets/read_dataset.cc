@@ -224,7 +224,8 @@ Dataset ReadDataset(const fs::path& folder) {
                       "Put the file itself there."});
   });
   const YamlLimits limits;
-  const YamlNode root = ParseYaml(ReadFileBytes(yaml, limits.max_bytes), yaml.string(), limits);
+  const YamlNode root =
+      ParseYaml(ReadFileBytes(yaml, limits.max_bytes, kSamplesElsewhere), yaml.string(), limits);
   FileSource files;
   files.place = (folder / "").string();
   files.read = [&](const std::string& name, const YamlCursor& file) {

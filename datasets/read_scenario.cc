@@ -289,7 +289,8 @@ GenerateSpec ReadGenerate(const YamlCursor& cursor, const YamlNode& root,
 
 ScenarioDocument ScenarioDocument::FromFile(const std::filesystem::path& file) {
   const YamlLimits limits;
-  return ScenarioDocument(ParseYaml(ReadFileBytes(file, limits.max_bytes), file.string(), limits));
+  return ScenarioDocument(
+      ParseYaml(ReadFileBytes(file, limits.max_bytes, kSamplesElsewhere), file.string(), limits));
 }
 
 ScenarioDocument ScenarioDocument::FromText(std::string_view text, const std::string& place) {

@@ -56,7 +56,7 @@ std::string_view CheckText(std::string_view bytes, const std::string& place) {
   return bytes;
 }
 
-std::string ReadFileBytes(const fs::path& file, std::uint64_t max_bytes) {
+std::string ReadFileBytes(const fs::path& file, std::uint64_t max_bytes, const char* shrink) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status))
@@ -67,8 +67,7 @@ std::string ReadFileBytes(const fs::path& file, std::uint64_t max_bytes) {
   const std::uintmax_t size = fs::file_size(file, error);
   if (!error && size > max_bytes)
     throw InputError({file.string(), "size = " + std::to_string(size) + " bytes",
-                      "must be at most " + std::to_string(max_bytes) + " bytes",
-                      "Cut the recording or lower its sample rate."});
+                      "must be at most " + std::to_string(max_bytes) + " bytes", shrink});
   std::ifstream in(file, std::ios::binary);
   std::string bytes(static_cast<std::size_t>(size), '\0');
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -12,7 +12,8 @@ namespace hoplab {
 std::string_view CheckText(std::string_view bytes, const std::string& place);
 
 /// The bytes of the file. Throws InputError if it is absent, no regular file (a folder, a pipe, a
-/// device), larger than `max_bytes` or cannot be read.
-std::string ReadFileBytes(const std::filesystem::path& file, std::uint64_t max_bytes);
+/// device), larger than `max_bytes` (`shrink` is the remedy then) or cannot be read.
+std::string ReadFileBytes(const std::filesystem::path& file, std::uint64_t max_bytes,
+                          const char* shrink = "Cut the recording or lower its sample rate.");
 
 }  // namespace hoplab

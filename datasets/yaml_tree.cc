@@ -250,7 +250,7 @@ YamlNode ParseYaml(std::string_view bytes, const std::string& document, const Ya
   if (bytes.size() > limits.max_bytes)
     throw InputError({document, "size = " + std::to_string(bytes.size()) + " bytes",
                       "must be at most " + std::to_string(limits.max_bytes) + " bytes",
-                      "Samples belong into the CSV files."});
+                      kSamplesElsewhere});
   const std::string_view text = CheckText(bytes, document);
   const auto place_of = [&](const YAML::Mark& mark) {
     return mark.is_null() ? document : document + ":" + std::to_string(mark.line + 1);

@@ -32,6 +32,9 @@ struct YamlEntry {
   YamlNode value;
 };
 
+/// What to do about a YAML file that is too large.
+inline constexpr const char* kSamplesElsewhere = "Samples belong into the CSV files.";
+
 /// Limits that no honest file comes near, and that keep a hostile one from costing anything.
 struct YamlLimits {
   std::size_t max_bytes = 1 << 20;           // of the file

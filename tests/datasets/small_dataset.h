@@ -61,6 +61,10 @@ inline Dataset ReadWithYaml(const std::string& from, const std::string& to) {
 inline Dataset ReadWithCsv(const std::string& from, const std::string& to) {
   return Read(kYaml, Replace(kCsv, from, to));
 }
+/// What is said of a dataset; "" if nothing is.
+inline std::string ErrorOf(const std::string& yaml, const std::string& csv = kCsv) {
+  return InputErrorOf([&] { Read(yaml, csv); });
+}
 inline std::string ErrorWithYaml(const std::string& from, const std::string& to) {
   return InputErrorOf([&] { ReadWithYaml(from, to); });
 }
