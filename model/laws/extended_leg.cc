@@ -11,6 +11,54 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+// What M10 and M28 lack of zero at a contact arc phi, a lead u and a height Y of the hip over the
+// contact, and their slopes there.
+template <class T>
+struct Residuals {
+  struct Pair {
+    T tip, ground;
+  };
+  Pair miss, by_phi, by_u, by_Y;
+};
+
+template <class T>
+struct Place {
+  T phi, u, Y, softer;
+};
+
+template <class T>
+T Chord(const Place<T>& at) {
+  using std::sqrt;
+  return sqrt(at.u * at.u + at.Y * at.Y);
+}
+
+// M28: the ground under the foot sinks by c_g times the elastic part of the vertical force.
+template <class T>
+T SinkMiss(const Parameters<T>& p, const T& F, const Place<T>& at, const T& l, const T& y) {
+  return at.Y - y - p.law_terms.ground_compliance * (F * at.Y / l);
+}
+
+// By the chain rule through the chord: the statics know only phi and l.
+template <class T>
+Residuals<T> ResidualsAt(const Parameters<T>& p, Law law, const T& torque, const Place<T>& at,
+                         const T& y) {
+  using S = Tangent<T>;
+  const T one(1.0), zero(0.0), l = Chord(at);
+  const Statics<S> leg =
+      StaticsAt<S, T>(p, law, torque, {S(at.phi, one, zero), S(l, zero, one), S(at.softer)});
+  const T by_l = 1.0 / l, lead = at.u * by_l, height = at.Y * by_l;
+  const T& F = leg.F.value;
+  const T sinking = p.law_terms.ground_compliance * height;
+  const T tip_l = leg.tip_turn.rate[1] - lead * by_l;
+  const T ground_l = -sinking * (leg.F.rate[1] - F * by_l);
+  Residuals<T> out;
+  out.miss = {lead + leg.tip_turn.value, SinkMiss(p, F, at, l, y)};
+  out.by_phi = {leg.tip_turn.rate[0], -sinking * leg.F.rate[0]};
+  out.by_u = {by_l + tip_l * lead, ground_l * lead};
+  out.by_Y = {tip_l * height, 1.0 - p.law_terms.ground_compliance * (F * by_l) + ground_l * height};
+  return out;
+}
+
 // Arc and height at equilibrium, with the inverse of the matrix of slopes of the two residuals.
 struct Solution {
   bool found = false;
@@ -28,7 +76,6 @@ struct Question {
 Solution Solve(const Question& q, ExtendedRoot& root) {
   constexpr int kMaxRounds = 30;
   constexpr double kStepTolerance = 1e-11;  // the step after it is below rounding
-  using Dual = Jet<4>;                      // directions phi, Y, u0, y
   double phi = root.phi, sink = root.sink;
   if (root.u0 == root.u0) {
     const double du = q.u0 - root.u0, dy = q.y - root.y;
@@ -39,31 +86,33 @@ Solution Solve(const Question& q, ExtendedRoot& root) {
   Solution s;
   for (int round = 0; round < kMaxRounds; ++round) {
     if (q.rolling) phi = std::fmin(std::fmax(phi, 0.05), 2.0 * kPi - 0.05);
-    const Dual angle = Seeded<Dual>(phi, 0, 1.0);
-    Situation<Dual> at{Seeded<Dual>(q.u0, 2, 1.0), Seeded<Dual>(q.y + sink, 1, 1.0),
-                       Dual(q.softer)};
-    if (roll != 0.0) at.u += roll * angle;
-    const Statics<Dual> leg = StaticsAt<Dual, double>(q.p, q.law, q.torque, angle, at);
-    const Dual tip = q.rolling ? leg.tip_miss : angle - phi;
-    const Dual ground = SinkMiss<Dual, double>(q.p, leg, at, Seeded<Dual>(q.y, 3, 1.0));
-    const double determinant = tip.v[0] * ground.v[1] - tip.v[1] * ground.v[0];
-    s.inverse[0][0] = ground.v[1] / determinant;
-    s.inverse[0][1] = -tip.v[1] / determinant;
-    s.inverse[1][0] = -ground.v[0] / determinant;
-    s.inverse[1][1] = tip.v[0] / determinant;
+    Residuals<double> at = ResidualsAt<double>(q.p, q.law, q.torque,
+                                               {phi, q.u0 + roll * phi, q.y + sink, q.softer}, q.y);
+    at.by_phi.tip += roll * at.by_u.tip;
+    at.by_phi.ground += roll * at.by_u.ground;
+    if (!q.rolling) {  // phi stays
+      at.miss.tip = at.by_u.tip = at.by_Y.tip = 0.0;
+      at.by_phi.tip = 1.0;
+    }
+    const double determinant = at.by_phi.tip * at.by_Y.ground - at.by_phi.ground * at.by_Y.tip;
+    s.inverse[0][0] = at.by_Y.ground / determinant;
+    s.inverse[0][1] = -at.by_Y.tip / determinant;
+    s.inverse[1][0] = -at.by_phi.ground / determinant;
+    s.inverse[1][1] = at.by_phi.tip / determinant;
     const auto solved = [&](int row, double a, double b) {
       return -(s.inverse[row][0] * a + s.inverse[row][1] * b);
     };
-    const double step = solved(0, tip.a, ground.a), deeper = solved(1, tip.a, ground.a);
+    const double step = solved(0, at.miss.tip, at.miss.ground);
+    const double deeper = solved(1, at.miss.tip, at.miss.ground);
     if (!std::isfinite(step) || !std::isfinite(deeper)) return s;
     phi += std::abs(step) < 0.5 ? step : std::copysign(0.5, step);
     sink += deeper;
     if (std::abs(step) < kStepTolerance && std::abs(deeper) < kStepTolerance * q.p.r) {
       root = {.phi = phi, .sink = sink, .u0 = q.u0, .y = q.y};
-      root.phi_u0 = solved(0, tip.v[2], ground.v[2]);
-      root.sink_u0 = solved(1, tip.v[2], ground.v[2]);
-      root.phi_y = solved(0, tip.v[3], ground.v[3]);
-      root.sink_y = solved(1, tip.v[3], ground.v[3]) - 1.0;
+      root.phi_u0 = solved(0, at.by_u.tip, at.by_u.ground);
+      root.sink_u0 = solved(1, at.by_u.tip, at.by_u.ground);
+      root.phi_y = solved(0, 0.0, -1.0);
+      root.sink_y = solved(1, 0.0, -1.0) - 1.0;
       s.found = true;
       s.phi = phi;
       s.Y = q.y + sink;
@@ -85,20 +134,22 @@ struct Footing {
 Footing FindFooting(const Question& q, double phi, double u) {
   constexpr int kMaxRounds = 30;
   constexpr double kStepTolerance = 1e-11;
-  using Dual = Jet<4>;  // directions phi, u
+  using Dual = Tangent<double>;  // directions phi, u
   Footing f;
   for (int round = 0; round < kMaxRounds; ++round) {
-    const Dual angle = Seeded<Dual>(phi, 0, 1.0);
+    const double l = std::hypot(u, q.y);
     const Statics<Dual> leg = StaticsAt<Dual, double>(
-        q.p, q.law, q.torque, angle, {Seeded<Dual>(u, 1, 1.0), Dual(q.y), Dual(q.softer)});
-    const Dual tip = q.rolling ? leg.tip_miss : angle - phi;
-    const double determinant = tip.v[0] * leg.delta.v[1] - tip.v[1] * leg.delta.v[0];
-    f.inverse[0][0] = leg.delta.v[1] / determinant;
-    f.inverse[0][1] = -tip.v[1] / determinant;
-    f.inverse[1][0] = -leg.delta.v[0] / determinant;
-    f.inverse[1][1] = tip.v[0] / determinant;
-    const double turn = f.inverse[0][0] * tip.a + f.inverse[0][1] * leg.delta.a;
-    const double shift = f.inverse[1][0] * tip.a + f.inverse[1][1] * leg.delta.a;
+        q.p, q.law, q.torque, {Dual(phi, 1.0, 0.0), Dual(l, 0.0, u / l), Dual(q.softer)});
+    const Dual tip =
+        q.rolling ? Dual(u, 0.0, 1.0) / Dual(l, 0.0, u / l) + leg.tip_turn : Dual(0.0, 1.0, 0.0);
+    const Dual& delta = leg.delta;
+    const double determinant = tip.rate[0] * delta.rate[1] - tip.rate[1] * delta.rate[0];
+    f.inverse[0][0] = delta.rate[1] / determinant;
+    f.inverse[0][1] = -tip.rate[1] / determinant;
+    f.inverse[1][0] = -delta.rate[0] / determinant;
+    f.inverse[1][1] = tip.rate[0] / determinant;
+    const double turn = f.inverse[0][0] * tip.value + f.inverse[0][1] * delta.value;
+    const double shift = f.inverse[1][0] * tip.value + f.inverse[1][1] * delta.value;
     if (!std::isfinite(turn) || !std::isfinite(shift)) return f;
     phi -= turn;
     u -= shift;
@@ -120,39 +171,34 @@ struct ArcRate {
 };
 template <class T>
 ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const LegConditions<T>& at, const T* z,
-                     const T& phi, const T& Y, const T& softer) {
-  using S = Tangent<T>;
-  struct Slopes {
-    T tip, ground;
+                     const Place<T>& here) {
+  const Residuals<T> by = ResidualsAt<T>(p, law, at.torque, here, z[kY]);
+  T tip_phi = by.by_phi.tip, ground_phi = by.by_phi.ground;
+  if (IsElastic(law)) {
+    tip_phi += p.r * by.by_u.tip;
+    ground_phi += p.r * by.by_u.ground;
+  }
+  T tip_rest(0.0), ground_rest = -z[kVy];  // what time does to both with phi, Y and u0 held
+  if (!IsZero(p.law_terms.stiffness_drift)) {
+    using S = Tangent<T>;
+    const T softening = -p.law_terms.stiffness_drift * here.softer * here.softer, l = Chord(here);
+    const Statics<S> leg =
+        StaticsAt<S, T>(p, law, at.torque, {S(here.phi), S(l), S(here.softer, softening, T(0.0))});
+    tip_rest += leg.tip_turn.rate[0];
+    ground_rest -= p.law_terms.ground_compliance * (leg.F.rate[0] * here.Y / l);
+  }
+  const T determinant = tip_phi * by.by_Y.ground - ground_phi * by.by_Y.tip;
+  const auto solved = [&](const T& tip, const T& ground) {
+    return T((by.by_Y.tip * ground - by.by_Y.ground * tip) / determinant);
   };
-  struct Direction {
-    T phi, Y, u0, y, softer;
-  };
-  const auto along = [&](const Direction& d) {
-    const S angle(phi, d.phi);
-    Situation<S> there{S(z[kContact] - z[kX], d.u0), S(Y, d.Y), S(softer, d.softer)};
-    if (IsElastic(law)) there.u = there.u + p.r * angle;
-    const Statics<S> leg = StaticsAt<S, T>(p, law, at.torque, angle, there);
-    return Slopes{leg.tip_miss.rate, SinkMiss<S, T>(p, leg, there, S(z[kY], d.y)).rate};
-  };
-  const T one(1.0), zero(0.0);
-  const Slopes by_phi = along({one, zero, zero, zero, zero});
-  const Slopes by_Y = along({zero, one, zero, zero, zero});
-  const Slopes by_u0 = along({zero, zero, one, zero, zero});
-  const T softening = -p.law_terms.stiffness_drift * softer * softer;
-  const Slopes by_rest = along({zero, zero, zero, z[kVy], softening});
-  const T determinant = by_phi.tip * by_Y.ground - by_phi.ground * by_Y.tip;
-  const auto solved = [&](const Slopes& s) {
-    return T((by_Y.tip * s.ground - by_Y.ground * s.tip) / determinant);
-  };
-  return {solved(by_u0), solved(by_rest)};
+  return {solved(by.by_u.tip, by.by_u.ground), solved(tip_rest, ground_rest)};
 }
 
 // What dphi/dt is multiplied by in M7, with r_d = l/(2 sin(phi/2)), or in its readings M32, M33.
 template <class T>
-T RadiusOfM7(const T& r, const ThesisVariant& variant, const Statics<T>& leg) {
+T RadiusOfM7(const T& r, const ThesisVariant& variant, const Statics<T>& leg, const T& l) {
   const bool at_rest = variant.rolling_radius == ThesisVariant::RollingRadius::kRest;
-  const T radius = at_rest ? T(2.0 * r * leg.sin * leg.cos) : T(leg.l * leg.cos);
+  const T radius = at_rest ? T(2.0 * r * leg.sin * leg.cos) : T(l * leg.cos);
   return variant.angle_rate == ThesisVariant::AngleRate::kTheta ? radius : T(0.5 * radius);
 }
 
@@ -179,24 +225,27 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   // Implicit function theorem: residuals at the root in duals, the unknowns held.
   T phi(solution.phi), Y(solution.Y);
   const bool rolls_on_arc = rolling && IsElastic(law_);
-  const auto here = [&] { return Situation<T>{rolls_on_arc ? T(u0 + p_.r * phi) : u0, Y, softer}; };
+  const auto here = [&] {
+    return Place<T>{phi, rolls_on_arc ? T(u0 + p_.r * phi) : u0, Y, softer};
+  };
   if constexpr (kJetWidth < T >> 0) {
-    const Situation<T> there = here();
-    const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, phi, there);
-    const T tip = rolling ? leg.tip_miss : T(0.0);
-    const T ground = SinkMiss<T, T>(p_, leg, there, z[kY]);
+    const Place<T> held = here();
+    const T l = Chord(held);
+    const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, {phi, l, softer});
+    const T tip = rolling ? T(held.u / l + leg.tip_turn) : T(0.0);
+    const T ground = SinkMiss(p_, leg.F, held, l, z[kY]);
     const auto& m = solution.inverse;
     phi -= m[0][0] * tip + m[0][1] * ground;
     Y -= m[1][0] * tip + m[1][1] * ground;
   }
-  const Situation<T> there = here();
-  const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, phi, there);
+  const Place<T> there = here();
   load.u = there.u;
   load.y = Y;
-  load.l = leg.l;
+  load.l = Chord(there);
+  const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, {phi, load.l, softer});
   load.phi = phi;
   load.elastic_force = leg.F;
-  load.tip_miss = leg.tip_miss;
+  load.tip_miss = load.u / load.l + leg.tip_turn;
   load.contact_rate = T(0.0);
   load.slip_gain = T(1.0);
   const T w = (Y * z[kVy] - load.u * z[kVx]) / load.l;  // M12
@@ -206,11 +255,11 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   // M27: dx_c/dt = rho dphi/dt, the foot's creeping added by the caller.
   const T& blend = p_.law_terms.rolling;
   const ThesisVariant variant = law_ == Law::kThesis ? p_.variant : ThesisVariant();
-  const T full = p_.r, flat = RadiusOfM7(p_.r, variant, leg);  // M8, M11; M7
+  const T full = p_.r, flat = RadiusOfM7(p_.r, variant, leg, load.l);  // M8, M11; M7
   const T rho = law_ == Law::kThesis ? T((1.0 - blend) * flat + blend * full)
                                      : T((1.0 - blend) * full + blend * flat);
   const T beyond = IsElastic(law_) ? T(rho - full) : rho;  // X0 moves by what is not rolled off
-  const ArcRate<T> rate = RateOfArc(p_, law_, at, z, phi, Y, softer);
+  const ArcRate<T> rate = RateOfArc(p_, law_, at, z, there);
   if (variant.rolling == ThesisVariant::Rolling::kImplicit)
     load.slip_gain = 1.0 / (1.0 - beyond * rate.along_u0);
   load.contact_rate = load.slip_gain * beyond * (rate.rest - rate.along_u0 * z[kVx]);
@@ -243,8 +292,9 @@ Mode ExtendedLeg<T>::Settle(Mode mode, T* z, const LegConditions<T>& at) {
   if (!footing.found) return mode;
   T arc(footing.phi), lead(footing.u);
   if constexpr (kJetWidth < T >> 0) {
-    const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, arc, {lead, y, softer});
-    const T tip = mode == Mode::kRolling ? leg.tip_miss : T(0.0);
+    const T l = Chord<T>({arc, lead, y, softer});
+    const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, {arc, l, softer});
+    const T tip = mode == Mode::kRolling ? T(lead / l + leg.tip_turn) : T(0.0);
     const auto& m = footing.inverse;
     arc -= m[0][0] * tip + m[0][1] * leg.delta;
     lead -= m[1][0] * tip + m[1][1] * leg.delta;
@@ -258,7 +308,7 @@ Mode ExtendedLeg<T>::Settle(Mode mode, T* z, const LegConditions<T>& at) {
 template <class T>
 T ExtendedLeg<T>::StrainEnergy(Mode, const LegLoad<T>& load, const LegConditions<T>& at) const {
   const Statics<T> leg =
-      StaticsAt<T, T>(p_, law_, at.torque, load.phi, {load.u, load.y, Softer(p_, at.time)});
+      StaticsAt<T, T>(p_, law_, at.torque, {load.phi, load.l, Softer(p_, at.time)});
   const T lift = leg.F * load.y / load.l;
   const T ground = 0.5 * p_.law_terms.ground_compliance * lift * lift;
   if (IsElastic(law_)) return leg.F * leg.F * (0.5 * leg.C + 2.0 / 3.0 * leg.F * leg.A2) + ground;

@@ -10,33 +10,42 @@
 
 namespace hoplab {
 
-// A value and its rate of change in one direction, over a scalar that carries directions itself:
+// A value and its rates of change in two directions, over a scalar that carries directions itself:
 // the second derivatives in the rates of M7 and M8.
 template <class T>
 struct Tangent {
-  T value, rate{0.0};
+  T value;
+  std::array<T, 2> rate{T(0.0), T(0.0)};
 
-  Tangent(const T& v) : value(v) {}  // NOLINT: a constant is a tangent with rate 0
-  Tangent(const T& v, const T& r) : value(v), rate(r) {}
+  Tangent(const T& v) : value(v) {}  // NOLINT: a constant is a tangent with rates 0
+  Tangent(const T& v, const T& first, const T& second) : value(v), rate{first, second} {}
 
   friend Tangent operator+(const Tangent& a, const Tangent& b) {
-    return {a.value + b.value, a.rate + b.rate};
+    return {a.value + b.value, a.rate[0] + b.rate[0], a.rate[1] + b.rate[1]};
   }
   friend Tangent operator-(const Tangent& a, const Tangent& b) {
-    return {a.value - b.value, a.rate - b.rate};
+    return {a.value - b.value, a.rate[0] - b.rate[0], a.rate[1] - b.rate[1]};
   }
   friend Tangent operator*(const Tangent& a, const Tangent& b) {
-    return {a.value * b.value, a.rate * b.value + a.value * b.rate};
+    return {a.value * b.value, a.rate[0] * b.value + a.value * b.rate[0],
+            a.rate[1] * b.value + a.value * b.rate[1]};
+  }
+  // A factor that does not move.
+  friend Tangent operator*(const T& a, const Tangent& b) {
+    return {a * b.value, a * b.rate[0], a * b.rate[1]};
+  }
+  friend Tangent operator*(const Tangent& a, const T& b) { return b * a; }
+  friend Tangent operator*(double a, const Tangent& b) requires(kJetWidth<T> > 0) {
+    return {a * b.value, a * b.rate[0], a * b.rate[1]};
   }
   friend Tangent operator/(const Tangent& a, const Tangent& b) {
     const T q = a.value / b.value;
-    return {q, (a.rate - q * b.rate) / b.value};
+    return {q, (a.rate[0] - q * b.rate[0]) / b.value, (a.rate[1] - q * b.rate[1]) / b.value};
   }
-  friend Tangent operator*(double a, const Tangent& b) { return {a * b.value, a * b.rate}; }
   friend Tangent sqrt(const Tangent& a) {
     using std::sqrt;
-    const T root = sqrt(a.value);
-    return {root, 0.5 * a.rate / root};
+    const T root = sqrt(a.value), half = 0.5 / root;
+    return {root, half * a.rate[0], half * a.rate[1]};
   }
   friend double Value(const Tangent& a) { return hoplab::Value(a.value); }
 };
@@ -49,7 +58,8 @@ Jet<N> Lift(const Jet<N>& x, const double* derivatives, int k) {
 }
 template <class T>
 Tangent<T> Lift(const Tangent<T>& x, const double* derivatives, int k) {
-  return {Lift(x.value, derivatives, k), Lift(x.value, derivatives, k + 1) * x.rate};
+  const T slope = Lift(x.value, derivatives, k + 1);
+  return {Lift(x.value, derivatives, k), slope * x.rate[0], slope * x.rate[1]};
 }
 
 // Shape functions of an arc with as many derivatives as the rates of the tip's angle need.
@@ -100,35 +110,34 @@ inline bool IsElastic(Law law) { return law == Law::kConsistent || law == Law::k
 // What the state says to the leg, in a scalar that may be differentiated.
 template <class S>
 struct Situation {
-  S u;       // contact lead [m]
-  S Y;       // height of the hip over the contact [m]
+  S phi;     // contact arc [rad]
+  S l;       // chord length [m]
   S softer;  // E at the start of the trial over E now
 };
 
-// The leg at an arc and a height, in equilibrium or not.
+// The leg at an arc and a chord, in equilibrium or not.
 template <class S>
 struct Statics {
-  S l, sin, cos, delta, C, A2, F;
+  S sin, cos, delta, C, A2, F;
   S soft_F;    // F without leg_hardening, where that is a share of a spring's force
-  S tip_miss;  // u/l less the right side of M10 (M10b, M25): 0 at equilibrium
+  S tip_turn;  // M10 (M10b, M25) is u/l + tip_turn = 0
 };
 
 // P: scalar of the parameters, S of the unknowns.
 template <class S, class P>
 [[gnu::flatten]] Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque,
-                                      const S& phi, const Situation<S>& at) {
+                                      const Situation<S>& at) {
   using std::sqrt;
   const LawTerms<P>& terms = p.law_terms;
-  Statics<S> out{.l = sqrt(at.u * at.u + at.Y * at.Y),
-                 .sin = S(P(0.0)),
+  const S &phi = at.phi, &l = at.l;
+  Statics<S> out{.sin = S(P(0.0)),
                  .cos = S(P(0.0)),
                  .delta = S(P(0.0)),
                  .C = S(P(0.0)),
                  .A2 = S(P(0.0)),
                  .F = S(P(0.0)),
                  .soft_F = S(P(0.0)),
-                 .tip_miss = S(P(0.0))};
-  const S& l = out.l;
+                 .tip_turn = S(P(0.0))};
   if (law == Law::kStraightLeg) {
     out.delta = p.l0 - l;
     out.C = at.softer / p.k;
@@ -183,7 +192,7 @@ template <class S, class P>
       turn = turn - of_N * N * next.lead_NN;
     }
     out.F = 2.0 * out.delta / (C + sqrt(C * C + 4.0 * (out.A2 * out.delta)));
-    out.tip_miss = at.u / l - out.cos + out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + turn;
+    out.tip_turn = out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + turn - out.cos;
   } else {
     // M5, M6 with the share `tip` of M10.
     const ThesisVariant variant = law == Law::kThesis ? p.variant : ThesisVariant();
@@ -202,15 +211,9 @@ template <class S, class P>
     }
     out.F = out.soft_F + terms.hardening / r * (out.delta * out.delta / out.C);
     const S turned = 0.5 * (out.F * Cs) + (1.0 / 3.0) * (out.F * out.F * C2s);
-    out.tip_miss = at.u / l - out.cos + terms.tip * (turned + turn);
+    out.tip_turn = terms.tip * (turned + turn) - out.cos;
   }
   return out;
-}
-
-// M28: the ground under the foot sinks by c_g times the elastic part of the vertical force.
-template <class S, class P>
-S SinkMiss(const Parameters<P>& p, const Statics<S>& leg, const Situation<S>& at, const S& y) {
-  return at.Y - y - p.law_terms.ground_compliance * (leg.F * at.Y / leg.l);
 }
 
 }  // namespace hoplab
