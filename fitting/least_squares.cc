@@ -82,6 +82,7 @@ LeastSquaresResult SolveLeastSquares(const LeastSquaresRequest& request) {
   options.max_num_iterations = request.max_iterations;
   options.function_tolerance = 1e-12;
   options.parameter_tolerance = 1e-12;
+  options.line_search_interpolation_type = ceres::QUADRATIC;  // cubic asks for Jacobians
   options.logging_type = ceres::SILENT;
   options.callbacks = {&stop};
   ceres::Solver::Summary summary;

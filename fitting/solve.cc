@@ -8,6 +8,7 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "fitting/reduced_trial.h"
 
 namespace hoplab {
 namespace {
@@ -31,7 +32,10 @@ class Evaluations : public ceres::EvaluationCallback {
         shared_(problem_.shared_count()),
         starts_(trials_.size()),
         evaluations_(trials_.size()) {
-    for (const TrialProblem& trial : trials_) evaluators_.emplace_back(problem_, trial);
+    for (const TrialProblem& trial : trials_) {
+      evaluators_.emplace_back(problem_, trial);
+      reduced_.emplace_back(evaluators_.back().residual_count(), problem_.shared_count() + 4);
+    }
     for (int i = 0; i < problem_.shared_count(); ++i)
       shared_[i] = request.shared[i] / problem_.shared[i].scale;
     for (auto& start : starts_) start.fill(0.0);
@@ -49,6 +53,8 @@ class Evaluations : public ceres::EvaluationCallback {
     const Eigen::VectorXd shared = SharedValues();
     ParallelFor(static_cast<int>(trials_.size()), request_.jobs, [&](int i) {
       evaluators_[i].Evaluate({shared, StartValues(i), jacobians, request_.loss}, evaluations_[i]);
+      if (evaluations_[i].complete)
+        reduced_[i].Reduce(evaluations_[i], jacobians, ColumnScales(trials_[i]));
     });
   }
 
@@ -66,15 +72,23 @@ class Evaluations : public ceres::EvaluationCallback {
   double* shared() { return shared_.data(); }
   double* start(int trial) { return starts_[trial].data(); }
   const TrialEvaluation& evaluation(int trial) const { return evaluations_[trial]; }
-  int residual_count(int trial) const { return evaluators_[trial].residual_count(); }
+  const ReducedTrial& reduced(int trial) const { return reduced_[trial]; }
   const std::map<std::string, int>& rejected() const { return rejected_; }
   void ForgetRejected() { rejected_.clear(); }
 
  private:
+  Eigen::VectorXd ColumnScales(const TrialProblem& trial) const {
+    Eigen::VectorXd scale(problem_.shared_count() + 4);
+    for (int k = 0; k < problem_.shared_count(); ++k) scale[k] = problem_.shared[k].scale;
+    for (int k = 0; k < 4; ++k) scale[problem_.shared_count() + k] = trial.start_scale[k];
+    return scale;
+  }
+
   const SolveRequest& request_;
   const FitProblem& problem_;
   const std::vector<TrialProblem>& trials_;
   std::vector<TrialEvaluator> evaluators_;
+  std::vector<ReducedTrial> reduced_;
   Eigen::VectorXd shared_;                     // value/scale
   std::vector<std::array<double, 4>> starts_;  // (value - first value)/scale
   std::vector<TrialEvaluation> evaluations_;
@@ -82,41 +96,33 @@ class Evaluations : public ceres::EvaluationCallback {
   std::map<std::string, int> rejected_;
 };
 
-// One trial's residuals as Evaluations holds them. Blocks: shared, start.
+// One trial, reduced, as Evaluations holds it. Blocks: shared, start.
 class TrialCost : public ceres::CostFunction {
  public:
-  TrialCost(const FitProblem& problem, const TrialProblem& trial, const Evaluations& evaluations,
-            int index)
-      : problem_(problem), trial_(trial), evaluations_(evaluations), index_(index) {
-    set_num_residuals(evaluations.residual_count(index));
-    mutable_parameter_block_sizes()->push_back(problem.shared_count());
+  TrialCost(int shared_count, const Evaluations& evaluations, int index)
+      : shared_count_(shared_count), evaluations_(evaluations), index_(index) {
+    set_num_residuals(evaluations.reduced(index).rows());
+    mutable_parameter_block_sizes()->push_back(shared_count);
     mutable_parameter_block_sizes()->push_back(4);
   }
 
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
-    const TrialEvaluation& e = evaluations_.evaluation(index_);
-    if (!e.complete) return false;  // a rejected step; the reason is kept in Evaluations
+    // Not complete: a rejected step; the reason is kept in Evaluations.
+    if (!evaluations_.evaluation(index_).complete) return false;
+    const ReducedTrial& trial = evaluations_.reduced(index_);
     const int rows = num_residuals();
-    std::copy(e.residuals.data(), e.residuals.data() + rows, residuals);
+    std::copy(trial.residuals().data(), trial.residuals().data() + rows, residuals);
     if (!jacobians) return true;
-    const int shared = problem_.shared_count();
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    if (jacobians[0]) {
-      Eigen::Map<RowMajor> J(jacobians[0], rows, shared);
-      J = e.jacobian.leftCols(shared);
-      for (int k = 0; k < shared; ++k) J.col(k) *= problem_.shared[k].scale;
-    }
-    if (jacobians[1]) {
-      Eigen::Map<RowMajor> J(jacobians[1], rows, 4);
-      J = e.jacobian.rightCols(4);
-      for (int k = 0; k < 4; ++k) J.col(k) *= trial_.start_scale[k];
-    }
+    if (jacobians[0])
+      Eigen::Map<RowMajor>(jacobians[0], rows, shared_count_) =
+          trial.jacobian().leftCols(shared_count_);
+    if (jacobians[1]) Eigen::Map<RowMajor>(jacobians[1], rows, 4) = trial.jacobian().rightCols(4);
     return true;
   }
 
  private:
-  const FitProblem& problem_;
-  const TrialProblem& trial_;
+  int shared_count_;
   const Evaluations& evaluations_;
   int index_;
 };
@@ -182,8 +188,8 @@ SolveResult SolveOnce(const SolveRequest& request) {
   ceres::Problem ceres_problem(problem_options);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const int index = static_cast<int>(i);
-    ceres_problem.AddResidualBlock(new TrialCost(problem, trials[i], evaluations, index), nullptr,
-                                   evaluations.shared(), evaluations.start(index));
+    ceres_problem.AddResidualBlock(new TrialCost(problem.shared_count(), evaluations, index),
+                                   nullptr, evaluations.shared(), evaluations.start(index));
     std::vector<int> held;
     for (int k = 0; k < 4; ++k) {
       if (request.hold_starts || !trials[i].start_free[k]) held.push_back(k);
@@ -212,6 +218,7 @@ SolveResult SolveOnce(const SolveRequest& request) {
   options.gradient_tolerance = 1e-12;
   // Far from the optimum many steps end in a fall before the data do; each only shrinks the region.
   options.max_num_consecutive_invalid_steps = 60;
+  options.line_search_interpolation_type = ceres::QUADRATIC;  // cubic asks for Jacobians
   options.logging_type = ceres::SILENT;
   Watch watch(request);
   options.callbacks.push_back(&watch);
