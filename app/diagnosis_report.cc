@@ -246,8 +246,9 @@ std::string EnergyTable(const EnergyLedger& ledger, bool colours) {
 
 std::string RemainderLine(const ExtensionReport& e) {
   const Detection& r = e.remainder;
-  if (r.p_value > kDetectionLevel)
-    return fmt::format("what is left looks like noise ({})", ChanceText(r.p_value));
+  if (!e.InDoubt()) return fmt::format("what is left looks like noise ({})", ChanceText(r.p_value));
+  if (!e.SomeRemains())
+    return fmt::format("what is left may be noise or not ({})", ChanceText(r.p_value));
   // Not rounded up to all of it.
   std::string text = fmt::format("{:.1f} % of the misfit is explained, not all of it ({})",
                                  std::floor(1e3 * e.explained) / 10.0, ChanceText(r.p_value));

@@ -78,12 +78,16 @@ std::string NamedSentence(const Diagnosis& d) {
   std::vector<std::string> names;
   for (const Candidate& c : members) names.push_back(CauseText(c));
   // While misfit remains, a member may stand in for what is really missing.
-  if (d.extension && d.extension->remainder.p_value <= kDetectionLevel) {
+  if (d.extension && d.extension->InDoubt()) {
+    const ExtensionReport& e = *d.extension;
     return fmt::format(
-        "{:.1f} % of what the simulation misses is explained by {} {}{}; something remains, so "
-        "one of these may stand in for another cause.",
-        std::floor(1e3 * d.extension->explained) / 10.0, Listed(names), Caveat(members.size() > 1),
-        HeldOutClause(d, members.size() == 1 ? "it" : "them"));
+        "{:.1f} % of what the simulation misses is explained by {} {}{}; something {}, so {} may "
+        "stand in for another cause.",
+        std::floor(1e3 * e.explained) / 10.0, Listed(names), Caveat(members.size() > 1),
+        HeldOutClause(d, members.size() == 1 ? "it" : "them"),
+        e.SomeRemains() ? "remains"
+                        : fmt::format("may remain ({})", ChanceText(e.remainder.p_value)),
+        members.size() == 1 ? "it" : "one of these");
   }
   std::string text = "The simulation lacks " + Listed(names) + " " + Caveat(members.size() > 1);
   if (members.size() == 1) text += ": " + std::string(members[0].effect->info.sentence);

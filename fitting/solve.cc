@@ -31,7 +31,8 @@ class Evaluations : public ceres::EvaluationCallback {
         trials_(*request.trials),
         shared_(problem_.shared_count()),
         starts_(trials_.size()),
-        evaluations_(trials_.size()) {
+        evaluations_(trials_.size()),
+        run_shared_(Eigen::VectorXd::Constant(shared_.size(), std::nan(""))) {
     for (const TrialProblem& trial : trials_) {
       evaluators_.emplace_back(problem_, trial);
       reduced_.emplace_back(evaluators_.back().residual_count(), problem_.shared_count() + 4);
@@ -41,8 +42,10 @@ class Evaluations : public ceres::EvaluationCallback {
     for (auto& start : starts_) start.fill(0.0);
   }
 
-  void PrepareForEvaluation(bool jacobians, bool new_point) override {
-    if (!new_point && (have_jacobian_ || !jacobians)) return;
+  // A line search and the step it ends in ask for one point under two names.
+  void PrepareForEvaluation(bool jacobians, bool) override {
+    const bool known = shared_ == run_shared_ && starts_ == run_starts_;
+    if (known && (have_jacobian_ || !jacobians)) return;
     Run(jacobians);
     for (std::size_t i = 0; i < trials_.size(); ++i) {
       if (!evaluations_[i].complete) ++rejected_[Reason(trials_[i], evaluations_[i].trajectory)];
@@ -50,6 +53,8 @@ class Evaluations : public ceres::EvaluationCallback {
   }
   void Run(bool jacobians) {
     have_jacobian_ = jacobians;
+    run_shared_ = shared_;
+    run_starts_ = starts_;
     const Eigen::VectorXd shared = SharedValues();
     ParallelFor(static_cast<int>(trials_.size()), request_.jobs, [&](int i) {
       evaluators_[i].Evaluate({shared, StartValues(i), jacobians, request_.loss}, evaluations_[i]);
@@ -72,6 +77,11 @@ class Evaluations : public ceres::EvaluationCallback {
   double* shared() { return shared_.data(); }
   double* start(int trial) { return starts_[trial].data(); }
   const TrialEvaluation& evaluation(int trial) const { return evaluations_[trial]; }
+  double Cost() const {
+    double sum = 0.0;
+    for (const TrialEvaluation& e : evaluations_) sum += 0.5 * e.residuals.squaredNorm();
+    return sum;
+  }
   const ReducedTrial& reduced(int trial) const { return reduced_[trial]; }
   const std::map<std::string, int>& rejected() const { return rejected_; }
   void ForgetRejected() { rejected_.clear(); }
@@ -92,6 +102,8 @@ class Evaluations : public ceres::EvaluationCallback {
   Eigen::VectorXd shared_;                     // value/scale
   std::vector<std::array<double, 4>> starts_;  // (value - first value)/scale
   std::vector<TrialEvaluation> evaluations_;
+  Eigen::VectorXd run_shared_;  // where `evaluations_` are
+  std::vector<std::array<double, 4>> run_starts_;
   bool have_jacobian_ = false;
   std::map<std::string, int> rejected_;
 };
@@ -132,10 +144,23 @@ class Watch : public ceres::IterationCallback {
   explicit Watch(const SolveRequest& request) : request_(request) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     if (request_.progress) request_.progress(summary.iteration, summary.cost);
-    return request_.stop && *request_.stop ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+    if (request_.stop && *request_.stop) return ceres::SOLVER_ABORT;
+    // A step not taken has the cost of where it would have led.
+    costs_.push_back(costs_.empty() ? summary.cost : std::fmin(costs_.back(), summary.cost));
+    return IsHopeless() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
+  // Too far above for ten more iterations at the pace of the last three.
+  bool IsHopeless() const {
+    constexpr std::size_t kPaceOver = 3;
+    constexpr double kAhead = 10.0;
+    if (costs_.size() <= kPaceOver) return false;
+    const double pace = (costs_[costs_.size() - 1 - kPaceOver] - costs_.back()) / kPaceOver;
+    return costs_.back() - kAhead * pace > request_.give_up_above;
+  }
+
+  std::vector<double> costs_;
   const SolveRequest& request_;
 };
 
@@ -154,8 +179,9 @@ SolveStatus StatusOf(const ceres::Solver::Summary& summary) {
       return SolveStatus::kConverged;
     case ceres::NO_CONVERGENCE:
       return SolveStatus::kIterationLimit;
-    case ceres::USER_FAILURE:
     case ceres::USER_SUCCESS:
+      return SolveStatus::kGaveUp;
+    case ceres::USER_FAILURE:
       return SolveStatus::kInterrupted;
     default:
       return SolveStatus::kFailed;
@@ -180,6 +206,11 @@ SolveResult SolveOnce(const SolveRequest& request) {
     if (e.complete) continue;
     result.status = SolveStatus::kNoStart;
     result.message = Reason(trials[i], e.trajectory);
+    return result;
+  }
+  if (evaluations.Cost() > request.start_below) {
+    result.status = SolveStatus::kNoStart;
+    result.message = "the search would begin too far away";
     return result;
   }
 
@@ -219,6 +250,7 @@ SolveResult SolveOnce(const SolveRequest& request) {
   // Far from the optimum many steps end in a fall before the data do; each only shrinks the region.
   options.max_num_consecutive_invalid_steps = 60;
   options.line_search_interpolation_type = ceres::QUADRATIC;  // cubic asks for Jacobians
+  options.max_num_line_search_step_size_iterations = 5;       // the trust region shrinks after that
   options.logging_type = ceres::SILENT;
   Watch watch(request);
   options.callbacks.push_back(&watch);
@@ -259,7 +291,8 @@ std::vector<int> OnBounds(const SolveRequest& request, const SolveResult& result
 }
 
 bool Usable(SolveStatus status) {
-  return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit;
+  return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit ||
+         status == SolveStatus::kGaveUp;
 }
 
 // Which of the values `on` a bound the cost would pull back inside, by its gradient at `at`.
@@ -313,6 +346,8 @@ std::string_view NameOf(SolveStatus status) {
       return "converged";
     case SolveStatus::kIterationLimit:
       return "iteration_limit";
+    case SolveStatus::kGaveUp:
+      return "gave_up";
     case SolveStatus::kNoStart:
       return "no_start";
     case SolveStatus::kFailed:
@@ -334,6 +369,7 @@ SolveResult Solve(const SolveRequest& request) {
   SolveResult best = SolveOnce(first);
   std::vector<int> held;
   for (int round = 0; round < kMaxRounds && Usable(best.status); ++round) {
+    if (best.status == SolveStatus::kGaveUp) break;
     std::vector<int> on = OnBounds(request, best);
     if (!on.empty()) {
       const std::vector<int> inside = PulledInside(request, best, on);

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,6 +26,10 @@ struct SolveRequest {
   Loss loss;
   int max_iterations = 100;
   double function_tolerance = 1e-14;  // relative change of the cost that counts as converged
+  /// A beginning above this cost is none (`kNoStart`).
+  double start_below = std::numeric_limits<double>::infinity();
+  /// A search that would not get below this cost at its present pace ends.
+  double give_up_above = std::numeric_limits<double>::infinity();
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;  // set: end as soon as possible
   std::function<void(int iteration, double cost)> progress = nullptr;
@@ -33,7 +38,8 @@ struct SolveRequest {
 enum class SolveStatus {
   kConverged,
   kIterationLimit,  // values are usable but not at an optimum
-  kNoStart,         // the simulation fails where the search begins
+  kGaveUp,          // the same, since it was not worth going on
+  kNoStart,         // the simulation fails where the search begins, or is far off
   kFailed,          // the solver gave up
   kInterrupted      // stopped from outside; values are the best so far
 };

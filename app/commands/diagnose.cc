@@ -113,7 +113,7 @@ void AddDiagnoseCommand(CLI::App& app, Invocation& invocation) {
       ->allow_extra_args(false)
       ->excludes(only);
   sub.add_option("--max-effects", settings->max_effects,
-                 "Most effects to add to the model (default 4)")
+                 "Most effects to add to the model (default 5)")
       ->check(CLI::Range(1, 10))
       ->option_text("N");
   sub.add_option("--starts", settings->starts,

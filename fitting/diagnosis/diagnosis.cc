@@ -249,7 +249,7 @@ class Pipeline {
       return;
     }
     const ExtensionReport& e = *d_.extension;
-    const bool remains = e.remainder.p_value <= kDetectionLevel;
+    const bool remains = e.SomeRemains();
     if (e.at_bound) {
       d_.verdict = Verdict::kUnexplained;
       d_.reason = "the best extension, " + NamesOf(d_.naming.best) +
@@ -265,7 +265,7 @@ class Pipeline {
       d_.verdict = alone ? Verdict::kNamed : Verdict::kConfounded;
       d_.reason = alone ? "nothing else in the catalogue does as well"
                         : "several effects do as well within the noise";
-      if (remains) d_.reason += "; some misfit remains";
+      if (e.InDoubt()) d_.reason += remains ? "; some misfit remains" : "; some misfit may remain";
     }
     if (d_.verdict == Verdict::kUnexplained || remains) DescribeFreely(d_.naming.best);
   }

@@ -30,6 +30,9 @@ std::string_view NameOf(Verdict verdict);
 
 /// Level of the global test: the share of clean datasets on which something is seen.
 inline constexpr double kDetectionLevel = 0.01;
+/// Level of the same test beside an extension, from which its names are given with a doubt: there
+/// an idle doubt costs less than a wrong name.
+inline constexpr double kDoubtLevel = 0.05;
 /// Share of the misfit's excess over noise an extension must explain to name a cause while some
 /// misfit remains: then what remains is seen, but of no consequence. With 0.9 one in five wrong
 /// names of an effect outside the catalogue passed in spite of what it left.
@@ -40,7 +43,7 @@ struct DiagnosisOptions {
   FitOptions fit;  // jobs, stop and seed serve the whole diagnosis
   FitSpan span = FitSpan::kWholeElseHops;
   CandidateOptions candidates;
-  int max_effects = 4;
+  int max_effects = 5;
   /// Called where a stage begins, and how far it is (may come from several threads, one at a time).
   std::function<void(std::string_view stage)> stage = nullptr;
   /// `of` is what is planned so far: more may follow from what is found.
@@ -81,6 +84,10 @@ struct ExtensionReport {
   Detection remainder;     // the other candidates and the probes at the extension
   double explained = 0.0;  // share of the excess chi-square, 0..1
   bool at_bound = false;   // a member's size lies on a physical bound
+
+  /// Some misfit is left for certain, or may be: one of the members may stand in for another cause.
+  bool SomeRemains() const { return remainder.p_value <= kDetectionLevel; }
+  bool InDoubt() const { return remainder.p_value <= kDoubtLevel; }
 };
 
 /// A diagnosis from the gate to the proposed experiment. What was not reached is empty.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +15,9 @@ namespace {
 
 // Likelihoods are compared to well below a nat; where costs are large, so are their differences.
 constexpr double kCostTolerance = 1e-6;
+
+// A size whose beginning costs so many times what the base does is not the linear forecast's.
+constexpr double kFarOff = 10.0;
 
 // Where in the shared values member i begins.
 int PlaceOf(const Extension& e, int i) {
@@ -27,7 +31,8 @@ double Inside(const SharedParameter& s, double value) {
   return std::clamp(value, s.lower + room, s.upper - room);
 }
 
-void Run(Extension& e, const Eigen::VectorXd& null_values, const RefitSettings& settings) {
+void Run(Extension& e, const Eigen::VectorXd& null_values, const RefitSettings& settings,
+         double base_cost) {
   SolveRequest request;
   request.problem = &e.problem;
   request.trials = settings.train;
@@ -36,10 +41,13 @@ void Run(Extension& e, const Eigen::VectorXd& null_values, const RefitSettings& 
   request.function_tolerance = kCostTolerance;
   request.jobs = settings.jobs;
   request.stop = settings.stop;
+  request.give_up_above = std::min(settings.give_up_above, base_cost);
+  request.start_below = kFarOff * base_cost;
   const Eigen::Index added = null_values.size(), kept = e.shared.size() - added;
   const Eigen::VectorXd sizes = e.shared.tail(added);
   SolveResult result;
-  // A large effect may end a simulation early where the fitted values are not yet its own.
+  // A large effect may end a simulation early, or lead far off, where the fitted values are not yet
+  // its own.
   for (double share : {1.0, 0.3, 0.1, 0.01}) {
     request.shared = e.shared;
     for (Eigen::Index k = 0; k < added; ++k) {
@@ -86,12 +94,12 @@ Extension Refit(const Extension& base, std::span<const Candidate> added,
   e.shared << base.shared, sizes;
   e.starts = base.starts;
   const Eigen::VectorXd null = NullValues(added);
-  Run(e, null, settings);
   // More values cannot fit worse: a search that ended above its base went astray.
-  if (e.ok() && e.cost > base.cost) {
+  Run(e, null, settings, base.cost);
+  if (!e.ok() || e.cost > base.cost) {
     e.shared << base.shared, Eigen::VectorXd::Zero(null.size());
     e.starts = base.starts;
-    Run(e, null, settings);
+    Run(e, null, settings, base.cost);
     if (e.ok() && e.cost > base.cost) {
       e.shared << base.shared, null;
       e.starts = base.starts;
@@ -112,7 +120,7 @@ Extension RefitWithout(const Extension& base, int i, const FitProblem& null_prob
   e.shared.resize(base.shared.size() - count);
   e.shared << base.shared.head(place), base.shared.tail(base.shared.size() - place - count);
   e.starts = base.starts;
-  Run(e, Eigen::VectorXd(0), settings);
+  Run(e, Eigen::VectorXd(0), settings, std::numeric_limits<double>::infinity());
   return e;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,7 +22,8 @@ struct Extension {
   SolveStatus status = SolveStatus::kFailed;
 
   bool ok() const {
-    return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit;
+    return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit ||
+           status == SolveStatus::kGaveUp;
   }
   /// Fitted values of member `i`.
   Eigen::VectorXd ValuesOf(int i) const;
@@ -36,6 +38,8 @@ struct Extension {
 struct RefitSettings {
   const std::vector<TrialProblem>* train = nullptr;
   int max_iterations = 40;  // in all
+  /// A refit that would not get below this cost at its present pace ends.
+  double give_up_above = std::numeric_limits<double>::infinity();
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
 };

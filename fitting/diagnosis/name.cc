@@ -35,12 +35,11 @@ class Search {
       Judge({});
       return std::move(naming_);
     }
-    refits_.RefitAll(Singles());
-    Model current = refits_.Better({}, Singles());
-    current = refits_.Better(current, PairsFromNull());
+    Model current = refits_.Better({}, Singles(), Effort::kWhileInContention);
+    current = refits_.Better(current, PairsFromNull(), Effort::kWhileInContention);
     while (!current.empty() && static_cast<int>(current.size()) < options_.max_effects &&
            !Stopped()) {
-      Model grown = refits_.Better(current, Forward(current));
+      Model grown = refits_.Better(current, Forward(current), Effort::kWhileInContention);
       if (grown == current) break;
       current = Tidy(grown);
     }
@@ -158,8 +157,8 @@ class Search {
   Model Tidy(Model model) {
     for (int round = 0; round < 3 && !Stopped(); ++round) {
       refits_.RefineParts(model);
-      Model best = refits_.Better(model, Eliminations(model));
-      best = refits_.Better(best, Swaps(best, kForwardWidth));
+      Model best = refits_.Better(model, Eliminations(model), Effort::kToTheEnd);
+      best = refits_.Better(best, Swaps(best, kForwardWidth), Effort::kWhileInContention);
       if (best == model) break;
       model = best;
     }
@@ -170,7 +169,7 @@ class Search {
   std::vector<Model> Swaps(const Model& model, int width) {
     if (model.size() < 2) return {};
     std::vector<Model> swaps;
-    refits_.RefitAll(Eliminations(model));
+    refits_.RefitAll(Eliminations(model), Effort::kToTheEnd);
     for (const Model& less : Eliminations(model)) {
       if (!refits_.Usable(less)) continue;
       int taken = 0;
@@ -195,7 +194,8 @@ class Search {
       return refits_.Usable(other) &&
              refits_.At(other).cost + extra <= refits_.At(model).cost + kIndistinguishable;
     };
-    if (model.size() > 1) refits_.RefitAll(Swaps(model, 3 * kForwardWidth));
+    if (model.size() > 1)
+      refits_.RefitAll(Swaps(model, 3 * kForwardWidth), Effort::kWhileInContention);
     for (int member : model) {
       std::vector<int> group = {member};
       Model less = model;

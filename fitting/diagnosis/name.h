@@ -15,7 +15,7 @@ inline constexpr double kIndistinguishable = 3.0;  // nats
 inline constexpr double kTestable = 7.85;
 
 struct NamingOptions {
-  int max_effects = 4;
+  int max_effects = 5;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
   /// How far the search is: refits done, how many are planned so far, and what the last one was.

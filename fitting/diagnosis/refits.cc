@@ -9,7 +9,9 @@
 namespace hoplab {
 namespace {
 
-// A refit that ended early may still come this much closer [nats], in so many goes.
+// Every refit gets so many iterations; those that may come this close to the best [nats] as many
+// more goes as this.
+constexpr int kFirstIterations = 10;
 constexpr double kContention = 25.0;
 constexpr int kMostContinuations = 4;
 // A member that is worth this many penalties by the linear model will not be missed for less than
@@ -33,15 +35,15 @@ double Refits::PenaltyOf(const Model& model) const {
   return sum;
 }
 
-Model Refits::Better(Model current, const std::vector<Model>& models) {
-  RefitAll(models);
+Model Refits::Better(Model current, const std::vector<Model>& models, Effort effort) {
+  RefitAll(models, effort);
   for (const Model& m : models) {
     if (Usable(m) && Worth(m) > Worth(current) + 1e-6) current = m;
   }
   return current;
 }
 
-void Refits::RefitAll(const std::vector<Model>& models) {
+void Refits::RefitAll(const std::vector<Model>& models, Effort effort) {
   std::vector<Model> missing;
   for (const Model& m : models) {
     if (!m.empty() && !models_.count(m) &&
@@ -49,10 +51,13 @@ void Refits::RefitAll(const std::vector<Model>& models) {
       missing.push_back(m);
   }
   std::vector<Extension> results(missing.size());
+  RefitSettings settings = refit_;
+  settings.max_iterations = kFirstIterations;
+  if (effort == Effort::kWhileInContention) settings.give_up_above = BestCost() + kContention;
   const int planned = naming_.refits + static_cast<int>(missing.size());
   ParallelFor(static_cast<int>(missing.size()), options_.jobs, [&](int i) {
     if (Stopped()) return;
-    results[i] = RefitModel(missing[i]);
+    results[i] = RefitModel(missing[i], settings);
     if (options_.progress) {
       const std::lock_guard lock(mutex_);
       options_.progress(++naming_.refits, planned, NamesOf(missing[i]));
@@ -60,21 +65,29 @@ void Refits::RefitAll(const std::vector<Model>& models) {
   });
   for (std::size_t i = 0; i < missing.size(); ++i)
     models_.emplace(missing[i], std::move(results[i]));
-  FinishContenders(missing);
+  Finish(missing, effort);
   if (!options_.progress) naming_.refits += static_cast<int>(missing.size());
 }
 
-// Refits that ran out of iterations near the best known model go on: there a nat decides.
-void Refits::FinishContenders(const std::vector<Model>& models) {
+double Refits::BestCost() const {
   double best = null_.cost;
   for (const auto& [model, e] : models_) {
     if (e.ok()) best = std::min(best, e.cost);
   }
+  return best;
+}
+
+// Refits that ran out of iterations go on: those that may come near the best known model, where a
+// nat decides; the others once, if they are wanted to the end.
+void Refits::Finish(const std::vector<Model>& models, Effort effort) {
+  RefitSettings contending = refit_;
+  contending.give_up_above = BestCost() + kContention;
   ParallelFor(static_cast<int>(models.size()), options_.jobs, [&](int i) {
     Extension& e = models_.at(models[i]);
     for (int round = 0; round < kMostContinuations && !Stopped(); ++round) {
-      if (e.status != SolveStatus::kIterationLimit || e.cost > best + kContention) return;
-      Extension further = Refit(e, {}, Eigen::VectorXd(0), refit_);
+      if (e.status != SolveStatus::kIterationLimit) return;
+      const bool anyway = round == 0 && effort == Effort::kToTheEnd;
+      Extension further = Refit(e, {}, Eigen::VectorXd(0), anyway ? refit_ : contending);
       if (!further.ok()) return;
       e = std::move(further);
     }
@@ -87,7 +100,7 @@ std::string Refits::NamesOf(const Model& model) const {
   return names;
 }
 
-Extension Refits::RefitModel(const Model& model) const {
+Extension Refits::RefitModel(const Model& model, const RefitSettings& settings) const {
   // From the best refitted model with one member less; its missing member at its expected size.
   Model part;
   for (std::size_t i = 0; i < model.size(); ++i) {
@@ -111,14 +124,14 @@ Extension Refits::RefitModel(const Model& model) const {
                          Eigen::VectorXd::Constant(n, 1.0)};
     sizes = ScoreOf(at, all).size;
   }
-  Extension e = Refit(At(part), candidates, sizes, refit_);
+  Extension e = Refit(At(part), candidates, sizes, settings);
   // Where the refit falls well short of the linear forecast, it went into the wrong valley: the
   // forecast was too far out, or the effect too bent.
   const double forecast =
       part.empty() && added.size() == 1 ? naming_.candidates[added[0]].score.predicted_gain : 0.0;
   if (forecast > naming_.penalty && (!e.ok() || At(part).cost - e.cost < 0.15 * forecast)) {
     for (double share : {0.3, 0.1}) {
-      Extension again = Refit(At(part), candidates, share * sizes, refit_);
+      Extension again = Refit(At(part), candidates, share * sizes, settings);
       if (again.ok() && (!e.ok() || again.cost < e.cost)) e = std::move(again);
     }
   }
@@ -167,7 +180,7 @@ std::vector<double> Refits::LinearWorth(const Extension& e) const {
 
 void Refits::RefineParts(const Model& model) {
   const std::vector<Model> parts = Eliminations(model);
-  RefitAll(parts);
+  RefitAll(parts, Effort::kToTheEnd);
   const std::vector<double> worth = LinearWorth(At(model));
   std::vector<Extension> refined(parts.size());
   ParallelFor(static_cast<int>(parts.size()), options_.jobs, [&](int i) {

@@ -12,6 +12,9 @@ namespace hoplab {
 /// Places of an extension's members among the candidates, ascending; empty: the null fit.
 using Model = std::vector<int>;
 
+/// Whether a refit goes on that, by its pace, will not come near the best model known.
+enum class Effort { kToTheEnd, kWhileInContention };
+
 /// The models a search has fitted so far, each once. What it holds does not depend on the number
 /// of jobs.
 class Refits {
@@ -32,10 +35,10 @@ class Refits {
   /// Log-likelihood over the null fit less what its parameters must pay [nats].
   double Worth(const Model& model) const { return At(model).GainOver(null_) - PenaltyOf(model); }
   /// The best of `current` and the given models by worth, after refitting those.
-  Model Better(Model current, const std::vector<Model>& models);
+  Model Better(Model current, const std::vector<Model>& models, Effort effort);
   /// Refits the models not refitted yet, in parallel, each from its best known part; those near the
   /// best to their end.
-  void RefitAll(const std::vector<Model>& models);
+  void RefitAll(const std::vector<Model>& models, Effort effort);
   /// A part of a model cannot be worse than the whole with one value at its null: where the whole
   /// has found a better valley, its parts are refitted from there.
   void RefineParts(const Model& model);
@@ -43,9 +46,10 @@ class Refits {
  private:
   bool Stopped() const { return options_.stop && *options_.stop; }
   double PenaltyOf(const Model& model) const;
-  void FinishContenders(const std::vector<Model>& models);
+  void Finish(const std::vector<Model>& models, Effort effort);
   std::string NamesOf(const Model& model) const;
-  Extension RefitModel(const Model& model) const;
+  double BestCost() const;
+  Extension RefitModel(const Model& model, const RefitSettings& settings) const;
   std::vector<double> LinearWorth(const Extension& e) const;
   Extension Ordered(Extension e, const Model& part, const std::vector<int>& added,
                     const Model& model) const;

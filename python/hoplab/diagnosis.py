@@ -105,7 +105,7 @@ def diagnose(
     with_=(),
     effects=(),
     without=(),
-    max_effects=4,
+    max_effects=5,
     starts=1,
     seed=1,
     span="whole_else_hops",

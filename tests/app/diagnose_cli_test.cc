@@ -69,7 +69,7 @@ TEST_F(DiagnoseCli, NamesADragThatTheSimulationLacksWithEveryKeyOfTheContract) {
   EXPECT_EQ(record.at("command"), "diagnose");
   EXPECT_EQ(record.at("status"), "ok");
   EXPECT_EQ(record.at("dataset"), "three-drops");
-  EXPECT_EQ(record.at("options").at("max_effects"), 4);
+  EXPECT_EQ(record.at("options").at("max_effects"), 5);
   EXPECT_EQ(record.at("verdict"), "named");
   EXPECT_EQ(record.at("cause"), "air_drag");
   EXPECT_EQ(record.at("group"), nlohmann::json::array({"air_drag"}));

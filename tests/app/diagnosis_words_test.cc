@@ -46,6 +46,24 @@ TEST_F(VerdictSentenceTest, NamesTheCauseAndWhatItTakesTheErrorTo) {
   EXPECT_NE(text.find("the test error of body_x from 8.85 to 1.20 mm"), std::string::npos) << text;
 }
 
+TEST_F(VerdictSentenceTest, DoubtsANameBesideWhichMisfitRemainsOrMayRemain) {
+  Accept({Add("air_drag")}, {0.0});
+  d_.verdict = Verdict::kNamed;
+  d_.extension->explained = 0.997;
+  d_.extension->remainder.p_value = 0.06;
+  EXPECT_EQ(VerdictSentence(d_).find("The simulation lacks air_drag"), 0u);
+  d_.extension->remainder.p_value = 0.03;
+  EXPECT_NE(VerdictSentence(d_).find("something may remain (p = 0.030), so it may stand in for "
+                                     "another cause"),
+            std::string::npos)
+      << VerdictSentence(d_);
+  d_.extension->remainder.p_value = 0.002;
+  EXPECT_EQ(VerdictSentence(d_).find("99.7 % of what the simulation misses is explained by "
+                                     "air_drag"),
+            0u);
+  EXPECT_NE(VerdictSentence(d_).find("something remains, so"), std::string::npos);
+}
+
 TEST_F(VerdictSentenceTest, ClaimsNothingThatTheHeldOutTrialsDoNotShow) {
   Accept({Add("air_drag", "train-2.csv")}, {0.0});
   d_.verdict = Verdict::kNamed;

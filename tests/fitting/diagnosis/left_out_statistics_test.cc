@@ -12,7 +12,7 @@ namespace {
 
 struct LeftOutCounts {
   int cases = 0, unexplained = 0, adequate = 0, confounded = 0, exclusive = 0, confident = 0,
-      unsaid = 0;
+      doubted = 0;
   std::map<std::string, int> names;
 
   void Add(const Outcome& o) {
@@ -23,8 +23,8 @@ struct LeftOutCounts {
     exclusive += o.verdict == Verdict::kNamed;
     // The data could have refuted the name: the true effect is still seen beside it.
     const bool refuted = o.verdict == Verdict::kNamed && o.left_p.front() < 0.01;
-    confident += refuted;
-    unsaid += refuted && !o.remains;
+    confident += refuted && !o.in_doubt;
+    doubted += refuted && o.in_doubt;
     if (o.Names()) {
       std::string name;
       for (const auto& group : o.groups) name += (name.empty() ? "" : " + ") + group.front();
@@ -43,7 +43,7 @@ struct LeftOutCounts {
             share(confounded),
             share(exclusive),
             share(confident),
-            share(unsaid),
+            share(doubted),
             instead};
   }
 };
@@ -56,11 +56,13 @@ TEST(DiagnosisStatistics, AnEffectOutsideTheCatalogueIsNotGivenAConfidentWrongNa
   Report report("4-left-out", "The effect is not in the catalogue");
   report.Say(
       "Each effect at 4 delta80, %d seeds, with its own name left out. Shares in per cent. A "
-      "`confident wrong name` stands alone although the data refute it: the true effect's "
-      "score beside the accepted extension has p < 0.01.",
+      "`confident wrong name` stands alone although the data refute it (the true effect's score "
+      "beside the accepted extension has p < 0.01), and no misfit is told; one `in doubt` is given "
+      "with the words that something remains or may remain (p <= 0.05 beside it) and that the name "
+      "may stand in for another cause.",
       seeds);
   report.Head({"planted", "cases", "unexplained", "adequate", "confounded", "one name",
-               "confident wrong name", "of these no misfit told", "names instead"});
+               "confident wrong name", "wrong name in doubt", "names instead"});
   std::map<std::string, LeftOutCounts> counts;
   LeftOutCounts all;
   for (const Outcome& o : outcomes) {

@@ -60,7 +60,7 @@ void ReadVerdict(const Diagnosis& d, Outcome& out) {
     const HeldOutGain& gain = d.extension->gain;
     if (!std::isnan(gain.nats_per_sample)) out.gain = gain.nats_per_sample;
     out.claims_gain = gain.IsClaim();
-    out.remains = d.extension->remainder.p_value <= kDetectionLevel;
+    out.in_doubt = d.extension->InDoubt();
   }
 }
 

@@ -25,7 +25,7 @@ struct Outcome {
   /// Score of each planted effect beside the accepted extension: chance of it under noise. 1 for
   /// those in the extension.
   std::vector<double> left_p;
-  bool remains = false;        // some misfit is still seen beside the accepted extension
+  bool in_doubt = false;       // some misfit is or may be left beside the accepted extension
   bool claims_gain = false;    // the interval of the held-out gain lies above zero
   std::optional<double> gain;  // nats a held-out sample
   /// Distance of the leading stiffness from the truth without and with the extension, and its
