@@ -41,7 +41,8 @@ class Seeker {
     nlopt::opt search(algorithm, static_cast<unsigned>(x.size()));
     search.set_lower_bounds(request_.low);
     search.set_upper_bounds(request_.high);
-    search.set_maxeval(evaluations);
+    search.set_maxeval(evaluations);  // some of NLopt's searches look only now and then
+    until_ = result_.evaluations + evaluations;
     search.set_xtol_rel(1e-9);
     if (!first_step.empty()) search.set_initial_step(first_step);
     search.set_min_objective(&Seeker::Call, this);
@@ -60,7 +61,7 @@ class Seeker {
 
   static double Call(unsigned n, const double* x, double*, void* self_pointer) {
     Seeker& self = *static_cast<Seeker*>(self_pointer);
-    if (self.Stopped()) {
+    if (self.Stopped() || self.result_.evaluations >= self.until_) {
       self.search_->force_stop();
       return 0.0;
     }
@@ -82,6 +83,7 @@ class Seeker {
   const BoxSearchRequest& request_;
   BoxSearchResult result_;
   nlopt::opt* search_ = nullptr;
+  int until_ = 0;  // evaluations that end `search_`
   std::exception_ptr failure_;
 };
 

@@ -145,7 +145,8 @@ class Seeker {
     nlopt::opt search(algorithm, static_cast<unsigned>(size()));
     search.set_lower_bounds(low);
     search.set_upper_bounds(high);
-    search.set_maxeval(evaluations);
+    search.set_maxeval(evaluations);  // some of NLopt's searches look only now and then
+    until_ = result_.evaluations + evaluations;
     search.set_xtol_rel(1e-7);
     if (first_step > 0.0) search.set_initial_step(first_step);
     goal_ = goal;
@@ -163,7 +164,7 @@ class Seeker {
 
   static double Call(unsigned, const double* unit, double*, void* self_pointer) {
     Seeker& self = *static_cast<Seeker*>(self_pointer);
-    if (self.Stopped()) {
+    if (self.Stopped() || self.result_.evaluations >= self.until_) {
       self.search_->force_stop();
       return self.result_.best.score;
     }
@@ -183,6 +184,7 @@ class Seeker {
   SeedResult result_;
   Goal goal_ = Goal::kScore;
   nlopt::opt* search_ = nullptr;
+  int until_ = 0;  // evaluations that end `search_`
   std::exception_ptr failure_;
   bool last_steady_ = false;
 };
