@@ -23,7 +23,7 @@ struct LeftOutCounts {
     exclusive += o.verdict == Verdict::kNamed;
     // The data could have refuted the name: the true effect is still seen beside it.
     const bool refuted = o.verdict == Verdict::kNamed && o.left_p.front() < 0.01;
-    confident += refuted && !o.in_doubt;
+    confident += refuted;
     doubted += refuted && o.in_doubt;
     if (o.Names()) {
       std::string name;
@@ -56,13 +56,13 @@ TEST(DiagnosisStatistics, AnEffectOutsideTheCatalogueIsNotGivenAConfidentWrongNa
   Report report("4-left-out", "The effect is not in the catalogue");
   report.Say(
       "Each effect at 4 delta80, %d seeds, with its own name left out. Shares in per cent. A "
-      "`confident wrong name` stands alone although the data refute it (the true effect's score "
-      "beside the accepted extension has p < 0.01), and no misfit is told; one `in doubt` is given "
-      "with the words that something remains or may remain (p <= 0.05 beside it) and that the name "
-      "may stand in for another cause.",
+      "`confident wrong name` stands alone although the data refute it: the true effect's "
+      "score beside the accepted extension has p < 0.01. `In doubt` are those given with the words "
+      "that something remains or may remain (p <= 0.05 beside it) and that the name may stand in "
+      "for another cause.",
       seeds);
   report.Head({"planted", "cases", "unexplained", "adequate", "confounded", "one name",
-               "confident wrong name", "wrong name in doubt", "names instead"});
+               "confident wrong name", "of these in doubt", "names instead"});
   std::map<std::string, LeftOutCounts> counts;
   LeftOutCounts all;
   for (const Outcome& o : outcomes) {
