@@ -151,8 +151,7 @@ SolveResult GrowHorizon(const FitProblem& problem, const std::vector<TrialProble
     SolveResult next = Solve(request);
     if (next.status == SolveStatus::kInterrupted) return next;
     if (fraction == 1.0) return next;
-    if (next.status == SolveStatus::kConverged || next.status == SolveStatus::kIterationLimit)
-      result = std::move(next);
+    if (IsUsable(next.status)) result = std::move(next);
   }
   return result;
 }
@@ -222,9 +221,8 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
         !Stopped(options))
       result = GrowHorizon(problem, trials, request.shared, options, start_number);
   }
-  const bool usable = result.status == SolveStatus::kConverged ||
-                      result.status == SolveStatus::kIterationLimit ||
-                      (result.status == SolveStatus::kInterrupted && result.cost > 0.0);
+  const bool usable =
+      IsUsable(result.status) || (result.status == SolveStatus::kInterrupted && result.cost > 0.0);
   record.shared = result.shared;
   record.cost = usable ? result.cost : kNaN;
   record.status = result.status;

@@ -60,9 +60,7 @@ Profile ComputeProfile(const FitProblem& problem, const FitResult& fit, const Fi
       const double value = std::clamp(last.value + side * step, s.lower, s.upper);
       if (value == last.value) break;
       SolveResult result = walker.At(value, shared, starts);
-      const bool usable =
-          result.status == SolveStatus::kConverged || result.status == SolveStatus::kIterationLimit;
-      if (!usable) break;
+      if (!IsUsable(result.status)) break;
       const ProfilePoint point{value, 2.0 * (result.cost - fit.cost), result.shared};
       if (last.delta_chi2 < kChi2Level && point.delta_chi2 >= kChi2Level)
         (side < 0.0 ? profile.lower95 : profile.upper95) = Crossing(last, point);

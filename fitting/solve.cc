@@ -290,11 +290,6 @@ std::vector<int> OnBounds(const SolveRequest& request, const SolveResult& result
   return on;
 }
 
-bool Usable(SolveStatus status) {
-  return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit ||
-         status == SolveStatus::kGaveUp;
-}
-
 // Which of the values `on` a bound the cost would pull back inside, by its gradient at `at`.
 std::vector<int> PulledInside(const SolveRequest& request, const SolveResult& at,
                               const std::vector<int>& on) {
@@ -327,7 +322,7 @@ bool GoOn(const SolveRequest& request, const std::vector<int>& held, SolveResult
   again.shared = best.shared;
   again.starts = best.starts;
   SolveResult next = SolveOnce(again);
-  if (!Usable(next.status)) return false;
+  if (!IsUsable(next.status)) return false;
   const bool gained = next.cost < best.cost * (1.0 - kGain);
   // At the optimum the costs of two runs differ by rounding: the one that says it has converged
   // counts, or a run cut short there would never be called converged.
@@ -358,6 +353,11 @@ std::string_view NameOf(SolveStatus status) {
   return "";
 }
 
+bool IsUsable(SolveStatus status) {
+  return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit ||
+         status == SolveStatus::kGaveUp;
+}
+
 SolveResult Solve(const SolveRequest& request) {
   if (request.hold_shared) return SolveOnce(request);
   // A trust region cut by a bound crawls: the step it would take is projected, and what is left of
@@ -368,7 +368,7 @@ SolveResult Solve(const SolveRequest& request) {
   first.max_iterations = std::min(request.max_iterations, kFirstIterations);
   SolveResult best = SolveOnce(first);
   std::vector<int> held;
-  for (int round = 0; round < kMaxRounds && Usable(best.status); ++round) {
+  for (int round = 0; round < kMaxRounds && IsUsable(best.status); ++round) {
     if (best.status == SolveStatus::kGaveUp) break;
     std::vector<int> on = OnBounds(request, best);
     if (!on.empty()) {

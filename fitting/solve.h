@@ -44,6 +44,8 @@ enum class SolveStatus {
   kInterrupted      // stopped from outside; values are the best so far
 };
 std::string_view NameOf(SolveStatus status);
+/// Whether a result's values can be used, at an optimum or not.
+bool IsUsable(SolveStatus status);
 
 struct SolveResult {
   SolveStatus status = SolveStatus::kFailed;

@@ -21,10 +21,7 @@ struct Extension {
   double cost = 0.0;  // half the sum of squares; its difference is a log-likelihood ratio
   SolveStatus status = SolveStatus::kFailed;
 
-  bool ok() const {
-    return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit ||
-           status == SolveStatus::kGaveUp;
-  }
+  bool ok() const { return IsUsable(status); }
   /// Fitted values of member `i`.
   Eigen::VectorXd ValuesOf(int i) const;
   /// A member's value lies on a bound other than its null: physics would have to give more.

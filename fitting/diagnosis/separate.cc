@@ -105,9 +105,7 @@ double RefittedNats(const Extension& truth, const Extension& rival,
   request.max_iterations = kRefitIterations;
   request.function_tolerance = 1e-6;
   const SolveResult result = Solve(request);
-  const bool usable =
-      result.status == SolveStatus::kConverged || result.status == SolveStatus::kIterationLimit;
-  return usable ? std::max(result.cost - rival.cost, 0.0) : kNaN;
+  return IsUsable(result.status) ? std::max(result.cost - rival.cost, 0.0) : kNaN;
 }
 
 std::vector<TrialDesign> Designs(const TrialProblem& like) {

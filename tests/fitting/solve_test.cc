@@ -73,6 +73,32 @@ TEST(Solve, AStepThatFallsIsRejectedWithItsReason) {
   EXPECT_GT(r.cost, 0.5 * 0.5 * static_cast<double>(c.trials[0].sample_count));
 }
 
+TEST(Solve, ABeginningFarOffIsNone) {
+  const Case c;
+  SolveRequest request = c.Request();
+  const double cost = Solve(request).cost;
+  request.start_below = 1.01 * cost;  // the beginning costs more
+  const SolveResult r = Solve(request);
+  EXPECT_EQ(r.status, SolveStatus::kNoStart);
+  EXPECT_EQ(r.shared, request.shared);
+  request.start_below = 1e12;
+  EXPECT_EQ(Solve(request).status, SolveStatus::kConverged);
+}
+
+TEST(Solve, GivesUpWhatItsPaceWillNotReach) {
+  const Case c;
+  SolveRequest request = c.Request();
+  request.function_tolerance = 0.0;
+  const double cost = Solve(request).cost;
+  request.give_up_above = 0.9 * cost;  // below any cost there is
+  const SolveResult r = Solve(request);
+  EXPECT_EQ(r.status, SolveStatus::kGaveUp);
+  EXPECT_TRUE(IsUsable(r.status));
+  EXPECT_GE(r.cost, cost * (1.0 - 1e-9));
+  request.give_up_above = 1.1 * cost;
+  EXPECT_NEAR(Solve(request).cost, cost, 1e-6 * cost);
+}
+
 TEST(Solve, HeldValuesStay) {
   const Case c;
   SolveRequest request = c.Request();
