@@ -7,6 +7,7 @@
 #include "app/commands/check.h"
 #include "app/commands/compare.h"
 #include "app/commands/completion.h"
+#include "app/commands/design.h"
 #include "app/commands/diagnose.h"
 #include "app/commands/effects.h"
 #include "app/commands/explain.h"
@@ -45,6 +46,7 @@ class CommandLine {
     AddCheckCommand(app_, invocation_);
     AddFitCommand(app_, invocation_);
     AddDiagnoseCommand(app_, invocation_);
+    AddDesignCommand(app_, invocation_);
     AddCompareCommand(app_, invocation_);
     AddGaitCommand(app_, invocation_);
     AddOptimizeCommand(app_, invocation_);

@@ -1,7 +1,9 @@
 #include "app/diagnosis_record.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "app/cause_record.h"
 #include "app/diagnosis_words.h"
 #include "app/fit_report.h"
 #include "app/record_parts.h"
@@ -10,20 +12,12 @@
 namespace hoplab {
 namespace {
 
-Json OrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-
 // Effect names of places in the candidates.
 Json NamesOf(const Diagnosis& d, const std::vector<int>& places) {
   Json names = Json::array();
   for (const int place : places)
     names.push_back(
         d.naming.candidates[static_cast<std::size_t>(place)].candidate.effect->info.name);
-  return names;
-}
-
-Json MembersRecord(const std::vector<Candidate>& members) {
-  Json names = Json::array();
-  for (const Candidate& c : members) names.push_back(c.effect->info.name);
   return names;
 }
 
@@ -120,7 +114,7 @@ template <class Values>
 Json ByEffectParameter(const Candidate& candidate, const Values& values) {
   Json out = Json::object();
   for (int i = 0; i < candidate.parameter_count(); ++i) {
-    out[std::string(candidate.effect->info.parameters[i].name)] =
+    out[std::string(candidate.Parameter(i).name)] =
         i < values.size() ? NumberOrNull(values[i]) : Json(nullptr);
   }
   return out;
@@ -138,9 +132,10 @@ Json CandidatesRecord(const Diagnosis& d) {
                    {"p_value", seen ? NumberOrNull(c.score.p_value) : Json(nullptr)},
                    {"predicted_gain", seen ? NumberOrNull(c.score.predicted_gain) : Json(nullptr)},
                    {"refit", RefitRecord(c, gain)},
-                   {"only_in_trial", OrNull(c.candidate.only_recording)},
+                   {"only_in_trial", TextOrNull(c.candidate.only_recording)},
                    {"status", NameOf(c.status)},
                    {"gain_nats", c.alone.ok() ? NumberOrNull(c.gain) : Json(nullptr)},
+                   {"probability", NumberOrNull(c.probability)},
                    {"power", NumberOrNull(c.power)},
                    {"separable", c.separable},
                    {"expected_size", ByEffectParameter(c.candidate, c.score.size)},
@@ -204,27 +199,6 @@ Json ExtensionRecord(const Diagnosis& d) {
           {"remainder", DetectionRecord(e.remainder)}};
 }
 
-// What a group's members are and how far each model is from the accepted one.
-Json GroupsRecord(const Diagnosis& d) {
-  Json out = Json::array();
-  for (std::size_t m = 0; m < d.naming.groups.size(); ++m) {
-    Json members = Json::array();
-    for (std::size_t k = 0; k < d.naming.groups[m].size(); ++k) {
-      const auto place = static_cast<std::size_t>(d.naming.groups[m][k]);
-      const Candidate& c = d.naming.candidates[place].candidate;
-      const bool fitted = m < d.naming.rivals.size() && k < d.naming.rivals[m].size();
-      members.push_back(
-          {{"effect", c.effect->info.name},
-           {"only_in_trial", OrNull(c.only_recording)},
-           {"nats_behind",
-            fitted ? NumberOrNull(d.naming.rivals[m][k].cost - d.naming.best.cost) : nullptr},
-           {"with", fitted ? MembersRecord(d.naming.rivals[m][k].members) : Json(nullptr)}});
-    }
-    out.push_back(members);
-  }
-  return out;
-}
-
 Json SettingsRecord(const TrialDesign& design) {
   return {{"like", design.like},
           {"touchdown_angle_rad", NumberOrNull(design.touchdown_angle)},
@@ -269,7 +243,7 @@ Json ForcesRecord(const std::optional<FreeForces>& free_forces) {
                        {"inclusion", NumberOrNull(t.inclusion)}});
     }
     out.push_back({{"name", f.group.name},
-                   {"against", OrNull(f.group.against)},
+                   {"against", TextOrNull(f.group.against)},
                    {"unit", f.group.unit},
                    {"score", NumberOrNull(f.score)},
                    {"p_value", NumberOrNull(f.p_value)},
@@ -321,6 +295,7 @@ Json ResolvedOptions(const std::string& dataset_argument, const DiagnosisOptions
   record["effects"] = options.candidates.only;
   record["without"] = options.candidates.without;
   record["max_effects"] = options.max_effects;
+  record["material"] = options.material;
   return record;
 }
 
@@ -346,10 +321,10 @@ Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument
   const Candidate* caused_by =
       cause ? &d.naming.candidates[static_cast<std::size_t>(*cause)].candidate : nullptr;
   record["verdict"] = failure.empty() ? Json(NameOf(d.verdict)) : Json(nullptr);
-  record["sentence"] = failure.empty() ? OrNull(VerdictSentence(d)) : Json(nullptr);
-  record["reason"] = OrNull(d.reason);
+  record["sentence"] = failure.empty() ? TextOrNull(VerdictSentence(d)) : Json(nullptr);
+  record["reason"] = TextOrNull(d.reason);
   record["cause"] = caused_by ? Json(caused_by->effect->info.name) : Json(nullptr);
-  record["only_in_trial"] = caused_by ? OrNull(caused_by->only_recording) : Json(nullptr);
+  record["only_in_trial"] = caused_by ? TextOrNull(caused_by->only_recording) : Json(nullptr);
   record["group"] = NamesOf(d, has_cause ? GroupOfCause(d) : std::vector<int>());
   record["effects"] = MembersRecord(d.naming.best.members);
   record["detection"] = DetectionRecord(d.detection);
@@ -368,13 +343,21 @@ Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument
   record["null"] = NullRecord(d);
   record["free_forces"] = ForcesRecord(d.free_forces);
   record["energy"] = EnergyRecord(run.energy);
-  record["penalty_nats"] = d.naming.penalty > 0.0 ? Json(d.naming.penalty) : Json(nullptr);
+  record["penalty_nats"] = d.naming.log_odds > 0.0 ? Json(d.naming.log_odds) : Json(nullptr);
+  record["causes"] = CausesRecord(d);
+  record["probability_unlisted"] = NumberOrNull(d.UnlistedProbability());
+  record["left"] = LeftRecord(d.naming.best.problem);
+  record["left_share"] = NumberOrNull(d.left.share);
+  record["posterior"] = PosteriorRecord(d);
+  record["discrepancy"] = {{"before", LeftRecord(d.null.problem)},
+                           {"probability", NumberOrNull(d.left.probability)}};
   record["refits"] = d.naming.refits;
   record["gate"] = GateRecord(d);
   record["gradient_check"] = CertificateRecord(
       d.gate.certificate.columns.empty() ? std::nullopt
                                          : std::optional<GradientCertificate>(d.gate.certificate));
   record["channels"] = ChannelsRecord(d.problem);
+  record["known"] = KnownRecord(d.problem);
   const bool determined = !d.uncertainty.parameters.empty();
   record["sentences"] = {
       {"determined",

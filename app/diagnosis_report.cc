@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/cause_report.h"
 #include "app/diagnosis_words.h"
 #include "app/quantity.h"
 #include "app/report_text.h"
@@ -68,98 +69,6 @@ std::string PartsLine(const Diagnosis& d) {
                                 Percent(trials[0].share)));
   }
   return Join(words, "; ");
-}
-
-// ---- cause
-
-struct Interval {
-  std::optional<std::pair<double, double>> ci;
-  bool at_bound = false;
-};
-
-void AddCauseRow(TextTable& table, const SharedParameter& s, double value, const Interval& interval,
-                 const std::string& remark) {
-  const ReadableUnit unit = ReadableUnitOf(value, s.unit);
-  std::string shown = Significant(value * unit.factor, 3), range;
-  if (interval.ci) {
-    const double half = 0.5 * (interval.ci->second - interval.ci->first) * unit.factor;
-    const int decimals = DecimalsFor(half);
-    shown = Fixed(value * unit.factor, decimals);
-    range = Fixed(interval.ci->first * unit.factor, decimals) + " .. " +
-            Fixed(interval.ci->second * unit.factor, decimals);
-  }
-  table.AddRow({s.name, shown, interval.at_bound ? "at its bound" : range, unit.unit, remark});
-}
-
-// Places of a candidate's values among the shared ones of a model that has it; -1: it has not.
-int PlaceIn(const Extension& model, const Candidate& candidate) {
-  int place = model.problem.shared_count() - model.parameter_count();
-  for (const Candidate& member : model.members) {
-    if (member == candidate) return place;
-    place += member.parameter_count();
-  }
-  return -1;
-}
-
-// Members with their sizes, each followed by what does as well in its place.
-std::string CauseTable(const Diagnosis& d, bool colours) {
-  const Extension& best = d.naming.best;
-  const Uncertainty& u = d.extension->uncertainty;
-  const bool between =
-      u.misfit && !u.parameters.empty() && u.parameters.back().ci95_between_trials.has_value();
-  TextTable table({kLeft, kRight, kLeft, kLeft, kLeft});
-  table.AddRow({d.verdict == Verdict::kUnexplained ? "best attempt" : "supported", "size",
-                !between   ? "95 % interval"
-                : d.by_hop ? "95 % between hops"
-                           : "95 % between trials",
-                "unit", "log-likelihood"});
-  for (std::size_t m = 0; m < d.naming.groups.size(); ++m) {
-    for (std::size_t k = 0; k < d.naming.groups[m].size(); ++k) {
-      const CandidateResult& c =
-          d.naming.candidates[static_cast<std::size_t>(d.naming.groups[m][k])];
-      const bool rival = k > 0;
-      if (rival && (m >= d.naming.rivals.size() || k >= d.naming.rivals[m].size())) continue;
-      const Extension& model = rival ? d.naming.rivals[m][k] : best;
-      const int place = PlaceIn(model, c.candidate);
-      if (place < 0) continue;
-      std::string remark;
-      if (rival) {
-        const double behind = model.cost - best.cost;
-        remark = fmt::format("in its place, {:.1f} nats {}", std::abs(behind),
-                             behind < -0.05 ? "ahead" : "behind");
-      } else if (c.alone.ok() && c.gain > 0.0) {
-        remark = fmt::format("+{} nats alone", Significant(c.gain, 3));
-      }
-      for (int i = 0; i < c.candidate.parameter_count(); ++i) {
-        const auto at = static_cast<std::size_t>(place) + static_cast<std::size_t>(i);
-        Interval interval;
-        if (!rival) {
-          const ParameterUncertainty& p = u.parameters[at];
-          interval = {between ? p.ci95_between_trials : p.ci95, p.at_bound};
-        }
-        AddCauseRow(table, model.problem.shared[at], model.shared[place + i], interval,
-                    i == 0 ? remark : "");
-      }
-    }
-  }
-  return WithHeader(table.Lines(), colours);
-}
-
-// What the names mean, where the verdict has not said it.
-std::string MeaningLines(const Diagnosis& d, bool colours) {
-  std::vector<const Effect*> effects;
-  for (const std::vector<int>& group : d.naming.groups) {
-    for (const int place : group) {
-      const Effect* e = d.naming.candidates[static_cast<std::size_t>(place)].candidate.effect;
-      if (std::find(effects.begin(), effects.end(), e) == effects.end()) effects.push_back(e);
-    }
-  }
-  if (effects.size() == 1 && d.verdict == Verdict::kNamed) return "";
-  std::string text;
-  for (const Effect* e : effects)
-    text += Labelled(text.empty() ? "meaning" : "",
-                     std::string(e->info.name) + ": " + std::string(e->info.sentence), colours);
-  return text;
 }
 
 // ---- held-out
@@ -275,8 +184,7 @@ std::string BoundText(const CandidateResult& c) {
   for (int k = 0;
        k < std::min<int>(c.candidate.parameter_count(), static_cast<int>(c.bound95.size())); ++k) {
     if (!std::isfinite(c.bound95[k])) return "";
-    parts.push_back(
-        SizeText(c.bound95[k], std::string(c.candidate.effect->info.parameters[k].unit)));
+    parts.push_back(SizeText(c.bound95[k], std::string(c.candidate.Parameter(k).unit)));
   }
   return parts.empty() ? "" : c.candidate.Name() + " " + Join(parts, " and ");
 }
@@ -285,24 +193,26 @@ std::string BoundText(const CandidateResult& c) {
 double RelativeBound(const CandidateResult& c) {
   double most = 0.0;
   for (int k = 0; k < static_cast<int>(c.bound95.size()); ++k)
-    most = std::max(most, c.bound95[k] / c.candidate.effect->info.parameters[k].typical);
+    most = std::max(most, c.bound95[k] / c.candidate.Parameter(k).typical);
   return most;
 }
 
 std::string ExclusionLines(const Diagnosis& d, bool colours) {
   std::vector<const CandidateResult*> excluded;
-  std::vector<std::string> unneeded, unseen;
+  std::vector<std::string> unneeded, unseen, untried;
   for (const CandidateResult& c : d.naming.candidates) {
     if (!c.candidate.only_recording.empty()) continue;  // the same effect, more narrowly
-    if (c.status == CandidateStatus::kExcluded) {
+    if (c.status == CandidateStatus::kExcluded || c.status == CandidateStatus::kNotNeeded) {
       if (BoundText(c).empty())
         unneeded.push_back(c.candidate.Name());
       else
         excluded.push_back(&c);
+    } else if (c.candidate.effect->info.has_threshold) {
+      untried.push_back(c.candidate.Name());
     } else if (c.status == CandidateStatus::kNotTested) {
       std::vector<std::string> sizes;
-      for (const EffectParameter& p : c.candidate.effect->info.parameters)
-        sizes.push_back(SizeText(p.typical, std::string(p.unit)));
+      for (const OpenParameter& p : c.candidate.parameters)
+        sizes.push_back(SizeText(p.info.typical, std::string(p.info.unit)));
       unseen.push_back(c.candidate.Name() + " " + Join(sizes, " and "));
     }
   }
@@ -314,10 +224,13 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
   std::string text;
   if (!bounds.empty()) text += Labelled("excluded", "beyond " + Capped(bounds), colours);
   if (!unneeded.empty())
-    text +=
-        Labelled("not needed", Capped(unneeded) + ": without a bound beside the above", colours);
+    text += Labelled("not needed", "beside the above: " + Capped(unneeded), colours);
   if (!unseen.empty())
     text += Labelled("never shown", "at typical sizes: " + Capped(unseen), colours);
+  if (!untried.empty())
+    text += Labelled(
+        "not tried",
+        Capped(untried) + ": small sizes change nothing, so nothing tells where to look", colours);
   return text;
 }
 
@@ -419,12 +332,13 @@ std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, boo
   }
   if (d.extension) {
     const ExtensionReport& e = *d.extension;
-    text += CauseTable(d, colours) + MeaningLines(d, colours) + "\n";
+    text += CauseLines(d, colours) + "\n";
     if (e.after.test.trials > 0) text += HeldOutTable(d, colours) + "\n";
     text += MovedTable(e, colours) + "\n";
     if (!run.energy.hops.empty()) text += EnergyTable(run.energy, colours) + "\n";
     text += Labelled("gain", GainLine(e), colours);
     text += Labelled("remainder", RemainderLine(e), colours);
+    text += DoubtLines(d, colours);
   } else if (d.before.test.trials > 0) {
     text += Labelled("test error", TestErrorLine(d), colours);
   }

@@ -1,6 +1,7 @@
 #include "app/diagnosis_tables.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "app/csv.h"
@@ -29,7 +30,7 @@ std::string Candidates(const Diagnosis& d) {
         i < d.candidate_gains.size() ? d.candidate_gains[i] : std::nullopt;
     const auto ci = gain ? gain->ci95 : std::nullopt;
     for (int k = 0; k < c.candidate.parameter_count(); ++k) {
-      const EffectParameter& p = c.candidate.effect->info.parameters[k];
+      const EffectParameter& p = c.candidate.Parameter(k);
       const auto at = [k](const Eigen::VectorXd& v) { return k < v.size() ? v[k] : kNaN; };
       csv.Cell(c.candidate.effect->info.name)
           .Cell(c.candidate.only_recording)
@@ -110,29 +111,29 @@ std::string Residuals(const Diagnosis& d) {
 
 // Evidence for the effects of the extension at the null fit, row by row and summed up since the
 // trial's first; an effect of one trial only counts there.
-std::string Evidence(const Diagnosis& d) {
+std::string EvidenceTable(const Diagnosis& d) {
   CsvText csv({"effect", "parameter", "trial", "time_s", "channel", "mode", "running", "evidence"});
   const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
   for (const Candidate& member : d.naming.best.members) {
-    int column = 0;
-    for (const CandidateResult& c : d.naming.candidates) {
-      if (c.candidate.effect == member.effect && c.candidate.only_recording.empty()) break;
-      column += c.candidate.parameter_count();
-    }
-    if (column + member.parameter_count() > d.null_at.columns.cols()) continue;
+    const std::array one = {member};
+    const FitProblem problem = Extend(d.null.problem, one);
+    Eigen::VectorXd shared(problem.shared_count());
+    shared << d.null.shared, NullValues(one);
+    const Linearisation at =
+        Linearise(problem, d.null.problem.shared_count(), train, shared, d.null.starts, 1);
     for (int k = 0; k < member.parameter_count(); ++k) {
-      const Eigen::VectorXd evidence = RunningEvidence(d.null_at, column + k);
+      const Eigen::VectorXd evidence = RunningEvidence(at, k);
       double running = 0.0;
       int running_trial = -1;
-      for (int row = 0; row < d.null_at.rows(); ++row) {
-        const RowLabel& label = d.null_at.labels[static_cast<std::size_t>(row)];
+      for (int row = 0; row < at.rows(); ++row) {
+        const RowLabel& label = at.labels[static_cast<std::size_t>(row)];
         const TrialProblem& trial = train[static_cast<std::size_t>(label.trial)];
         if (label.of == RowLabel::Of::kPrior) continue;
         if (!member.only_recording.empty() && member.only_recording != trial.recording) continue;
         running = evidence[row] + (label.trial == running_trial ? running : 0.0);
         running_trial = label.trial;
         csv.Cell(member.effect->info.name)
-            .Cell(member.effect->info.parameters[k].name)
+            .Cell(member.Parameter(k).name)
             .Cell(trial.file)
             .Cell(trial.begin_s + label.time)
             .Cell(ChannelNameOf(d.problem, label.channel))
@@ -204,7 +205,7 @@ std::map<std::string, std::string> DiagnosisTables(const DiagnosisRun& run) {
     tables["trajectories.csv"] = Trajectories(d);
     tables["events.csv"] = Events(d);
   }
-  if (!d.naming.best.members.empty()) tables["evidence.csv"] = Evidence(d);
+  if (!d.naming.best.members.empty()) tables["evidence.csv"] = EvidenceTable(d);
   if (d.free_forces) tables["forces.csv"] = Forces(*d.free_forces);
   if (!run.energy.hops.empty()) tables["energy.csv"] = EnergyTable(run.energy);
   return tables;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "app/quantity.h"
@@ -13,11 +14,8 @@ namespace hoplab {
 namespace {
 
 constexpr double kLeastChance = 1e-3;
-// Said once, beside the names.
-std::string Caveat(bool several) {
-  return fmt::format("(or something outside the catalogue that moves the data like {})",
-                     several ? "them" : "it");
-}
+constexpr int kMostWords = 30;         // of a first sentence
+constexpr std::size_t kMostNamed = 3;  // in it, fewer where it gets too long
 
 // "a", "a and b", "a, b and c".
 std::string Listed(const std::vector<std::string>& words) {
@@ -26,21 +24,31 @@ std::string Listed(const std::vector<std::string>& words) {
   return Join(first) + " and " + words.back();
 }
 
+// The first few, and how many more.
+std::string FirstOf(std::vector<std::string> words, std::size_t most) {
+  if (words.size() <= most) return Listed(words);
+  const std::size_t more = words.size() - most;
+  words.resize(most);
+  return Join(words) + fmt::format(" and {} more", more);
+}
+
+long WordsOf(const std::string& text) {
+  return text.empty() ? 0 : 1 + std::count(text.begin(), text.end(), ' ');
+}
+
+// The sentence with as many names as thirty words hold.
+std::string Shortened(const std::function<std::string(std::size_t most)>& sentence) {
+  for (std::size_t most = kMostNamed; most > 1; --most) {
+    if (std::string text = sentence(most); WordsOf(text) <= kMostWords) return text;
+  }
+  return sentence(1);
+}
+
 std::vector<std::string> NamesOf(const Diagnosis& d, const std::vector<int>& places) {
   std::vector<std::string> names;
   for (const int place : places)
     names.push_back(CauseText(d.naming.candidates[static_cast<std::size_t>(place)].candidate));
   return names;
-}
-
-// How far the models of a group are from the accepted one [nats].
-std::string SpreadText(const Diagnosis& d, std::size_t group) {
-  double spread = 0.0;
-  if (group < d.naming.rivals.size()) {
-    for (const Extension& rival : d.naming.rivals[group])
-      spread = std::max(spread, std::abs(rival.cost - d.naming.best.cost));
-  }
-  return fmt::format("within {:.1f} nats", spread);
 }
 
 // The channel whose held-out error falls most: "the test error of body_x from 8.85 to 1.20 mm".
@@ -61,57 +69,53 @@ std::optional<std::string> ErrorChange(const Diagnosis& d) {
   return fmt::format("the test error of {} from {} to {}", WithoutUnit(name), from, to);
 }
 
-// What the held-out trials say of the extension, after a semicolon.
-std::string HeldOutClause(const Diagnosis& d, const std::string& it) {
+// What the held-out trials say of the extension.
+std::string HeldOutClause(const Diagnosis& d) {
   const HeldOutGain& gain = d.extension->gain;
-  if (d.extension->after.test.trials == 0) return "; there is no held-out trial to confirm it";
-  if (!gain.ci95) return "; the held-out hops are too few to claim a gain";
-  if (!gain.IsClaim()) return "; the held-out trials do not confirm it, so no gain is claimed";
-  if (const std::optional<std::string> change = ErrorChange(d))
-    return fmt::format("; adding {} takes {}", it, *change);
-  return fmt::format("; adding {} gains {:.3g} nats a sample on the held-out trials", it,
-                     gain.nats_per_sample);
+  if (d.extension->after.test.trials == 0) return "no held-out trial confirms it";
+  if (!gain.ci95) return "too few held-out hops to claim a gain";
+  if (!gain.IsClaim()) return "held-out trials do not confirm it";
+  if (const std::optional<std::string> change = ErrorChange(d)) return "it takes " + *change;
+  return fmt::format("it gains {:.3g} nats a held-out sample", gain.nats_per_sample);
 }
 
-std::string NamedSentence(const Diagnosis& d) {
-  const std::vector<Candidate>& members = d.naming.best.members;
+// "air_drag", "a or b", "one of a, b and 2 more".
+std::string GroupText(const Diagnosis& d, const CauseReport& c, std::size_t most) {
+  const std::vector<int>& group = d.naming.GroupOf(c.candidate);
+  if (group.size() < 2) return CauseText(c.cause);
+  const std::vector<std::string> names = NamesOf(d, group);
+  return group.size() == 2 && most > 1 ? names[0] + " or " + names[1]
+                                       : "one of " + FirstOf(names, most);
+}
+
+// "The simulation lacks a (91 %) and b or c (5 %); it takes the test error of ..".
+std::string CausesSentence(const Diagnosis& d, std::size_t most) {
+  const ExtensionReport& e = *d.extension;
+  const std::vector<const CauseReport*> told = e.ToldCauses();
   std::vector<std::string> names;
-  for (const Candidate& c : members) names.push_back(CauseText(c));
-  // While misfit remains, a member may stand in for what is really missing.
-  if (d.extension && d.extension->InDoubt()) {
-    const ExtensionReport& e = *d.extension;
-    return fmt::format(
-        "{:.1f} % of what the simulation misses is explained by {} {}{}; something {}, so {} may "
-        "stand in for another cause.",
-        std::floor(1e3 * e.explained) / 10.0, Listed(names), Caveat(members.size() > 1),
-        HeldOutClause(d, members.size() == 1 ? "it" : "them"),
-        e.SomeRemains() ? "remains"
-                        : fmt::format("may remain ({})", ChanceText(e.remainder.p_value)),
-        members.size() == 1 ? "it" : "one of these");
+  for (const CauseReport* c : told) {
+    std::string name = GroupText(d, *c, most);
+    if (told.size() > 1 && most > 1) name += fmt::format(" ({})", ShareText(c->share));
+    names.push_back(std::move(name));
   }
-  std::string text = "The simulation lacks " + Listed(names) + " " + Caveat(members.size() > 1);
-  if (members.size() == 1) text += ": " + std::string(members[0].effect->info.sentence);
-  return text + HeldOutClause(d, members.size() == 1 ? "it" : "them") + ".";
+  const bool sure = e.Probability() >= kSure;
+  std::string text = sure                         ? "The simulation lacks "
+                     : e.Probability() >= kLikely ? "The simulation probably lacks "
+                                                  : "The simulation may lack ";
+  text += FirstOf(names, most);
+  if (!sure) text += fmt::format(" (P {:.2f})", e.Probability());
+  return text + "; " + HeldOutClause(d) + ".";
 }
 
-std::string ConfoundedSentence(const Diagnosis& d) {
-  const std::vector<std::vector<int>>& groups = d.naming.groups;
-  if (groups.size() == 1) {
-    return fmt::format("Cannot tell: {} explain these hops equally well, {} {}{}.",
-                       Listed(NamesOf(d, groups[0])), SpreadText(d, 0), Caveat(true),
-                       HeldOutClause(d, "the first"));
-  }
-  std::vector<std::string> certain, open;
-  for (std::size_t m = 0; m < groups.size(); ++m) {
-    const std::vector<std::string> names = NamesOf(d, groups[m]);
-    if (names.size() == 1)
-      certain.push_back(names[0]);
-    else
-      open.push_back("one of " + Listed(names) + " (" + SpreadText(d, m) + ")");
-  }
-  certain.insert(certain.end(), open.begin(), open.end());
-  return fmt::format("The simulation lacks {}, which these hops cannot tell apart {}{}.",
-                     Join(certain, "; "), Caveat(true), HeldOutClause(d, "the first of each"));
+std::string UnexplainedSentence(const Diagnosis& d, std::size_t most) {
+  const std::string missing = "Something is missing that the catalogue does not hold";
+  if (!d.extension) return missing + ".";
+  const ExtensionReport& e = *d.extension;
+  std::vector<std::string> names;
+  for (const CauseReport* c : e.ToldCauses()) names.push_back(CauseText(c->cause));
+  return fmt::format("{}; the best attempt, {}, {}.", missing, FirstOf(names, most),
+                     e.at_bound ? "needs a size beyond what is physical"
+                                : "explains " + ShareText(e.explained) + " of the misfit");
 }
 
 }  // namespace
@@ -126,13 +130,20 @@ std::string VerdictSentence(const Diagnosis& d) {
       return fmt::format("Nothing is missing that these data could show ({}).",
                          ChanceText(d.detection.p_value));
     case Verdict::kNamed:
-      return NamedSentence(d);
     case Verdict::kConfounded:
-      return ConfoundedSentence(d);
+      return Shortened([&](std::size_t most) { return CausesSentence(d, most); });
     case Verdict::kUnexplained:
-      return "Something is missing, and nothing in the catalogue explains it: " + d.reason + ".";
+      return Shortened([&](std::size_t most) { return UnexplainedSentence(d, most); });
   }
   return "";
+}
+
+std::string ShareText(double share) {
+  // Not rounded up to all of it.
+  const double percent = 100.0 * std::clamp(share, 0.0, 1.0);
+  if (percent > 0.0 && percent < 0.1) return "under 0.1 %";
+  return percent < 10.0 ? fmt::format("{:.1f} %", percent)
+                        : fmt::format("{:.0f} %", std::floor(percent));
 }
 
 std::string SizeText(double value, const std::string& unit) {
@@ -160,9 +171,8 @@ std::string PlaceText(const FitProblem& problem, const MisfitCell& cell) {
 
 std::string CauseText(const Candidate& candidate) {
   const std::string name(candidate.effect->info.name);
-  return candidate.only_recording.empty()
-             ? name
-             : name + " (in " + Printable(candidate.only_recording) + " only)";
+  return candidate.only_recording.empty() ? name
+                                          : name + " in " + Printable(candidate.only_recording);
 }
 
 }  // namespace hoplab

@@ -11,6 +11,10 @@ constexpr std::array kAdvice = {
                  "Drop the body without its leg, or hop at two speeds: drag grows with the square "
                  "of the speed, a steady pull does not.",
                  "constant_force"},
+    EffectAdvice{"angle_input_delay",
+                 "Mark one instant in both logs, a tap on the leg, and compare their stamps.", ""},
+    EffectAdvice{"angle_input_scale", "Turn the leg by a known angle and read what the log says.",
+                 ""},
     EffectAdvice{"body_mass_scale",
                  "Weigh the robot as it hops, battery and cables on it, and state that mass.",
                  "torque_gain"},
@@ -27,10 +31,17 @@ constexpr std::array kAdvice = {
                  "boom_inertia, gravity_scale, sensor_scale_y"},
     EffectAdvice{"constant_force",
                  "Hop both ways: a draught or a cable pulls the same way in both.", "air_drag"},
+    EffectAdvice{"foot_coulomb_friction",
+                 "Pull the loaded foot sideways with a spring balance; film the last moments of "
+                 "contact, or glue sandpaper under the sole.",
+                 ""},
     EffectAdvice{"foot_slip",
                  "Film the contact from near by, or chalk it; another sole or a rougher floor "
                  "changes it.",
                  ""},
+    EffectAdvice{"force_input_delay",
+                 "Strike the force sensor and compare the moment with the camera's.", ""},
+    EffectAdvice{"force_input_scale", "Hang a known weight on the force sensor.", ""},
     EffectAdvice{"gravity_scale",
                  "Let it fall: a counterweight or an inclined plane shows in free flight, before "
                  "any contact.",
@@ -47,18 +58,26 @@ constexpr std::array kAdvice = {
     EffectAdvice{"guide_viscous_friction",
                  "Let the carriage fall with the leg off the ground: its speed approaches a limit.",
                  ""},
+    EffectAdvice{"higher_order_bending",
+                 "Use the law elastica, which has it: the leg bends further than second order is "
+                 "good for.",
+                 ""},
     EffectAdvice{"hip_coulomb_friction",
                  "Turn the joint slowly without power and read the torque at which it gives.",
                  "torque_bias, hip_viscous_friction"},
     EffectAdvice{"hip_viscous_friction",
                  "Turn the joint at several speeds without power: the torque grows with the speed.",
-                 "torque_bias, hip_coulomb_friction"},
+                 "touchdown_angle_bias, torque_bias, leg_mass, hip_coulomb_friction"},
     EffectAdvice{"leg_hardening",
                  "Press the leg slowly in a testing machine: the force over the deflection curves.",
                  ""},
     EffectAdvice{"leg_hysteresis",
                  "Load and unload the leg slowly: the loop stays open however slow you are.",
                  "leg_material_damping"},
+    EffectAdvice{"leg_mass",
+                 "Weigh the leg alone. With it, hold the loss at touch-down "
+                 "(--fix touchdown_loss.zeta=0): it is the same blow.",
+                 "hip_viscous_friction, touchdown_angle_bias"},
     EffectAdvice{"leg_material_damping",
                  "Load and unload the leg at several speeds: the loop closes when slow. With it, "
                  "hold the constant damper (--fix d=0).",
@@ -80,10 +99,11 @@ constexpr std::array kAdvice = {
                  "Take another law (hoplab compare): this says that the contact advances as under "
                  "that one.",
                  ""},
-    EffectAdvice{"second_order_bending",
-                 "Use the law large_deflection, which has it: the leg bends further than first "
-                 "order is good for.",
-                 ""},
+    EffectAdvice{
+        "second_order_bending",
+        "Use the law elastica or large_deflection, which have it: the leg bends further than first "
+        "order is good for.",
+        ""},
     EffectAdvice{"sensor_delay",
                  "Strike the marker and compare the moment with a contact switch, or free the "
                  "start states less.",
@@ -91,7 +111,7 @@ constexpr std::array kAdvice = {
     EffectAdvice{"sensor_offset_x",
                  "Measure where the marker sits against the hip, and where the track begins.", ""},
     EffectAdvice{"sensor_offset_y", "Stand the robot on the ground unloaded and read its height.",
-                 "rest_radius_scale, touchdown_angle_bias, sensor_scale_y, ground_compliance"},
+                 "rest_radius_scale, sensor_scale_y, touchdown_angle_bias, ground_compliance"},
     EffectAdvice{"sensor_scale_x", "Move the marker by a known length along the track.", ""},
     EffectAdvice{"sensor_scale_y", "Move the marker by a known height.",
                  "sensor_offset_y, rest_radius_scale, touchdown_angle_bias, clock_scale, "
@@ -99,7 +119,8 @@ constexpr std::array kAdvice = {
     EffectAdvice{"stiffness_drift",
                  "Repeat the first trial at the end of the day, or measure the leg's temperature.",
                  ""},
-    EffectAdvice{"tip_rotation", "Use the law consistent or large_deflection, which have it.", ""},
+    EffectAdvice{"tip_rotation",
+                 "Use the law elastica, large_deflection or consistent, which have it.", ""},
     EffectAdvice{"torque_bending",
                  "Hold the foot and turn the hip: a leg that bends under torque alone has it.", ""},
     EffectAdvice{"torque_bias", "Command no torque and measure what the joint holds.",
@@ -107,12 +128,15 @@ constexpr std::array kAdvice = {
     EffectAdvice{"torque_gain",
                  "Hang a known weight on an arm at the joint and read the torque that holds it.",
                  "body_mass_scale"},
+    EffectAdvice{"torque_input_delay",
+                 "Hold the joint, step the command, and compare the stamps of both logs.", ""},
     EffectAdvice{"torque_lag",
                  "Step the command with the joint held and record the current or the torque.",
                  "boom_inertia"},
     EffectAdvice{"touchdown_angle_bias",
                  "Hold the leg against a protractor at the commanded angle.",
-                 "sensor_offset_y, rest_radius_scale, ground_compliance, sensor_scale_y"},
+                 "sensor_offset_y, rest_radius_scale, ground_compliance, sensor_scale_y, "
+                 "hip_viscous_friction, leg_mass"},
     EffectAdvice{"touchdown_angle_speed",
                  "Log the leg's angle in flight: placement by speed is a rule of the controller, "
                  "or air drag on the leg.",

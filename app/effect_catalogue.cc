@@ -32,7 +32,8 @@ std::string ParameterRows(const EffectInfo& info) {
 std::string LawsText(const Effect& effect) {
   std::vector<std::string> names;
   for (const Law law : LawsWith(effect)) names.push_back("`" + std::string(NameOf(law)) + "`");
-  return Join(names) + (effect.info.massless_leg_only ? "; not with a toe mass" : "");
+  return Join(names) + (effect.info.massless_leg_only ? "; not with a toe mass" : "") +
+         (effect.info.needs_inputs != 0 ? "; where a logged column drives the run" : "");
 }
 
 std::string Section(const Effect& effect) {

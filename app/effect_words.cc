@@ -38,7 +38,8 @@ std::vector<Law> AllLaws() {
 
 std::vector<Law> LawsWith(const Effect& effect) {
   std::vector<Law> laws = AllLaws();
-  std::erase_if(laws, [&](Law law) { return !AppliesTo(effect, law); });
+  std::erase_if(laws,
+                [&](Law law) { return !AppliesTo(effect, law, LegMass::kNone, kEveryInput); });
   return laws;
 }
 
@@ -50,6 +51,7 @@ std::string RestrictionOf(const Effect& effect) {
     return (names.size() == 1 ? "law " : "laws ") + Join(names) +
            (info.massless_leg_only ? ", massless" : "");
   }
+  if (info.needs_inputs != 0) return "what a log drives";
   if (info.for_legs && info.for_ball) return "";
   if (info.massless_leg_only) return "massless legs only";
   return info.for_legs ? "legs only" : "ball only";

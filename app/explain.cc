@@ -29,6 +29,13 @@ constexpr std::array kLawAdvice = {
         "Begin with it. It is good to 2 % of the deflection while F C/l0 stays below 0.2, and "
         "says when it does not. Compare with consistent to see what the second term is worth."},
     LawAdvice{
+        Law::kElastica,
+        "The arc between hip and contact is an inextensible beam between two pins: "
+        "l = r dP/df, u/l = (dP/dphi)/f with its energy P(f, phi), f = F r^2/(E I), solved exactly "
+        "and tabulated (M61, M62); normal and shear force to first order.",
+        "Use it where the leg bends far. It ends a run where the load is beyond what an arc can "
+        "carry before its ends close."},
+    LawAdvice{
         Law::kConsistent,
         "The chord of length l carries F with l = l0 - F C (M9); the loaded tip turns by "
         "F C'/2 (M10), C [m/N] the arc's compliance (M2), C' [1/N] its slope along the arc.",

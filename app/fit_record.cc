@@ -52,7 +52,7 @@ Json ObjectiveRecord(const FitProblem& problem, const std::optional<Objective>& 
 Json FitSentences(const FitRun& run) {
   const bool assessed = run.uncertainty.has_value();
   const bool misfit = assessed && run.uncertainty->misfit;
-  return {{"misfit", misfit ? Json(MisfitLine(*run.uncertainty)) : Json(nullptr)},
+  return {{"misfit", misfit ? Json(MisfitLine(run.problem, *run.uncertainty)) : Json(nullptr)},
           {"determined",
            assessed ? Json(DeterminedLine(run.problem, *run.uncertainty, "")) : Json(nullptr)},
           {"gradients", CertificateLine(run.certificate)},
@@ -73,7 +73,8 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
       OptionsRecord(run.problem, {dataset_argument, &options.problem, &options.fit, options.span});
   header.options["profile"] = options.profile;
   Json record = NewRecord(header);
-  if (const std::string failure = run.Failure(); !failure.empty()) SetFailed(record, failure);
+  record["status"] = NameOf(run.Standing());
+  record["message"] = run.Caveat();
 
   record["parameters"] = ParametersRecord({&run.problem, run.has_result ? &run.fit.shared : nullptr,
                                            run.uncertainty ? &*run.uncertainty : nullptr});
@@ -101,11 +102,20 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
       assessed ? MatrixRecord(run.problem, run.uncertainty->correlation) : Json(nullptr);
   record["profiles"] = ProfilesRecord(run);
   record["channels"] = ChannelsRecord(run.problem);
+  record["known"] = KnownRecord(run.problem);
   record["sentences"] = FitSentences(run);
   record["mechanism"] =
       run.has_result ? FittedMechanismRecord({&run.problem, &run.fit.shared, &run.trials, ""})
                      : Json(nullptr);
   record["fitted"] = run.by_hop ? "single hops" : "whole traces";
+  record["left_out"] = run.left_out;
+  record["left"] = run.fit.discrepancy ? LeftRecord(run.problem) : Json(nullptr);
+  record["stop"] = {
+      {"minimum", run.has_result && run.faults.empty()},
+      {"complete", run.has_result && run.fit.stop.complete},
+      {"promised_nats", run.has_result ? NumberOrNull(run.fit.stop.promised_nats) : Json(nullptr)},
+      {"at_wall", run.fit.stop.at_wall},
+      {"faults", run.faults}};
   record["warnings"] = run.check.warnings;
   record["notes"] = run.check.notes;
   if (!run.note.empty()) record["notes"].push_back(run.note);

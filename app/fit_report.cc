@@ -108,7 +108,14 @@ std::string LoadingsText(const FitProblem& problem, const WeakDirection& weak) {
 
 }  // namespace
 
-std::string MisfitLine(const Uncertainty& u) {
+std::string MisfitLine(const FitProblem& problem, const Uncertainty& u) {
+  if (!problem.noise.IsWhite()) {
+    return fmt::format(
+        "the model misses more than the noise (chi2 {} per sample, 1 expected): a smooth error of "
+        "{} "
+        "is left, which the intervals allow for",
+        Significant(u.chi2_per_dof, 3), LeftText(problem));
+  }
   const bool between = std::any_of(u.parameters.begin(), u.parameters.end(),
                                    [](const auto& p) { return p.ci95_between_trials.has_value(); });
   return fmt::format(
@@ -188,11 +195,30 @@ std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
   if (!dataset.title.empty()) text += "  " + Printable(dataset.title, 100);
   text += "\n" + Headline(run) + "\n";
   if (!run.has_result) return text + Labelled("no result", run.Failure(), colours);
+  if (!run.faults.empty()) {
+    text += "\n";
+    for (const std::string& fault : run.faults) text += Labelled("stuck", fault, colours);
+    std::vector<std::string> stops;
+    for (int i = 0; i < run.problem.shared_count(); ++i) {
+      const SharedParameter& s = run.problem.shared[i];
+      const ReadableUnit unit = ReadableUnitOf(run.fit.shared[i], s.unit);
+      stops.push_back(fmt::format("{} {} {}", s.name,
+                                  Significant(run.fit.shared[i] * unit.factor, 3), unit.unit));
+    }
+    text += Labelled(
+        "no result",
+        "the search stopped at " + Join(stops) + ", which is no minimum and no estimate", colours);
+    if (!run.note.empty()) text += Labelled("note", run.note, colours);
+    for (const std::string& remark : TrialRemarks(run)) text += Labelled("note", remark, colours);
+    return text;
+  }
+  if (const std::string caveat = run.Caveat(); !caveat.empty())
+    text += Labelled("not whole", caveat, colours);
   text += "\n";
   text += WithHeader(ParameterLines(run), colours) + "\n";
 
   const Uncertainty& u = *run.uncertainty;
-  if (u.misfit) text += Labelled("misfit", MisfitLine(u), colours);
+  if (u.misfit) text += Labelled("misfit", MisfitLine(run.problem, u), colours);
   text += Labelled("determined", DeterminedLine(run.problem, u, ""), colours);
   for (const TrialRole role : {TrialRole::kTrain, TrialRole::kTest}) {
     text += Labelled(role == TrialRole::kTrain ? "train error" : "test error",
@@ -212,6 +238,8 @@ std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
         fmt::format("{}: {} .. {} {}", s.name, side(p.lower95), side(p.upper95), unit.unit),
         colours);
   }
+  if (const std::string known = run.problem.known.Text(); !known.empty())
+    text += Labelled("known", known, colours);
   if (!run.note.empty()) text += Labelled("note", run.note, colours);
   for (const std::string& remark : TrialRemarks(run)) text += Labelled("note", remark, colours);
   return text;

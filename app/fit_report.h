@@ -17,7 +17,7 @@ std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours);
 std::string DeterminedLine(const FitProblem& problem, const Uncertainty& uncertainty,
                            const std::string& at);
 /// That the model misses more than the noise, of a fit where it does.
-std::string MisfitLine(const Uncertainty& uncertainty);
+std::string MisfitLine(const FitProblem& problem, const Uncertainty& uncertainty);
 std::string CertificateLine(const std::optional<GradientCertificate>& certificate);
 /// Trials whose simulation did not reach the end of their data, and legs bent beyond the law.
 std::vector<std::string> TrialRemarks(const FitRun& run);

@@ -29,6 +29,15 @@ struct FitRunOptions {
   std::function<void(const CheckReport&)> checked = nullptr;
 };
 
+/// What a fit's values are worth.
+enum class FitStanding {
+  kOk,
+  kPartial,  // a minimum, but of a part of the data: some hops cannot be simulated
+  kStuck,    // where a search stopped that is no minimum: its values are no result
+  kFailed    // nothing to report
+};
+std::string_view NameOf(FitStanding standing);
+
 /// All that `hoplab fit` computes: the search, then what its optimum is worth. What follows the
 /// search is absent if it led nowhere.
 struct FitRun {
@@ -37,6 +46,7 @@ struct FitRun {
   bool by_hop = false;
   std::string note;  // why it was fitted hop by hop, or that hops and whole traces disagree
   FitResult fit;
+  std::vector<std::string> left_out;  // train hops that no values found let be simulated
   /// At least one start ran to its end: there is something to report.
   bool has_result = false;
   /// Stopped from outside; profiles may be missing, starts are.
@@ -48,12 +58,20 @@ struct FitRun {
   std::vector<TrialErrors> trials;
   std::vector<Profile> profiles;
 
+  /// Why no fit was tried; empty if one was.
+  std::string refusal;
+  /// What speaks against a minimum, one sentence each; absent without a result.
+  std::vector<std::string> faults;
+
+  FitStanding Standing() const;
   int finished_starts() const;
   /// The data say nothing about it: the value found is an accident of the start.
   bool Undetermined(int parameter) const;
   bool AllUndetermined() const;
   /// Why there is no usable result; empty if there is one.
   std::string Failure() const;
+  /// What a reader must know first: why it is no result, or not of all data; empty if it is.
+  std::string Caveat() const;
 };
 
 /// Checks, fits and assesses. Throws InputError for options that do not suit the dataset.

@@ -7,13 +7,12 @@ namespace {
 
 constexpr std::array kWords = {
     GlossaryEntry{"adequate", "",
-                  "Verdict of a diagnosis: nothing is missing that these data could show."
-                  " The largest score of all causes is no larger than noise alone brings "
-                  "about (global p > 0.01), or no cause pays the penalty for having been "
-                  "chosen among so many.",
-                  "Use the model as it is, for motions like the recorded ones. Adequate "
-                  "is not complete: causes listed as not-tested could be there unseen; a "
-                  "trial with more speed, height or torque shows more."},
+                  "Verdict of a diagnosis: nothing is missing that these data could show. The "
+                  "largest score of all causes is no larger than noise alone brings about (global "
+                  "p > 0.01), or the evidence for no cause overcomes the prior odds against it.",
+                  "Use the model as it is, for motions like the recorded ones. Adequate is not "
+                  "complete: causes listed as not-tested could be there unseen; a trial with more "
+                  "speed, height or torque shows more."},
     GlossaryEntry{"apex", "",
                   "The highest point of a hop, where vy = 0 in flight. Its state is the "
                   "speed vx [m/s] and the height y [m]; a hop goes from one apex to the "
@@ -63,12 +62,12 @@ constexpr std::array kWords = {
                   "that the model misses more than the noise, go by the interval between-"
                   "trials, and even that one cannot see an error that all trials share."},
     GlossaryEntry{"confounded", "",
-                  "Verdict of a diagnosis: something is missing, and several causes "
-                  "explain it equally well. Their log-likelihoods after refitting lie "
-                  "within 3 nats of the best.",
-                  "Do not pick the one you like. The report shows whether they predict "
-                  "alike (then the choice does not matter here) and proposes a trial to "
-                  "record that sets them apart (separating-experiment)."},
+                  "Verdict of a diagnosis: something is missing, and several causes may be it, or "
+                  "one with a probability below 0.95. A group of names that cannot be told apart "
+                  "holds 95 % of the evidence in its place.",
+                  "Do not pick the one you like. The report shows whether they predict alike (then "
+                  "the choice does not matter here) and proposes a trial to record that sets them "
+                  "apart (separating-experiment)."},
     GlossaryEntry{"contact", "",
                   "The point of the ground that carries the leg, x_c [m]; in a dataset "
                   "the channel contact tells when there is one.",
@@ -88,6 +87,12 @@ constexpr std::array kWords = {
                   "Effects well below it are invisible here, whatever their truth. To see"
                   " smaller ones: more trials, less noise, or motions that excite the "
                   "effect; the size falls as one over the root of the samples."},
+    GlossaryEntry{"discrepancy", "left matern",
+                  "A smooth error of the model beside white noise: a Gaussian process (Matern 3/2) "
+                  "in each trial and channel, with an amplitude per channel and one time scale.",
+                  "What is left after the causes found. A small one makes intervals honest; a "
+                  "material one says that something is missing, and keeps causes from being "
+                  "excluded. Switch it off with --discrepancy none."},
     GlossaryEntry{"energy-ledger", "energy",
                   "What energy goes where in each hop: m (v^2/2 + g y) at one apex less "
                   "that at the next [J], measured, simulated before and simulated after "
@@ -95,12 +100,12 @@ constexpr std::array kWords = {
                   "A model that loses too little or too much shows here first, and in "
                   "which hop. A loss the model lacks wants a dissipative effect; a gain "
                   "means a law that does not conserve energy, or a motor that pushes."},
-    GlossaryEntry{"excluded", "",
-                  "Judgement on a cause: it was tested and is not needed. Beyond the size"
-                  " told, 95 % of repetitions would have shown it.",
-                  "You may say that the effect is smaller than the bound in these trials,"
-                  " no more. A bound larger than what matters to you calls for another "
-                  "trial."},
+    GlossaryEntry{
+        "excluded", "",
+        "Judgement on a cause: it was tested and is not needed, and nothing material is left that "
+        "could hide it. Beyond the size told, 95 % of repetitions would have shown it.",
+        "You may say that the effect is smaller than the bound in these trials, no more. A bound "
+        "larger than what matters to you calls for another trial."},
     GlossaryEntry{"extension", "",
                   "The model with the named effects added and everything refitted; their "
                   "sizes become parameters beside the old ones.",
@@ -166,10 +171,10 @@ constexpr std::array kWords = {
                   "interval instead of a wide guess; hold it with --fix, or add a channel"
                   " or a trial that sees it."},
     GlossaryEntry{"indistinguishable", "",
-                  "Judgement on a cause: in the place of a supported one it does as well,"
-                  " within 3 nats (a likelihood ratio of 20).",
-                  "The data do not choose. See confounded and separating-experiment; "
-                  "knowledge from outside, as a weighed mass, may choose for you."},
+                  "Judgement on a cause: in the place of a supported one it may be right as well. "
+                  "It belongs to the smallest group that holds 95 % of the evidence there.",
+                  "The data do not choose. See confounded and separating-experiment; knowledge "
+                  "from outside, as a weighed mass, may choose for you."},
     GlossaryEntry{"liftoff", "lift-off",
                   "The event that ends stance: the chord force comes down to zero (the "
                   "default), or the chord regains its rest length.",
@@ -182,18 +187,29 @@ constexpr std::array kWords = {
                   "3 nats are odds of 20 to 1, 10 nats of 22000 to 1, if residuals are "
                   "independent. Real residuals are not quite, so believe held-out gains "
                   "before gains on train trials."},
+    GlossaryEntry{"main-cause", "main",
+                  "A cause that explains at least 2 % of the misfit, or without which a held-out "
+                  "error is a tenth larger, and which the held-out trials confirm.",
+                  "Act on these. The other causes of an extension are small corrections the data "
+                  "also want; they may stand for details of the model."},
     GlossaryEntry{"misfit", "",
                   "More residual than noise explains: chi-square of the whole fit has a "
                   "probability below 0.001.",
                   "The parameters are then the best of a wrong model, biased to make up "
                   "for it. hoplab diagnose says where the misfit sits and which cause "
                   "would remove it."},
-    GlossaryEntry{"named", "",
-                  "Verdict of a diagnosis: one cause (or set) explains what is missing "
-                  "and nothing else does as well.",
-                  "Read it as 'this, or something outside the catalogue that moves the "
-                  "data like it'. Confirm on the rig as hoplab explain EFFECT suggests, "
-                  "then refit --with it."},
+    GlossaryEntry{
+        "named", "",
+        "Verdict of a diagnosis: one cause (or set) explains what is missing, nothing else in the "
+        "catalogue does as well, and of simulated cases that looked like this one 95 % or more had "
+        "the right name.",
+        "Read it as 'this, or something outside the catalogue that moves the data like it'. "
+        "Confirm on the rig as hoplab explain EFFECT suggests, then refit --with it."},
+    GlossaryEntry{"not-needed", "",
+                  "Judgement on a cause: it was tested and is not needed beside the causes found, "
+                  "but something is left that may hide it. No bound is told.",
+                  "Say nothing about its size. First find what is left: the free forces show where "
+                  "it acts, and another trial may tell more."},
     GlossaryEntry{"not-tested", "",
                   "Judgement on a cause: at its typical size these data could not have "
                   "shown it (typical size below delta80).",
@@ -205,11 +221,17 @@ constexpr std::array kWords = {
                   "Below 0.01 something is missing. It says nothing of the size or the "
                   "cause; with many samples tiny faults have tiny p. Compare what the "
                   "fault costs: the held-out error."},
-    GlossaryEntry{"penalty", "",
-                  "Log-likelihood a cause must gain per parameter before it counts: "
-                  "ln(n/0.05) nats with n causes tried.",
-                  "It pays for having looked at many causes. Fewer candidates (--effects)"
-                  " lower it, honestly only if you choose them before seeing the data."},
+    GlossaryEntry{
+        "penalty", "prior-odds",
+        "Prior odds against a cause [nats]: beforehand one cause is expected in all that could "
+        "show, so each of n starts with odds of about 1 to n.",
+        "The evidence must overcome them before a cause is worth naming. Fewer candidates "
+        "(--effects) lower them, honestly only if you choose them before seeing the data."},
+    GlossaryEntry{"probability", "P unlisted",
+                  "Chance that a name is right: the weight of the evidence between models, times "
+                  "the share of right names among simulated cases that looked like this one.",
+                  "Above 0.95 a cause is named. Between, several causes or something outside the "
+                  "catalogue may be it; P unlisted is the chance of the latter."},
     GlossaryEntry{"profile", "profile-likelihood",
                   "chi-square as a function of one parameter, everything else refitted at"
                   " each value; its 95 % interval ends where chi-square has risen by "
@@ -261,8 +283,13 @@ constexpr std::array kWords = {
                   "which rival causes predict differently, by refits of the rivals on "
                   "simulated data.",
                   "Record it, add it to the dataset, diagnose again. Its expected nats "
-                  "say how sure it will be: above 3 it should decide. Scenario settings "
-                  "stand in run.json."},
+                  "say how sure it will be: above 3 it should decide. hoplab design "
+                  "searches further: mass, throws, hops back."},
+    GlossaryEntry{"share", "explains",
+                  "What a cause explains: the rise of the squared misfit when it is left out and "
+                  "all else refitted, over the fall from the plain model to the extension.",
+                  "Causes that can stand in for each other have shares that add to less than all. "
+                  "The largest stands first."},
     GlossaryEntry{"sigma", "noise",
                   "Standard deviation of a channel's noise, in its unit; stated in the "
                   "dataset or estimated from short parabolas through the trace before any"
@@ -303,13 +330,13 @@ constexpr std::array kWords = {
                   "Positive is ahead. A half circle lands rolling above 0, on its toe at "
                   "0 or below. The controller sets it in flight; an offset of it is the "
                   "effect touchdown_angle_bias."},
-    GlossaryEntry{"unexplained", "",
-                  "Verdict of a diagnosis: something is missing, and nothing in the "
-                  "catalogue explains it; the best extension leaves a significant "
-                  "remainder, or a size is unphysical.",
-                  "Look at where the misfit sits and at the free forces, guess a "
-                  "mechanism, and add it as an effect (docs/adding/effect.md). Do not "
-                  "quote the parameters as they are."},
+    GlossaryEntry{
+        "unexplained", "",
+        "Verdict of a diagnosis: something is missing, and the catalogue does not explain it: the "
+        "best extension leaves too much, needs an unphysical size, or is less likely than a cause "
+        "outside the catalogue while something is left.",
+        "Look at where the misfit sits and at the free forces, guess a mechanism, and add it as an "
+        "effect (docs/adding/effect.md). Do not quote the parameters as they are."},
     GlossaryEntry{"virtual-leg", "chord",
                   "The straight line from contact to hip: length l = sqrt(u^2 + y^2) [m],"
                   " angle alpha = atan2(u, y) from the vertical [rad].",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "app/run_record.h"
@@ -11,15 +12,18 @@ namespace hoplab {
 void AddIdentification(const IdentificationRequest& request, const IdentificationResult& result,
                        Json& record);
 
-/// Every reading with its best constants: for table 6.5 alone, and for all tables.
-std::string ReadingsTable(const IdentificationResult& result);
-/// Every printed number with ours of the best reading beside it.
-std::string NumbersTable(const StudyHopper& best, const StudyData& data);
-/// The best reading as a scenario. `origin` is said in its comment: the command and the date.
-std::string ScenarioText(const StudyHopper& best, const std::string& origin);
+/// readings.csv (every fit), front.csv, times.csv (readings of the convergence time), cells.csv
+/// (every printed number with ours of the best beside it, and how much it pulls).
+std::map<std::string, std::string> IdentificationTables(const IdentificationResult& result);
+
+/// A fit as a scenario. `origin` is said in its comment: the command and the date.
+std::string ScenarioText(const StudyFit& fit, const std::string& name, const std::string& origin);
 
 /// What the command prints.
 std::string IdentifyReport(const IdentificationRequest& request, const IdentificationResult& result,
                            bool colours);
+
+/// "zero_force", "rest_length".
+const char* WordOf(LiftoffRule rule);
 
 }  // namespace hoplab

@@ -150,6 +150,15 @@ void MpiJob::Dismiss() {
   }
 }
 
+std::string MpiJob::Share(const std::string& text) {
+  unsigned long long size = text.size();
+  MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD);
+  std::string shared = text;
+  shared.resize(size);
+  MPI_Bcast(shared.data(), static_cast<int>(size), MPI_CHAR, 0, MPI_COMM_WORLD);
+  return shared;
+}
+
 MpiJob::Served MpiJob::Serve(const std::vector<int>& rows, const Compute& compute,
                              const std::function<void(int row, const std::string& text)>& accept,
                              const std::atomic<bool>* stop) {

@@ -27,6 +27,9 @@ class MpiJob {
   int rank() const { return rank_; }
   int size() const { return size_; }
 
+  /// What rank 0 says, on every rank; all of them call it, the others with what is not looked at.
+  std::string Share(const std::string& text);
+
   /// A row's text from its index.
   using Compute = std::function<std::string(int row)>;
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/help_text.h"
 #include "app/usage_error.h"
 #include "base/text.h"
 
@@ -25,6 +26,13 @@ void AddProblemOptions(CLI::App& sub, ProblemSettings& settings) {
       ->allow_extra_args(false);
   AddSolverOptions(sub, settings.solver);
   AddJobsOption(sub, settings.jobs);
+}
+
+void AddDiscrepancyOption(CLI::App& sub, std::string& discrepancy) {
+  sub.add_option("--discrepancy", discrepancy,
+                 "matern (default): smooth model errors count as noise, or none")
+      ->check(OneOf({"matern", "none"}))
+      ->option_text("NAME");
 }
 
 std::map<std::string, double> ParseAssignments(const std::vector<std::string>& texts,

@@ -21,6 +21,9 @@ struct ProblemSettings {
 
 void AddProblemOptions(CLI::App& sub, ProblemSettings& settings);
 
+/// `--discrepancy matern|none`: what the noise is taken for.
+void AddDiscrepancyOption(CLI::App& sub, std::string& discrepancy);
+
 /// `name=value` texts of an option; throws UsageError for what is none, or given twice.
 std::map<std::string, double> ParseAssignments(const std::vector<std::string>& texts,
                                                const std::string& option);

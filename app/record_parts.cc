@@ -7,7 +7,7 @@
 namespace hoplab {
 namespace {
 
-Json StateRecord(const std::array<double, 4>& state) {
+Json StateRecord(const Eigen::VectorXd& state) {
   return {{"x_m", NumberOrNull(state[0])},
           {"y_m", NumberOrNull(state[1])},
           {"vx_m_per_s", NumberOrNull(state[2])},
@@ -143,10 +143,34 @@ Json ChannelsRecord(const FitProblem& problem) {
   return out;
 }
 
+Json KnownRecord(const FitProblem& problem) {
+  Json out = Json::array();
+  for (const KnownParameter& known : problem.known.parameters()) {
+    const EffectParameter& p =
+        known.effect->info.parameters[static_cast<std::size_t>(known.parameter)];
+    out.push_back({{"effect", known.effect->info.name},
+                   {"parameter", p.name},
+                   {"unit", p.unit},
+                   {"at_most", known.at_most}});
+  }
+  return out;
+}
+
 Json ToolsRecord() {
   Json tools = Json::object();
   for (const auto& [name, version] : LibraryVersions()) tools[name] = version;
   return tools;
+}
+
+Json LeftRecord(const FitProblem& problem) {
+  Json out = Json::object();
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    const double amplitude = problem.noise.AmplitudeOf(c) * problem.channels[c].sigma;
+    out[std::string(NameOf(problem.channels[c].channel))] = {
+        {"amplitude", amplitude},
+        {"time_scale_s", amplitude > 0.0 ? Json(problem.noise.time_scale) : Json(nullptr)}};
+  }
+  return out;
 }
 
 Json OptionsRecord(const FitProblem& problem, const FitConfiguration& configuration) {
@@ -164,10 +188,13 @@ Json OptionsRecord(const FitProblem& problem, const FitConfiguration& configurat
           {"span", NameOf(configuration.span)},
           {"loss", fit.loss.kind == LossKind::kSquared ? "squared" : "pseudo_huber"},
           {"loss_scale", fit.loss.scale},
+          {"discrepancy", NameOf(fit.discrepancy)},
           {"max_iterations", fit.max_iterations},
           {"integrator", NameOf(problem.integrator.kind)},
           {"relative_tolerance", problem.integrator.relative_tolerance},
           {"absolute_tolerance", problem.integrator.absolute_tolerance}};
 }
+
+Json TextOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 }  // namespace hoplab

@@ -46,6 +46,9 @@ Json MatrixRecord(const FitProblem& problem, const Eigen::MatrixXd& matrix);
 Json IdentifiabilityRecord(const FitProblem& problem, const Identifiability& identifiability);
 Json CertificateRecord(const std::optional<GradientCertificate>& certificate);
 Json ChannelsRecord(const FitProblem& problem);
+/// What the set-up rules out or bounds, one entry a parameter: [{"effect", "parameter", "unit",
+/// "at_most"}]; at_most 0: it is not there.
+Json KnownRecord(const FitProblem& problem);
 Json ToolsRecord();
 
 /// How a problem was set up and fitted.
@@ -58,5 +61,12 @@ struct FitConfiguration {
 
 /// The whole resolved configuration, what does not change a result (jobs, places) left out.
 Json OptionsRecord(const FitProblem& problem, const FitConfiguration& configuration);
+
+/// What a model leaves beside white noise, by channel: the discrepancy's amplitude (one standard
+/// deviation, the channel's unit) and time scale; null where there is none.
+Json LeftRecord(const FitProblem& problem);
+
+/// The text; null where there is none.
+Json TextOrNull(const std::string& text);
 
 }  // namespace hoplab

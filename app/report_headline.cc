@@ -71,6 +71,7 @@ std::string Listed(const std::vector<std::string>& words) {
 }
 
 std::string UnitOfChannel(const std::string& channel) {
+  if (channel.ends_with("_m_per_s2")) return "m/s^2";
   if (channel.ends_with("_m_per_s")) return "m/s";
   if (channel.ends_with("_N_m")) return "N m";
   if (channel.ends_with("_rad")) return "rad";
@@ -181,9 +182,9 @@ void CheckHeadline(const Json& record, Headline& out) {
   out.figures.push_back(
       CountFigure("trials", std::to_string(SizeAt(record, "/trials")), "/trials"));
   out.figures.push_back(
-      Figure(record, "condition number", "/identifiability/condition_number", "", 2));
+      Figure(record, "condition number", "/identifiability/condition_number", "", 3));
   out.figures.push_back(
-      Figure(record, "derivatives agree to", "/gradient_check/max_relative_error", "", 2));
+      Figure(record, "derivatives agree to", "/gradient_check/max_relative_error", "", 3));
 }
 
 void DiagnosisHeadline(const Json& record, Headline& out) {
@@ -344,14 +345,29 @@ void ReproductionHeadline(const Json& record, Headline& out) {
       CountFigure("figures drawn anew", std::to_string(SizeAt(record, "/figures")), "/figures")};
 }
 
+void DesignHeadline(const Json& record, Headline& out) {
+  out.sentence = TextAt(record, "/sentence");
+  if (TextAt(record, "/task") == "sharpen") {
+    const std::string unit = TextAt(record, "/sharpened/unit");
+    out.figures.push_back(Figure(record, "half width now", "/sharpened/half_width", unit));
+    out.figures.push_back(Figure(record, "expected after it", "/designs/0/half_width", unit));
+  } else {
+    out.figures.push_back(Figure(record, "doubt now", "/entropy_bits", "bits"));
+    out.figures.push_back(
+        Figure(record, "expected after it", "/designs/0/entropy_left_bits", "bits"));
+  }
+  out.figures.push_back(Figure(record, "designs tried", "/designs_tried", ""));
+}
+
 struct Kind {
   const char* command;
   const char* title;
   void (*fill)(const Json&, Headline&);
 };
-constexpr std::array<Kind, 8> kKinds = {{{"check", "Check", CheckHeadline},
+constexpr std::array<Kind, 9> kKinds = {{{"check", "Check", CheckHeadline},
                                          {"fit", "Fit", FitHeadline},
                                          {"diagnose", "Diagnosis", DiagnosisHeadline},
+                                         {"design", "Trial to record next", DesignHeadline},
                                          {"gait", "Gait", GaitHeadline},
                                          {"optimize", "Optimisation", OptimizeHeadline},
                                          {"sweep", "Sweep", SweepHeadline},

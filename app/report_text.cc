@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "app/quantity.h"
+#include "base/text.h"
+
 namespace hoplab {
 namespace {
 constexpr std::size_t kLabelWidth = 13;
@@ -41,6 +44,18 @@ std::string WithHeader(const std::vector<std::string>& lines, bool colours) {
   for (std::size_t i = 0; i < lines.size(); ++i)
     text += (i == 0 ? Styled(lines[i], Emphasis::kFaint, colours) : lines[i]) + "\n";
   return text;
+}
+
+std::string LeftText(const FitProblem& problem) {
+  std::vector<std::string> parts;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    const double amplitude = problem.noise.AmplitudeOf(c) * problem.channels[c].sigma;
+    if (!(amplitude > 0.0)) continue;
+    const std::string name(NameOf(problem.channels[c].channel));
+    parts.push_back(WithoutUnit(name) + " " +
+                    ErrorText(amplitude, ChannelUnit(*ChannelFromName(name))));
+  }
+  return fmt::format("{} over {} ms", Join(parts), Significant(1e3 * problem.noise.time_scale, 2));
 }
 
 }  // namespace hoplab

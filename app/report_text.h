@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/console.h"
+#include "fitting/problem.h"
 
 namespace hoplab {
 
@@ -19,5 +20,8 @@ std::string Labelled(const std::string& label, const std::string& text, bool col
 
 /// Lines of a table, the first of them faint.
 std::string WithHeader(const std::vector<std::string>& lines, bool colours);
+
+/// "body_x 0.41 mm, body_y 0.91 mm over 109 ms": the discrepancy beside white noise.
+std::string LeftText(const FitProblem& problem);
 
 }  // namespace hoplab

@@ -1,18 +1,19 @@
 #include "app/trajectory_tables.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
-#include <numbers>
 
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+// Where the leg stands.
+constexpr std::array kLegChannels = {Channel::kContactX, Channel::kContactY, Channel::kContactArc};
 
 std::vector<Channel> AllChannels() {
   std::vector<Channel> channels;
-  for (int c = 0; c < kChannelCount; ++c) channels.push_back(static_cast<Channel>(c));
+  for (int c = 0; c < kChannelCount; ++c)
+    if (static_cast<Channel>(c) != Channel::kContactX) channels.push_back(static_cast<Channel>(c));
   return channels;
 }
 
@@ -30,34 +31,6 @@ Mode ModeAt(const Trajectory& run, double time) {
   return after == run.segments.end() ? run.final_mode : after->mode;
 }
 
-struct ContactPoint {
-  double x = kNaN, y = kNaN;  // m
-};
-
-// The ground's force F acts at the contact, r from the hip with |r| = l, and balances the hip
-// torque: r x F = l |F| sin(angle from r to F) = T. F pushes the hip away, r.F < 0, or holds down a
-// toe with mass for a moment before it lifts: the contact is the solution below the hip. What
-// carries the toe's own weight does not reach the hip.
-ContactPoint ContactOf(const double* row, double toe_weight) {
-  const auto at = [row](Channel c) { return row[static_cast<int>(c)]; };
-  const double fx = at(Channel::kGroundForceX), fy = at(Channel::kGroundForceY) - toe_weight;
-  if (at(Channel::kContact) != 1.0) return {};
-  const double force = std::hypot(fx, fy), length = at(Channel::kLegLength);
-  if (!(force > 0.0) || !(length > 0.0)) return {};
-  const double sine = std::clamp(at(Channel::kHipTorque) / (length * force), -1.0, 1.0);
-  const double direction = std::atan2(fy, fx);
-  double angle = direction - (std::numbers::pi - std::asin(sine));
-  if (std::sin(angle) > 0.0) angle = direction - std::asin(sine);
-  return {at(Channel::kBodyX) + length * std::cos(angle),
-          at(Channel::kBodyY) + length * std::sin(angle)};
-}
-
-double ContactArc(Mode mode, bool has_arc, double leg_angle, double slope) {
-  if (!has_arc) return kNaN;
-  if (mode == Mode::kRolling) return std::numbers::pi - (leg_angle - slope);
-  return mode == Mode::kToe ? std::numbers::pi : kNaN;
-}
-
 // The times of a grid from 0 to the end of a run.
 std::vector<double> Grid(double rate_hz, double end) {
   std::vector<double> times;
@@ -72,8 +45,8 @@ std::vector<std::string> TrajectoryHeader(const RunLabels& names) {
   std::vector<std::string> header = names;
   header.emplace_back("time_s");
   for (const Channel channel : AllChannels()) header.emplace_back(NameOf(channel));
-  for (const char* name : {"contact_x_m", "contact_y_m", "contact_arc_rad", "mode"})
-    header.emplace_back(name);
+  for (const Channel channel : kLegChannels) header.emplace_back(NameOf(channel));
+  header.emplace_back("mode");
   return header;
 }
 
@@ -91,22 +64,19 @@ void AddTrajectoryRows(SimulationRequest request, double rate_hz, const RunLabel
   std::vector<EffectSetting> physical(request.effects.begin(), request.effects.end());
   std::erase_if(physical,
                 [](const auto& e) { return e.effect->info.kind == EffectKind::kObservation; });
-  const bool sensed = physical.size() < request.effects.size();
-  const double slope = GroundSlope(request);
-  const double toe_weight = request.parameters.m_toe * request.parameters.g;
-  const bool has_arc = MechanismOf(request.law) == MechanismKind::kCLeg;
   request.effects = physical;
-  const Trajectory truth = sensed ? Simulate(request) : seen;
+  request.channels = kLegChannels;
+  const Trajectory truth = Simulate(request);
   for (std::size_t row = 0; row < times.size(); ++row) {
     for (const std::string& label : labels) csv.Cell(label);
     csv.Cell(times[row] + time_offset_s);
     for (std::size_t c = 0; c < channels.size(); ++c)
       csv.Cell(seen.samples[row * channels.size() + c]);
-    const double* state = &truth.samples[row * channels.size()];
     const Mode mode = ModeAt(truth, times[row]);
-    const ContactPoint contact = ContactOf(state, toe_weight);
-    csv.Cell(contact.x).Cell(contact.y);
-    csv.Cell(ContactArc(mode, has_arc, state[static_cast<int>(Channel::kLegAngle)], slope));
+    // In flight it stands nowhere, though a trace may tell where it would.
+    for (std::size_t c = 0; c < kLegChannels.size(); ++c)
+      csv.Cell(mode == Mode::kFlight ? std::numeric_limits<double>::quiet_NaN()
+                                     : truth.samples[row * kLegChannels.size() + c]);
     csv.Cell(NameOf(mode)).EndRow();
   }
 }

@@ -1,6 +1,7 @@
 #include "app/trial_tables.h"
 
 #include "app/trajectory_tables.h"
+#include "fitting/driven_trial.h"
 #include "fitting/trial_evaluator.h"
 
 namespace hoplab {
@@ -14,19 +15,16 @@ RunLabels LabelsOf(const AssessedModel& model, std::size_t trial) {
   return labels;
 }
 
-// Calls `body` with a trial's request at the fitted values; effects live as long as the call.
+// Calls `body` with a trial's request at the fitted values; what it points into lives as long as
+// the call.
 template <class Body>
 void WithRequest(const AssessedModel& model, std::size_t place, const Body& body) {
   const FitProblem& problem = *model.problem;
   const TrialProblem& trial = problem.trials[place];
-  std::vector<EffectSetting> effects = problem.effects;
-  SimulationRequest request;
-  request.law = problem.law;
-  request.liftoff = trial.liftoff;
-  request.parameters = trial.parameters;
-  ApplyShared(problem, trial, *model.shared, request.parameters, effects);
-  request.effects = effects;
-  request.initial = (*model.trials)[place].start;
+  TrialRequest whole;
+  FillTrialRequest(problem, trial, *model.shared, (*model.trials)[place].start, whole);
+  SimulationRequest& request = whole.request;
+  request.channel_clocks = {};  // a trajectory, no readings
   request.horizon = trial.row_times.back();
   request.integrator = problem.integrator;
   body(request);

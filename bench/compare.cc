@@ -15,13 +15,13 @@
 
 #include "base/atomic_file.h"
 #include "bench/counted_calls.h"
-#include "bench/legs.h"
 #include "bench/odeint_stance.h"
 #include "bench/peer_process.h"
 #include "bench/problems.h"
 #include "bench/report.h"
 #include "bench/rig_fit.h"
 #include "bench/study_cell.h"
+#include "model/mechanisms/leg.h"
 
 namespace hoplab::bench {
 namespace {
@@ -99,11 +99,10 @@ class Comparison {
   };
 
   void AddProblems() {
-    problems_.push_back(MakeProblem<ArcBody>(Law::kLargeDeflection));
-    problems_.push_back(MakeProblem<SpringBody>(Law::kStraightLeg));
+    problems_.push_back(MakeProblem(Law::kLargeDeflection));
+    problems_.push_back(MakeProblem(Law::kStraightLeg));
   }
 
-  template <template <class> class Body>
   Problem MakeProblem(Law law) {
     Problem problem{law};
     const SimulationRequest request = StanceRequest(law);
@@ -111,13 +110,14 @@ class Comparison {
     strict.integrator = {IntegratorKind::kErkStep, 1e-13, 1e-15};
     problem.reference = LiftoffTime(Simulate(strict));
     problem.ours = LiftoffTime(Simulate(request));
-    problem.calls = CountCalls<Body>(request);
+    problem.calls = CountCalls(request);
     problem.our_timing = AddRun(request);
-    const auto mechanism = std::make_shared<Body<double>>(MakeBody<Body>(law));
+    const auto mechanism = std::make_shared<SystemStorage<double>>();
+    LegLawOf(law).body.Make<double>({law, LegParameters(law), {}, {}}, *mechanism);
     const std::array<double, 4> body = TouchdownState(law);
-    problem.odeint = OdeintStance(*mechanism, body, IntegratorOptions{});
+    problem.odeint = OdeintStance(**mechanism, body, IntegratorOptions{});
     problem.odeint_timing = timer_.Add(
-        "odeint", [mechanism, body] { OdeintStance(*mechanism, body, IntegratorOptions{}); });
+        "odeint", [mechanism, body] { OdeintStance(**mechanism, body, IntegratorOptions{}); });
     return problem;
   }
 

@@ -5,7 +5,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <limits>
 
-#include "model/hybrid/automaton.h"
+#include "model/hybrid/hybrid_system.h"
 #include "model/integrators/integrator_options.h"
 #include "model/laws/leg_load.h"
 
@@ -22,11 +22,10 @@ struct PeerStance {
 /// dense output, and the lift-off (chord force back at zero) by bisection on the dense output down
 /// to 1e-12 s. Right-hand side and guard are those of `mechanism`, the mechanism our own runs use;
 /// its construction is not part of the stance. `body` is (x, y, vx, vy) at touch-down.
-template <class Mechanism>
-PeerStance OdeintStance(Mechanism& mechanism, const std::array<double, 4>& body,
-                        const IntegratorOptions& options) {
+inline PeerStance OdeintStance(HybridSystem<double>& mechanism, const std::array<double, 4>& body,
+                               const IntegratorOptions& options) {
   namespace odeint = boost::numeric::odeint;
-  using State = std::array<double, Mechanism::kDim>;
+  using State = std::array<double, kLegStateSize>;
   constexpr double kTimeTolerance = 1e-12;  // s
   constexpr double kLongestStance = 1.0;    // s
 

@@ -71,7 +71,8 @@ std::array<double, 4> TouchdownState(Law law) {
 
 SimulationRequest StanceRequest(Law law, int directions) {
   SimulationRequest request = Request(law, directions, 1);
-  request.initial = TouchdownState(law);
+  const std::array<double, 4> start = TouchdownState(law);
+  request.initial.assign(start.begin(), start.end());
   return request;
 }
 

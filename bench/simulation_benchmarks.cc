@@ -2,10 +2,10 @@
 // against other tools is compare.cc's.
 #include <benchmark/benchmark.h>
 
-#include "bench/legs.h"
 #include "bench/odeint_stance.h"
 #include "bench/problems.h"
 #include "bench/rig_fit.h"
+#include "model/mechanisms/leg.h"
 
 namespace hoplab::bench {
 namespace {
@@ -36,24 +36,20 @@ void StanceBy(benchmark::State& state, IntegratorKind kind) {
   Run(state, StanceRequest(Law::kLargeDeflection, static_cast<int>(state.range(0))), kind);
 }
 
-template <template <class> class Body>
 void StanceByOdeint(benchmark::State& state, Law law) {
   const std::array<double, 4> body = TouchdownState(law);
-  Body<double> mechanism = MakeBody<Body>(law);
+  SystemStorage<double> mechanism;
+  LegLawOf(law).body.Make<double>({law, LegParameters(law), {}, {}}, mechanism);
   PeerStance stance;
   for (auto _ : state) {
-    stance = OdeintStance(mechanism, body, IntegratorOptions{});
+    stance = OdeintStance(*mechanism, body, IntegratorOptions{});
     benchmark::DoNotOptimize(stance.liftoff_time);
   }
   state.counters["rhs"] = static_cast<double>(stance.rhs_calls);
 }
 
-void ArcStanceByOdeint(benchmark::State& state) {
-  StanceByOdeint<ArcBody>(state, Law::kLargeDeflection);
-}
-void StraightStanceByOdeint(benchmark::State& state) {
-  StanceByOdeint<SpringBody>(state, Law::kStraightLeg);
-}
+void ArcStanceByOdeint(benchmark::State& state) { StanceByOdeint(state, Law::kLargeDeflection); }
+void StraightStanceByOdeint(benchmark::State& state) { StanceByOdeint(state, Law::kStraightLeg); }
 
 void WholeFit(benchmark::State& state) {
   for (auto _ : state) {

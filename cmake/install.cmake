@@ -11,7 +11,7 @@ install(TARGETS hoplab RUNTIME COMPONENT runtime)
 install(DIRECTORY experiments/ DESTINATION ${share}/experiments COMPONENT runtime
         FILES_MATCHING PATTERN "*.yaml"
         PATTERN study EXCLUDE PATTERN kinematics EXCLUDE PATTERN identification EXCLUDE
-        PATTERN published EXCLUDE)
+        PATTERN published EXCLUDE PATTERN identified EXCLUDE PATTERN identified EXCLUDE)
 install(PROGRAMS experiments/sweep.slurm DESTINATION ${share}/experiments COMPONENT runtime)
 install(DIRECTORY datasets/ DESTINATION ${share}/datasets COMPONENT runtime
         FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN "*.json" PATTERN import EXCLUDE)
@@ -55,7 +55,7 @@ foreach(folder base model datasets fitting optimize experiments)
           INCLUDES DESTINATION ${headers})
   install(DIRECTORY ${folder} DESTINATION ${headers} COMPONENT development
           FILES_MATCHING PATTERN "*.h"
-          PATTERN rig-* EXCLUDE PATTERN published EXCLUDE
+          PATTERN rig-* EXCLUDE PATTERN published EXCLUDE PATTERN identified EXCLUDE
           # Readers of other programs' recordings serve the command alone.
           PATTERN import EXCLUDE PATTERN automata EXCLUDE)
 endforeach()

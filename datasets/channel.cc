@@ -21,6 +21,11 @@ const ChannelRow& Row(ChannelId id) {
       {"ground_force_y_N", Within(1e9, "N")},
       {"hip_torque_N_m", Within(1e9, "N m")},
       {"contact", NonNegative(1, "")},
+      {"body_ax_m_per_s2", Within(1e6, "m/s^2")},
+      {"body_ay_m_per_s2", Within(1e6, "m/s^2")},
+      {"imu_ax_m_per_s2", Within(1e6, "m/s^2")},
+      {"imu_ay_m_per_s2", Within(1e6, "m/s^2")},
+      {"contact_x_m", Within(1e6, "m")},
   }};
   return kRows[static_cast<std::size_t>(id)];
 }

@@ -12,7 +12,8 @@
 namespace hoplab {
 
 /// What can be measured. Forces are those of the ground on the leg, torque is positive when it
-/// pushes the hip forward, leg_length_m is the chord, contact is 0 or 1.
+/// pushes the hip forward, leg_length_m is the chord, contact is 0 or 1. Accelerations are those of
+/// the body, gravity included (-g in flight); an IMU on it reads them without (0 in flight).
 enum class ChannelId {
   kBodyX,
   kBodyY,
@@ -24,15 +25,21 @@ enum class ChannelId {
   kGroundForceY,
   kHipTorque,
   kContact,
+  kBodyAx,
+  kBodyAy,
+  kImuAx,
+  kImuAy,
+  kContactX,
 };
 
-inline constexpr std::size_t kChannelIdCount = 10;
+inline constexpr std::size_t kChannelIdCount = 15;
 
 inline constexpr std::array<ChannelId, kChannelIdCount> kAllChannels = {
     ChannelId::kBodyX,        ChannelId::kBodyY,        ChannelId::kBodyVx,
     ChannelId::kBodyVy,       ChannelId::kLegAngle,     ChannelId::kLegLength,
     ChannelId::kGroundForceX, ChannelId::kGroundForceY, ChannelId::kHipTorque,
-    ChannelId::kContact};
+    ChannelId::kContact,      ChannelId::kBodyAx,       ChannelId::kBodyAy,
+    ChannelId::kImuAx,        ChannelId::kImuAy,        ChannelId::kContactX};
 
 /// Name of the column, unit included: "body_x_m".
 const char* ChannelName(ChannelId id);

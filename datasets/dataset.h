@@ -6,17 +6,13 @@
 #include <vector>
 
 #include "datasets/channel.h"
+#include "datasets/input_spec.h"
+#include "datasets/known_spec.h"
 #include "datasets/mechanism_spec.h"
+#include "datasets/origin.h"
 #include "datasets/trace.h"
 
 namespace hoplab {
-
-/// Where something was read, for messages: "rig-drops/dataset.yaml:12". No part of what it is: two
-/// of them are always equal.
-struct Origin {
-  std::string place;
-  bool operator==(const Origin&) const { return true; }
-};
 
 enum class SourceKind { kUnstated, kRecorded, kSimulated };
 
@@ -35,6 +31,7 @@ struct ChannelSpec {
   std::optional<double>
       sigma;  // 1 standard deviation in the channel's unit; absent: to be estimated
   Origin origin = {};
+  std::string clock = {};  // of the dataset's clocks; empty: the trial's own time
   bool operator==(const ChannelSpec&) const = default;
 };
 
@@ -44,17 +41,24 @@ enum class TrialRole { kTrain, kTest };
 inline constexpr double kFreeSigma = std::numeric_limits<double>::infinity();
 
 /// One recorded run. Mechanism and controller are resolved: the dataset's, with the trial's own
-/// values put over them. The first row lies in flight.
+/// values put over them..
 struct Trial {
   std::string file;  // relative to the dataset's folder, with `/`
   TrialRole role = TrialRole::kTrain;
-  double touchdown_angle_rad = 0;    // 0 for a ball, which has none
+  double touchdown_angle_rad = 0;  // 0 for a ball, which has none; of several the first
+  /// One for each touch-down of the record, in their order; empty: touchdown_angle_rad is that of
+  /// all.
+  std::vector<double> touchdown_angles_rad;
+  bool touchdown_from_leg_angle = false;  // they were read from the column leg_angle_rad
+  /// How well each is known; absent: as they say.
+  std::optional<double> touchdown_angle_sigma_rad;
   std::optional<StateSpec> initial;  // nominal state at the first row
   /// Standard deviations of `initial`, kFreeSigma where the file gives none for a component;
   /// absent: all free.
   std::optional<StateSpec> initial_sigma;
   MechanismSpec mechanism;
   std::optional<ControllerSpec> controller;  // absent: no torque in stance
+  std::vector<InputSpec> inputs;             // columns that drive the simulation
   Trace trace;
   Origin origin = {};
   bool operator==(const Trial&) const = default;
@@ -69,6 +73,9 @@ struct Dataset {
   MechanismSpec mechanism;  // nominal values, the start of a fit
   std::optional<ControllerSpec> controller;
   std::vector<ChannelSpec> channels;
+  std::vector<ClockSpec> clocks;
+  std::vector<InputSpec> inputs;
+  std::vector<KnownSpec> known;  // of causes, by effect or by its parameters
   std::vector<Trial> trials;
   Origin origin = {};  // of dataset.yaml
   bool operator==(const Dataset&) const = default;

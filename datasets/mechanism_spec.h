@@ -63,6 +63,7 @@ struct MechanismSpec {
   std::optional<double> fall_height_m;  // absent: the mechanism's own default
   std::optional<double> toe_mass_kg;    // absent: massless leg
   std::optional<PlacementSpec> placement;
+  bool on_guide = false;  // a vertical guide holds it along the ground
   ThesisVariant variant;  // under `leg` in the file; a straight leg has its torque_sign only
   CLegSpec c_leg;
   StraightLegSpec straight_leg;
@@ -78,12 +79,18 @@ struct ControllerSpec {
   bool operator==(const ControllerSpec&) const = default;
 };
 
+/// How a record begins: in flight, or with the foot on the ground; kStance is whichever of rolling
+/// and toe the leg is in.
+enum class StartMode { kFlight, kRolling, kToe, kStance };
+
 /// Position and velocity of the hip, or of the ball's centre, in the world: x forward, y up.
 struct StateSpec {
   double x_m = 0;
   double y_m = 0;
   double vx_m_per_s = 0;
   double vy_m_per_s = 0;
+  std::optional<double> contact_x_m;  // the ground that carries the leg; of a start in stance
+  StartMode mode = StartMode::kFlight;
   bool operator==(const StateSpec&) const = default;
 };
 

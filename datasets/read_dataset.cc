@@ -10,6 +10,7 @@
 #include "base/input_error.h"
 #include "base/text.h"
 #include "datasets/blank_values.h"
+#include "datasets/read_record.h"
 #include "datasets/read_spec.h"
 #include "datasets/text_file.h"
 #include "datasets/yaml_cursor.h"
@@ -102,7 +103,7 @@ class DatasetReader {
     // The format first: a file of another format has other keys.
     CheckFormat(root_, kFormat);
     root_.AllowOnly({"format", "name", "title", "source", "mechanism", "controller", "initial",
-                     "initial_sigma", "channels", "trials"});
+                     "initial_sigma", "channels", "clocks", "inputs", "known", "trials"});
     CheckNothingIsBlank(root_.node());
     dataset_.origin.place = files_.place + kYamlName;
     dataset_.name = root_.Required("name", "a short name").Name();
@@ -114,8 +115,12 @@ class DatasetReader {
       dataset_.controller = ReadController(*controller);
     dataset_.channels = ReadChannels(
         root_.Required("channels", "the measured columns, as {body_y_m: {sigma: 0.001}}"));
+    if (const auto clocks = root_.Optional("clocks")) dataset_.clocks = ReadClocks(*clocks);
+    if (const auto inputs = root_.Optional("inputs")) dataset_.inputs = ReadInputs(*inputs);
+    if (const auto known = root_.Optional("known")) dataset_.known = ReadKnown(*known);
     ReadTrials();
     CheckChannels();
+    CheckRoles(dataset_);
     return std::move(dataset_);
   }
 
@@ -151,13 +156,15 @@ class DatasetReader {
         file.Fail("a trial must have at most " + std::to_string(kMaxCsvBytes) +
                       " bytes, a dataset " + std::to_string(kMaxDatasetBytes),
                   "Cut the recording or lower its sample rate.");
-      dataset_.trials[i].trace = ParseTraceCsv(csv, files_.place + dataset_.trials[i].file);
+      const std::string place = files_.place + dataset_.trials[i].file;
+      dataset_.trials[i].trace = ParseTraceCsv(csv, place);
+      CompleteWithTrace(dataset_.trials[i], place);
     }
   }
 
   Trial ReadTrial(const YamlCursor& item) {
-    item.AllowOnly({"file", "role", "touchdown_angle_deg", "initial", "initial_sigma", "mechanism",
-                    "controller"});
+    item.AllowOnly({"file", "role", "touchdown_angle_deg", "touchdown_angle_sigma_deg", "initial",
+                    "initial_sigma", "mechanism", "controller", "inputs"});
     Trial trial;
     trial.origin.place = item.place();
     const YamlCursor file = item.Required("file", "the name of its CSV file");
@@ -166,12 +173,15 @@ class DatasetReader {
       file.Fail("is the file of an earlier trial already", "Remove one of the two trials.");
     trial.role = ReadRole(item.Required("role", "train or test"));
     trial.mechanism = ReadTrialMechanism(item, *root_.node().Find("mechanism"), dataset_.mechanism);
-    trial.touchdown_angle_rad = ReadTouchdownAngle(item, trial.mechanism.type);
     const YamlNode& root = root_.node();
+    trial.inputs = ReadOver(item, "inputs", root.Find("inputs"), ReadInputs).value_or(Inputs());
+    ReadTouchdownAngles(item, trial);
     trial.controller = ReadOver(item, "controller", root.Find("controller"), ReadController);
     trial.initial = ReadOver(item, "initial", root.Find("initial"), ReadState);
     trial.initial_sigma =
         ReadOver(item, "initial_sigma", root.Find("initial_sigma"), ReadStateSigma);
+    if (trial.initial) CheckStart(item, *trial.initial, trial.mechanism.type);
+    CheckDriven(item, trial);
     return trial;
   }
 
@@ -197,6 +207,8 @@ class DatasetReader {
                    : "Remove the channel or add the column to the files."});
     }
   }
+
+  using Inputs = std::vector<InputSpec>;
 
   YamlCursor root_;
   const FileSource& files_;

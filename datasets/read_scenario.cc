@@ -6,6 +6,8 @@
 
 #include "base/input_error.h"
 #include "base/text.h"
+#include "base/units.h"
+#include "datasets/read_record.h"
 #include "datasets/read_spec.h"
 #include "datasets/text_file.h"
 #include "datasets/yaml_cursor.h"
@@ -67,6 +69,39 @@ StopSpec ReadStop(const YamlCursor& cursor) {
   return stop;
 }
 
+// The folder a scenario's file lies in; empty for one that is no file.
+std::filesystem::path FolderOf(const YamlCursor& root) {
+  const std::string& place = root.place();
+  return std::filesystem::path(place.substr(0, place.rfind(':'))).parent_path();
+}
+
+// touchdown_angle_deg: an angle, or a list of them.
+void ReadAngles(const YamlCursor& owner, MechanismType type, double* angle,
+                std::vector<double>* angles) {
+  const std::optional<YamlCursor> given = owner.Optional("touchdown_angle_deg");
+  angles->clear();
+  if (!given || given->node().kind != Kind::kSequence || type == MechanismType::kBall) {
+    *angle = ReadTouchdownAngle(owner, type);
+    return;
+  }
+  for (const YamlCursor& item : given->Items(1))
+    angles->push_back(DegToRad(item.Number(TouchdownAngleRange(type))));
+  *angle = angles->front();
+}
+
+// start_angle_deg: of the first touch-down of a leg that one other angle places.
+std::optional<double> ReadStartAngle(const YamlCursor& owner, const Scenario& scenario) {
+  const std::optional<YamlCursor> given = owner.Optional("start_angle_deg");
+  if (!given) return std::nullopt;
+  const MechanismType type = scenario.mechanism.type;
+  if (type == MechanismType::kBall)
+    given->Fail("is the angle of a leg, and a ball has none", "Remove it.");
+  if (!scenario.touchdown_angles_rad.empty() || DrivesAngle(scenario.inputs))
+    given->Fail("is told by touchdown_angle_deg or the log, which say every landing's",
+                "Remove one of them.");
+  return DegToRad(given->Number(TouchdownAngleRange(type)));
+}
+
 // Mechanism, controller, start and effects: all that a single run needs.
 Scenario ReadRun(const YamlCursor& root) {
   Scenario scenario;
@@ -78,8 +113,17 @@ Scenario ReadRun(const YamlCursor& root) {
   scenario.mechanism = ReadMechanism(root.Required("mechanism", "a block that begins with type"));
   if (const auto controller = root.Optional("controller"))
     scenario.controller = ReadController(*controller);
-  scenario.touchdown_angle_rad = ReadTouchdownAngle(root, scenario.mechanism.type);
-  if (const auto initial = root.Optional("initial")) scenario.initial = ReadState(*initial);
+  if (const auto inputs = root.Optional("inputs"))
+    scenario.inputs = ReadScenarioInputs(*inputs, FolderOf(root));
+  if (!DrivesAngle(scenario.inputs))
+    ReadAngles(root, scenario.mechanism.type, &scenario.touchdown_angle_rad,
+               &scenario.touchdown_angles_rad);
+  scenario.start_angle_rad = ReadStartAngle(root, scenario);
+  if (const auto initial = root.Optional("initial")) {
+    scenario.initial = ReadState(*initial);
+    CheckStart(*initial, *scenario.initial, scenario.mechanism.type);
+  }
+  CheckDriven(root, scenario);
   if (const auto stop = root.Optional("stop")) scenario.stop = ReadStop(*stop);
   if (const auto effects = root.Optional("effects")) scenario.effects = ReadEffects(*effects);
   return scenario;
@@ -91,7 +135,8 @@ void CheckRoot(const YamlCursor& root) {
               "See datasets/README.md for an example.");
   CheckFormat(root, kFormat);
   root.AllowOnly({"format", "name", "law", "mechanism", "controller", "touchdown_angle_deg",
-                  "initial", "stop", "effects", "search", "sweep", "dataset"});
+                  "start_angle_deg", "inputs", "initial", "stop", "effects", "search", "sweep",
+                  "dataset"});
 }
 
 void SetNumber(YamlNode* root, const std::string& key, double value, const std::string& place) {
@@ -245,9 +290,10 @@ GenerateTrial ReadGenerateTrial(const YamlCursor& item, const YamlNode& root,
   if (const auto role = item.Optional("role")) trial.role = ReadRole(*role);
   trial.file = std::string(RoleName(trial.role)) + "-" + std::to_string(number) + ".csv";
   trial.mechanism = ReadTrialMechanism(item, *root.Find("mechanism"), scenario.mechanism);
-  trial.touchdown_angle_rad = item.Optional("touchdown_angle_deg")
-                                  ? ReadTouchdownAngle(item, trial.mechanism.type)
-                                  : scenario.touchdown_angle_rad;
+  trial.touchdown_angle_rad = scenario.touchdown_angle_rad;
+  trial.touchdown_angles_rad = scenario.touchdown_angles_rad;
+  if (item.Optional("touchdown_angle_deg"))
+    ReadAngles(item, trial.mechanism.type, &trial.touchdown_angle_rad, &trial.touchdown_angles_rad);
   trial.controller = ReadOver(item, "controller", root.Find("controller"), ReadController);
   trial.initial = ReadOver(item, "initial", root.Find("initial"), ReadState);
   if (!trial.initial)
@@ -257,7 +303,8 @@ GenerateTrial ReadGenerateTrial(const YamlCursor& item, const YamlNode& root,
 
 GenerateSpec ReadGenerate(const YamlCursor& cursor, const YamlNode& root,
                           const Scenario& scenario) {
-  cursor.AllowOnly({"name", "title", "sample_rate_hz", "channels", "initial_sigma", "trials"});
+  cursor.AllowOnly({"name", "title", "sample_rate_hz", "channels", "initial_sigma",
+                    "touchdown_angle_sigma_deg", "trials"});
   GenerateSpec generate;
   if (const auto name = cursor.Optional("name")) generate.name = name->Name();
   if (const auto title = cursor.Optional("title")) generate.title = title->Text();
@@ -273,6 +320,8 @@ GenerateSpec ReadGenerate(const YamlCursor& cursor, const YamlNode& root,
   }
   if (const auto sigma = cursor.Optional("initial_sigma"))
     generate.initial_sigma = ReadStateSigma(*sigma);
+  if (const auto sigma = cursor.OptionalNumber("touchdown_angle_sigma_deg", Positive(90, "deg")))
+    generate.touchdown_angle_sigma_rad = DegToRad(*sigma);
   for (const YamlCursor& item :
        cursor.Required("trials", "a list, as [{role: train, touchdown_angle_deg: 25}]").Items(1))
     generate.trials.push_back(ReadGenerateTrial(item, root, scenario, generate.trials.size() + 1));

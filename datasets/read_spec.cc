@@ -180,11 +180,13 @@ MechanismSpec ReadMechanism(const YamlCursor& cursor) {
                                                   .Choice({"c_leg", "straight_leg", "ball"}));
   const bool is_ball = mechanism.type == MechanismType::kBall;
   const std::string block_key = is_ball ? "ball" : "leg";
-  Names known = {"type", "body_mass_kg", "gravity_m_per_s2", block_key};
+  Names known = {"type", "body_mass_kg", "gravity_m_per_s2", "guide", block_key};
   if (!is_ball) known.insert(known.end(), {"liftoff", "fall_height_m", "toe_mass_kg", "placement"});
   cursor.AllowOnly(known);
   mechanism.body_mass_kg = cursor.RequiredNumber("body_mass_kg", Positive(1e6, "kg"));
   mechanism.gravity_m_per_s2 = cursor.RequiredNumber("gravity_m_per_s2", Positive(1e3, "m/s^2"));
+  if (const auto guide = cursor.Optional("guide"))
+    mechanism.on_guide = guide->Choice({"none", "vertical"}) == 1;
   const YamlCursor block =
       cursor.Required(block_key, "a block with " + Join(LegKeys(mechanism.type)));
   AllowKeysOf(mechanism.type, block);
@@ -216,26 +218,58 @@ ControllerSpec ReadController(const YamlCursor& cursor) {
 }
 
 StateSpec ReadState(const YamlCursor& cursor) {
-  cursor.AllowOnly({"x_m", "y_m", "vx_m_per_s", "vy_m_per_s"});
-  return {cursor.RequiredNumber("x_m", Within(1e6, "m")),
-          cursor.RequiredNumber("y_m", Within(1e6, "m")),
-          cursor.RequiredNumber("vx_m_per_s", Within(1e4, "m/s")),
-          cursor.RequiredNumber("vy_m_per_s", Within(1e4, "m/s"))};
+  cursor.AllowOnly({"x_m", "y_m", "vx_m_per_s", "vy_m_per_s", "contact_x_m", "mode"});
+  StateSpec state = {cursor.RequiredNumber("x_m", Within(1e6, "m")),
+                     cursor.RequiredNumber("y_m", Within(1e6, "m")),
+                     cursor.RequiredNumber("vx_m_per_s", Within(1e4, "m/s")),
+                     cursor.RequiredNumber("vy_m_per_s", Within(1e4, "m/s"))};
+  state.contact_x_m = cursor.OptionalNumber("contact_x_m", Within(1e6, "m"));
+  const std::optional<YamlCursor> mode = cursor.Optional("mode");
+  if (mode) state.mode = static_cast<StartMode>(mode->Choice(StartModeNames()));
+  if (!mode && state.contact_x_m) state.mode = StartMode::kStance;
+  const bool flies = state.mode == StartMode::kFlight;
+  if (flies && state.contact_x_m)
+    mode->Fail("is a start in flight, which has no contact",
+               "Remove contact_x_m, or say mode: stance.");
+  if (!flies && !state.contact_x_m)
+    mode->Fail("is a start in stance, which needs contact_x_m",
+               "Add contact_x_m, the place of the ground that carries the leg.");
+  return state;
+}
+
+void CheckStart(const YamlCursor& owner, const StateSpec& start, MechanismType type) {
+  if (start.mode == StartMode::kFlight) return;
+  const std::string rule = type == MechanismType::kBall ? "a ball has no stance to begin in"
+                                                        : "a straight leg neither rolls nor has "
+                                                          "another toe: its one mode is stance";
+  const bool own_modes = type == MechanismType::kCLeg || start.mode == StartMode::kStance;
+  if (type == MechanismType::kBall || !own_modes)
+    owner.Fail(
+        rule, type == MechanismType::kBall ? "Begin the record in flight." : "Write mode: stance.");
+}
+
+const std::vector<std::string>& StartModeNames() {
+  static const std::vector<std::string> kNames = {"flight", "rolling", "toe", "stance"};
+  return kNames;
 }
 
 StateSpec ReadStateSigma(const YamlCursor& cursor) {
-  cursor.AllowOnly({"x_m", "y_m", "vx_m_per_s", "vy_m_per_s"});
+  cursor.AllowOnly({"x_m", "y_m", "vx_m_per_s", "vy_m_per_s", "contact_x_m"});
   const auto sigma = [&](const char* key, const char* unit) {
     return cursor.OptionalNumber(key, Positive(1e6, unit)).value_or(kFreeSigma);
   };
   return {sigma("x_m", "m"), sigma("y_m", "m"), sigma("vx_m_per_s", "m/s"),
-          sigma("vy_m_per_s", "m/s")};
+          sigma("vy_m_per_s", "m/s"), cursor.OptionalNumber("contact_x_m", Positive(1e6, "m"))};
+}
+
+Range TouchdownAngleRange(MechanismType type) {
+  // A C-leg's angle is that of its tangent at the hip and reaches far beyond the upright; a
+  // straight leg at 90 degrees lies on the ground.
+  return {-90, type == MechanismType::kStraightLeg ? 90.0 : 180.0, true, true, "deg"};
 }
 
 double ReadTouchdownAngle(const YamlCursor& owner, MechanismType type) {
-  // A C-leg's angle is that of its tangent at the hip and reaches far beyond the upright; a
-  // straight leg at 90 degrees lies on the ground.
-  const Range range = {-90, type == MechanismType::kStraightLeg ? 90.0 : 180.0, true, true, "deg"};
+  const Range range = TouchdownAngleRange(type);
   const char* const key = "touchdown_angle_deg";
   if (type == MechanismType::kBall) return DegToRad(owner.OptionalNumber(key, range).value_or(0));
   return DegToRad(owner.RequiredNumber(key, range));
@@ -253,7 +287,8 @@ std::vector<ChannelSpec> ReadChannels(const YamlCursor& cursor) {
     ChannelSpec channel;
     channel.id = *id;
     channel.origin.place = block.place();
-    block.AllowOnly({"sigma"});
+    block.AllowOnly({"sigma", "clock"});
+    if (const auto clock = block.Optional("clock")) channel.clock = clock->Name();
     // A contact is an event, it may go without.
     const bool may_be_absent = *id == ChannelId::kContact;
     const std::optional<YamlCursor> sigma =

@@ -24,6 +24,12 @@ ControllerSpec ReadController(const YamlCursor& cursor);
 StateSpec ReadState(const YamlCursor& cursor);
 /// Standard deviations of a state, each optional; kFreeSigma where one is absent.
 StateSpec ReadStateSigma(const YamlCursor& cursor);
+/// "flight", "rolling", "toe", "stance", in the order of StartMode.
+const std::vector<std::string>& StartModeNames();
+/// Throws, at `owner`, for a start in a mode the mechanism does not have.
+void CheckStart(const YamlCursor& owner, const StateSpec& start, MechanismType type);
+/// What an angle of a touch-down may be.
+Range TouchdownAngleRange(MechanismType type);
 /// `touchdown_angle_deg` of `owner`, in rad; required but for a ball (0 without).
 double ReadTouchdownAngle(const YamlCursor& owner, MechanismType type);
 /// The channels of a block such as `{body_x_m: {sigma: 0.001}}`, at least one.

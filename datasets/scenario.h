@@ -86,11 +86,20 @@ struct SweepSpec {
   bool operator==(const SweepSpec&) const = default;
 };
 
+/// A logged column that drives a scenario's runs, out of a CSV file beside it.
+struct ScenarioInput {
+  InputSpec spec;
+  std::vector<double> time_s, values;  // without missing samples
+  double sigma = 0;                    // noise that `generate` adds to what it writes of it
+  bool operator==(const ScenarioInput&) const = default;
+};
+
 /// One trial to generate, resolved: the scenario's values with the trial's own over them.
 struct GenerateTrial {
   std::string file;  // "train-1.csv"
   TrialRole role = TrialRole::kTrain;
   double touchdown_angle_rad = 0;
+  std::vector<double> touchdown_angles_rad;  // one a touch-down; empty: the one above for all
   std::optional<StateSpec> initial;
   std::optional<ControllerSpec> controller;
   MechanismSpec mechanism;
@@ -104,7 +113,8 @@ struct GenerateSpec {
   std::optional<double> sample_rate_hz;
   std::vector<ChannelSpec> channels;  // sigma given for each; empty if the block is absent
   std::optional<StateSpec> initial_sigma;
-  std::vector<GenerateTrial> trials;  // at least one
+  std::optional<double> touchdown_angle_sigma_rad;  // by which the stated angles are off
+  std::vector<GenerateTrial> trials;                // at least one
   bool operator==(const GenerateSpec&) const = default;
 };
 
@@ -115,6 +125,9 @@ struct Scenario {
   MechanismSpec mechanism;
   std::optional<ControllerSpec> controller;  // absent: no torque in stance
   double touchdown_angle_rad = 0;            // 0 for a ball, which has none
+  std::vector<double> touchdown_angles_rad;  // one a touch-down; empty: the one above for all
+  std::vector<ScenarioInput> inputs;
+  std::optional<double> start_angle_rad;  // of the first touch-down, if another one (M47)
   std::optional<StateSpec> initial;
   StopSpec stop;
   std::vector<EffectSpec> effects;  // names and parameters not checked here

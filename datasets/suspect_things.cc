@@ -71,6 +71,19 @@ double Curvature(const std::vector<double>& t, const std::vector<double>& y, std
   return 2 * (s2 * sy2 - s3 * sy1) / determinant / (width * width);
 }
 
+// Milliseconds divide an acceleration by 1e6, millimetres multiply it by 1e3; a factor of 20 is
+// left for noise, counterweights and windows that see some stance.
+constexpr double kMilliseconds = 1e-6;
+bool IsNear(double ratio, double factor) { return ratio > factor / 20 && ratio < factor * 20; }
+
+// How fast the trial falls in flight, over its gravity; NaN if its heights do not tell.
+double FallRatio(const Trial& trial) {
+  const std::vector<double>* heights = trial.trace.Find(ChannelId::kBodyY);
+  return heights == nullptr
+             ? std::nan("")
+             : ApparentGravity(trial.trace.time_s, *heights) / trial.mechanism.gravity_m_per_s2;
+}
+
 class Inspector {
  public:
   explicit Inspector(const Dataset& dataset) : dataset_(dataset) {}
@@ -127,17 +140,12 @@ class Inspector {
   void InspectTimes(const Trial& trial) {
     const std::vector<double>& times = trial.trace.time_s;
     if (times.size() < 2) return;
-    const std::vector<double>* heights = trial.trace.Find(ChannelId::kBodyY);
-    const double ratio = heights == nullptr
-                             ? std::nan("")
-                             : ApparentGravity(times, *heights) / trial.mechanism.gravity_m_per_s2;
+    const double ratio = FallRatio(trial);
     const double duration = times.back() - times.front();
     const double step = duration / static_cast<double>(times.size() - 1);
     const bool slow = duration > kLongestTrial_s || step >= kCoarsestStep_s;
-    // Milliseconds divide an acceleration by 1e6, millimetres multiply it by 1e3; a factor of 20 is
-    // left for noise, counterweights and windows that see some stance.
-    const auto near = [&](double factor) { return ratio > factor / 20 && ratio < factor * 20; };
-    if (near(1e-6) || (slow && !near(1))) {
+    const auto near = [&](double factor) { return IsNear(ratio, factor); };
+    if (near(kMilliseconds) || (slow && !near(1))) {
       Warn(FilePlace(trial), "time_s spans " + Rounded(duration) + " s in steps of " +
                                  Rounded(step) + " s, which looks like milliseconds");
     } else if (near(1e3)) {
@@ -209,6 +217,15 @@ class Inspector {
 };
 
 }  // namespace
+
+std::string UnreadableTimes(const Dataset& dataset) {
+  for (const Trial& trial : dataset.trials) {
+    if (!IsNear(FallRatio(trial), kMilliseconds)) return "";
+  }
+  return dataset.trials.empty() ? ""
+                                : "every trial falls at a millionth of gravity: time_s looks like "
+                                  "milliseconds; divide it by 1000";
+}
 
 std::vector<std::string> SuspectThings(const Dataset& dataset) {
   return Inspector(dataset).Inspect();

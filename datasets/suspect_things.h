@@ -13,6 +13,10 @@ namespace hoplab {
 /// Empty for a dataset without such things.
 std::vector<std::string> SuspectThings(const Dataset& dataset);
 
+/// Why no hop of the dataset can be followed, with the remedy; empty if that is not so: every
+/// trial falls at a millionth of gravity, as one whose times are milliseconds does.
+std::string UnreadableTimes(const Dataset& dataset);
+
 /// Standard deviation of the noise of `values` at `times_s`, from how far each sample lies off the
 /// cubic through its four neighbours, two on each side, by the median. An upper estimate where the
 /// motion is quick against the sample rate; NaN below 20 usable samples.

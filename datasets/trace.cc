@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/input_error.h"
 #include "base/text.h"
+#include "datasets/input_spec.h"
 #include "datasets/key_advice.h"
 #include "datasets/text_file.h"
 
@@ -83,6 +84,8 @@ class TraceParser {
   void ReadHeader() {
     std::vector<std::string> known = ChannelNames();
     known.insert(known.begin(), "time_s");
+    for (const InputId id : {InputId::kBodyForceX, InputId::kBodyForceY})
+      known.emplace_back(InputName(id));
     if (cells_[0] != "time_s") {
       std::string remedy = "The first row names the columns, time in seconds first.";
       if (cells_.size() == 1 && cells_[0].find_first_of(";\t") != std::string_view::npos)

@@ -1,5 +1,6 @@
 #include "datasets/write_dataset.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -79,6 +80,7 @@ Fields MechanismFields(const MechanismSpec& m) {
   Fields fields = {{"", "type", MechanismTypeName(m.type)},
                    {"", "body_mass_kg", FormatDouble(m.body_mass_kg)},
                    {"", "gravity_m_per_s2", FormatDouble(m.gravity_m_per_s2)}};
+  if (m.on_guide) fields.push_back({"", "guide", "vertical"});
   if (m.type == MechanismType::kBall) {
     fields.push_back({"ball", "radius_m", FormatDouble(m.ball.radius_m)});
     fields.push_back({"ball", "restitution", FormatDouble(m.ball.restitution)});
@@ -125,6 +127,9 @@ Fields StateFields(const StateSpec& state) {
   add("y_m", state.y_m);
   add("vx_m_per_s", state.vx_m_per_s);
   add("vy_m_per_s", state.vy_m_per_s);
+  if (state.contact_x_m) add("contact_x_m", *state.contact_x_m);
+  if (state.mode != StartMode::kFlight)
+    fields.push_back({"", "mode", StartModeNames()[static_cast<std::size_t>(state.mode)]});
   return fields;
 }
 
@@ -177,10 +182,57 @@ Fields Grouped(const Fields& fields) {
   return sorted;
 }
 
+Fields ClockFields(const ClockSpec& clock) {
+  Fields fields = {{"", "offset_s", FormatDouble(clock.offset_s)}};
+  AddOptional(&fields, "", "sigma_s", clock.sigma_s);
+  if (clock.per_trial) fields.push_back({"", "per", "trial"});
+  return fields;
+}
+
+// All keys of each: written over another one they replace all of it.
+Fields InputFields(const std::vector<InputSpec>& inputs) {
+  Fields fields;
+  for (const InputSpec& input : inputs) {
+    const std::string name = InputName(input.id);
+    const auto optional = [](const std::optional<double>& value) {
+      return value ? FormatDouble(*value) : std::string("null");
+    };
+    fields.push_back({name, "column", QuotedYaml(input.column)});
+    fields.push_back({name, "hold", input.held ? "previous" : "linear"});
+    fields.push_back({name, "delay_s", FormatDouble(input.delay_s)});
+    fields.push_back({name, "delay_sigma_s", optional(input.delay_sigma_s)});
+    fields.push_back({name, "scale", FormatDouble(input.scale)});
+    fields.push_back({name, "scale_sigma", optional(input.scale_sigma)});
+    fields.push_back({name, "clock", input.clock.empty() ? "null" : QuotedYaml(input.clock)});
+  }
+  return fields;
+}
+
+// The lines of a trial's touch-down angles; those read from a column are read again.
+std::string AnglesText(const Trial& trial) {
+  if (FindInput(trial.inputs, InputId::kLegAngle) != nullptr) return "";
+  std::string angle = FormatDegrees(trial.touchdown_angle_rad);
+  const std::vector<double>& each = trial.touchdown_angles_rad;
+  const bool alike = std::all_of(each.begin(), each.end(),
+                                 [&](double a) { return a == trial.touchdown_angle_rad; });
+  if (trial.touchdown_from_leg_angle) {
+    angle = "{from: leg_angle}";
+  } else if (!each.empty() && !(alike && trial.touchdown_angle_sigma_rad)) {
+    angle = "[";
+    for (const double a : each) angle += (angle.size() > 1 ? ", " : "") + FormatDegrees(a);
+    angle += "]";
+  }
+  std::string text = "    touchdown_angle_deg: " + angle + "\n";
+  if (trial.touchdown_angle_sigma_rad)
+    text +=
+        "    touchdown_angle_sigma_deg: " + FormatDegrees(*trial.touchdown_angle_sigma_rad) + "\n";
+  return text;
+}
+
 void AppendTrial(const Trial& trial, const Dataset& dataset, std::string* text) {
   *text += "  - file: " + QuotedYaml(trial.file) + "\n";
   *text += std::string("    role: ") + RoleName(trial.role) + "\n";
-  *text += "    touchdown_angle_deg: " + FormatDegrees(trial.touchdown_angle_rad) + "\n";
+  *text += AnglesText(trial);
   const Fields mechanism =
       Difference(MechanismFields(dataset.mechanism), MechanismFields(trial.mechanism));
   if (!mechanism.empty()) *text += "    mechanism: " + Flow(Grouped(mechanism)) + "\n";
@@ -191,9 +243,32 @@ void AppendTrial(const Trial& trial, const Dataset& dataset, std::string* text) 
   } else if (!trial.controller && dataset.controller) {
     *text += "    controller: null\n";
   }
+  if (trial.inputs != dataset.inputs) {
+    Fields inputs = InputFields(trial.inputs);
+    for (const InputSpec& input : dataset.inputs)
+      if (FindInput(trial.inputs, input.id) == nullptr)
+        inputs.insert(inputs.begin(), {"", InputName(input.id), "null"});
+    *text += "    inputs: " + Flow(inputs) + "\n";
+  }
   if (trial.initial) *text += "    initial: " + Flow(StateFields(*trial.initial)) + "\n";
   if (trial.initial_sigma)
     *text += "    initial_sigma: " + Flow(StateFields(*trial.initial_sigma)) + "\n";
+}
+
+// {gravity_scale: none, boom_inertia: {mu_x: none, mu_y: {at_most: 0.1}}}
+std::string KnownText(const std::vector<KnownSpec>& known) {
+  std::string text = "{", open;
+  for (const KnownSpec& k : known) {
+    const std::string size =
+        k.at_most ? "{at_most: " + FormatDouble(*k.at_most) + "}" : std::string("none");
+    const bool goes_on = !k.parameter.empty() && k.effect == open;
+    if (!goes_on && !open.empty()) text += "}";
+    if (text.size() > 1) text += ", ";
+    if (!goes_on) text += QuotedYaml(k.effect) + ": " + (k.parameter.empty() ? size : "{");
+    if (!k.parameter.empty()) text += QuotedYaml(k.parameter) + ": " + size;
+    open = k.parameter.empty() ? "" : k.effect;
+  }
+  return text + (open.empty() ? "}" : "}}");
 }
 
 std::string FormatYaml(const Dataset& dataset) {
@@ -213,7 +288,13 @@ std::string FormatYaml(const Dataset& dataset) {
   text += "channels:\n";
   for (const ChannelSpec& channel : dataset.channels)
     text += std::string("  ") + ChannelName(channel.id) +
-            ": {sigma: " + (channel.sigma ? FormatDouble(*channel.sigma) : "estimate") + "}\n";
+            ": {sigma: " + (channel.sigma ? FormatDouble(*channel.sigma) : "estimate") +
+            (channel.clock.empty() ? "" : ", clock: " + QuotedYaml(channel.clock)) + "}\n";
+  for (const ClockSpec& clock : dataset.clocks)
+    text += (&clock == &dataset.clocks.front() ? "clocks:\n  " : "  ") + QuotedYaml(clock.name) +
+            ": " + Flow(ClockFields(clock)) + "\n";
+  if (!dataset.inputs.empty()) text += "inputs: " + Flow(InputFields(dataset.inputs)) + "\n";
+  if (!dataset.known.empty()) text += "known: " + KnownText(dataset.known) + "\n";
   text += "trials:\n";
   for (const Trial& trial : dataset.trials) AppendTrial(trial, dataset, &text);
   return text;

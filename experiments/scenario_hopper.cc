@@ -39,7 +39,7 @@ Hopper LeggedHopperOfScenario(const Scenario& scenario, const IntegratorOptions&
 }
 
 ApexState StartApex(const Hopper& hopper) {
-  const std::array<double, 4>& s = hopper.request.initial;
+  const std::vector<double>& s = hopper.request.initial;
   return {s[2], s[1] + s[3] * s[3] / (2.0 * hopper.request.parameters.g)};
 }
 

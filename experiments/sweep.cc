@@ -8,6 +8,7 @@
 #include "base/input_error.h"
 #include "base/random.h"
 #include "base/text.h"
+#include "experiments/fingerprint.h"
 #include "experiments/scenario_hopper.h"
 
 namespace hoplab {
@@ -15,25 +16,6 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMaxRows = 10'000'000;
-
-// FNV-1a, 64 bits: no more than telling one set of settings from another is asked of it.
-class Hash {
- public:
-  void Add(std::string_view text) {
-    for (const char c : text) Byte(static_cast<unsigned char>(c));
-    Byte(0);
-  }
-  void Add(double value) { Add(FormatDouble(value)); }
-  std::string Text() const {
-    char text[20];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(state_));
-    return text;
-  }
-
- private:
-  void Byte(unsigned char byte) { state_ = (state_ ^ byte) * 0x100000001b3ULL; }
-  std::uint64_t state_ = 0xcbf29ce484222325ULL;
-};
 
 // One value per row in each of `samples` equal slices of the range, in random order.
 std::vector<double> HypercubeColumn(const KeyRange& range, int samples, RandomStream& random) {
@@ -134,7 +116,7 @@ SweepRow SweepPlan::Compute(int i) const {
 }
 
 void SweepPlan::Fingerprint(const IntegratorOptions& integrator) {
-  Hash hash;
+  hoplab::Fingerprint hash;
   hash.Add(document_.ResolvedText());
   for (const std::string& key : keys_) hash.Add(key);
   for (int i = 0; i < size_; ++i) {

@@ -40,7 +40,7 @@ class SweepPlan {
   ScenarioDocument document_;
   IntegratorOptions integrator_;
   std::string name_;
-  Law law_ = Law::kLargeDeflection;
+  Law law_ = Law::kElastica;
   ThesisVariant variant_;
   std::vector<std::string> keys_;
   std::vector<std::vector<double>> columns_;  // grid: values per key; else: one value per row

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/line_journal.h"
 #include "experiments/sweep.h"
 
 namespace hoplab {
@@ -26,9 +27,6 @@ class SweepJournal {
   /// another process is writing.
   SweepJournal(std::filesystem::path file, const SweepPlan& plan, const std::string& version,
                bool discard);
-  SweepJournal(const SweepJournal&) = delete;
-  SweepJournal& operator=(const SweepJournal&) = delete;
-  ~SweepJournal();
 
   /// Adds a row; it is on its way to the disk when this returns. Throws InputError if it cannot be
   /// written.
@@ -38,19 +36,17 @@ class SweepJournal {
   const std::vector<std::optional<SweepRow>>& rows() const { return rows_; }
   std::vector<int> Missing() const;
   int done() const { return done_; }
-  const std::filesystem::path& file() const { return file_; }
+  const std::filesystem::path& file() const { return lines_.file(); }
   /// Deletes the file: its rows stand elsewhere now.
-  void Remove();
+  void Remove() { lines_.Remove(); }
 
  private:
-  void Load(const std::string& text, const std::string& header, bool discard);
-  void Write(std::string_view text);
+  void Keep(std::string_view line);
 
-  std::filesystem::path file_;
   const SweepPlan& plan_;
   std::vector<std::optional<SweepRow>> rows_;
   int done_ = 0;
-  int descriptor_ = -1;
+  LineJournal lines_;
 };
 
 /// "0-11, 40": ascending indices with their gaps.

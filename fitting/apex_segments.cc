@@ -13,7 +13,7 @@ namespace {
 // A flight as the trace shows it: the apex row and the state there.
 struct Apex {
   int row;
-  std::array<double, 4> state;
+  Eigen::Vector4d state;
 };
 
 double UnloadedContactHeight(const FitProblem& problem, const TrialProblem& trial) {
@@ -83,7 +83,7 @@ std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProb
     while (a > row && !(y(a - 1) < floor)) --a;
     while (b < end && !(y(b) < floor)) ++b;
     const bool falls_after = b < end || end < rows;  // the trace goes on after the apex
-    Apex apex{top, {0.0, 0.0, 0.0, 0.0}};
+    Apex apex{top, Eigen::Vector4d::Zero()};
     const double at = trial.row_times[top];
     const bool seen =
         b - a >= 8 && FitLine(trial, y_column, width, a, b, at, -0.5 * trial.parameters.g,
@@ -102,7 +102,7 @@ std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProb
     const int last = i < apexes.size() ? apexes[i].row : rows;
     if (last - first >= 8) {
       TrialProblem piece = CutTrial(problem, trial, first, last);
-      if (i > 0) piece.start = apexes[i - 1].state;
+      if (i > 0) piece.start.head<4>() = apexes[i - 1].state;
       if (piece.sample_count > 0) pieces.push_back(std::move(piece));
     }
     if (i < apexes.size()) first = apexes[i].row;

@@ -41,7 +41,7 @@ CheckReport CheckDataset(const Dataset& dataset, const FitProblem& problem, int 
   report.notes = problem.notes;
   const Eigen::VectorXd shared = InitialShared(problem);
   std::vector<TrialProblem> simulated;
-  std::vector<std::array<double, 4>> starts;
+  std::vector<OwnValues> starts;
   bool any_touches = false;
   for (const TrialProblem& trial : problem.trials) {
     bool simulates = false;

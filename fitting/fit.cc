@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<std::array<double, 4>> StartsOf(const std::vector<TrialProblem>& trials) {
-  std::vector<std::array<double, 4>> starts;
+std::vector<OwnValues> StartsOf(const std::vector<TrialProblem>& trials) {
+  std::vector<OwnValues> starts;
   for (const TrialProblem& t : trials) starts.push_back(t.start);
   return starts;
 }
@@ -193,6 +193,17 @@ std::optional<FitStrategy> FindStrategy(std::string_view name) {
   return std::nullopt;
 }
 
+std::string_view NameOf(Discrepancy discrepancy) {
+  return discrepancy == Discrepancy::kNone ? "none" : "matern";
+}
+
+std::optional<Discrepancy> FindDiscrepancy(std::string_view name) {
+  for (const Discrepancy d : {Discrepancy::kNone, Discrepancy::kMatern}) {
+    if (NameOf(d) == name) return d;
+  }
+  return std::nullopt;
+}
+
 std::vector<TrialProblem> TrialsOf(const FitProblem& problem, TrialRole role) {
   std::vector<TrialProblem> trials;
   for (const TrialProblem& t : problem.trials) {
@@ -203,7 +214,7 @@ std::vector<TrialProblem> TrialsOf(const FitProblem& problem, TrialRole role) {
 
 StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                     const Eigen::VectorXd& shared, const FitOptions& options, int start_number,
-                    std::vector<std::array<double, 4>>* starts) {
+                    std::vector<OwnValues>* starts) {
   StartRecord record;
   record.from = shared;
   SolveResult result;
@@ -217,14 +228,18 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
     result = Solve(request);
     // The long run falls where single hops do not: let it grow to its full length.
     if (options.strategy == FitStrategy::kApexShooting) record.hops = request.shared;
-    if (options.strategy == FitStrategy::kApexShooting && result.status == SolveStatus::kNoStart &&
-        !Stopped(options))
-      result = GrowHorizon(problem, trials, request.shared, options, start_number);
+    const bool led_on = IsUsable(result.status) && result.complete;
+    if (options.strategy == FitStrategy::kApexShooting && !led_on && !Stopped(options)) {
+      SolveResult grown = GrowHorizon(problem, trials, request.shared, options, start_number);
+      if (IsUsable(grown.status) && (grown.complete || !IsUsable(result.status)))
+        result = std::move(grown);
+    }
   }
   const bool usable =
       IsUsable(result.status) || (result.status == SolveStatus::kInterrupted && result.cost > 0.0);
   record.shared = result.shared;
   record.cost = usable ? result.cost : kNaN;
+  record.complete = usable && result.complete;
   record.status = result.status;
   record.message = result.message;
   record.iterations = result.iterations;
@@ -232,6 +247,18 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
   if (starts) *starts = result.starts;
   return record;
 }
+
+namespace {
+
+// An unfinished start does not displace a finished one, nor one that falls one that does not.
+bool IsBetter(const StartRecord& record, const FitResult& than) {
+  if (record.status == SolveStatus::kInterrupted) return false;
+  const StartRecord& best = than.records[static_cast<std::size_t>(than.best_start)];
+  if (record.complete != best.complete) return record.complete;
+  return record.cost < best.cost;
+}
+
+}  // namespace
 
 FitResult Fit(const FitProblem& problem, const FitOptions& options) {
   const std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
@@ -241,12 +268,10 @@ FitResult Fit(const FitProblem& problem, const FitOptions& options) {
     if (i > 0 && Stopped(options)) break;
     const Eigen::VectorXd from =
         i == 0 ? nominal : ScatteredStart(problem, nominal, options.seed, i);
-    std::vector<std::array<double, 4>> starts;
+    std::vector<OwnValues> starts;
     StartRecord record = FitFrom(problem, trials, from, options, i, &starts);
     const bool interrupted = record.status == SolveStatus::kInterrupted;
-    // An unfinished start does not displace a finished one.
-    const bool better = !std::isnan(record.cost) &&
-                        (fit.best_start < 0 || (!interrupted && record.cost < fit.cost));
+    const bool better = !std::isnan(record.cost) && (fit.best_start < 0 || IsBetter(record, fit));
     if (better) {
       fit.best_start = i;
       fit.cost = record.cost;
@@ -258,7 +283,12 @@ FitResult Fit(const FitProblem& problem, const FitOptions& options) {
   }
   fit.interrupted = fit.interrupted || Stopped(options);
   fit.ok = fit.best_start >= 0;
-  if (!fit.ok) fit.message = fit.records.front().message;
+  if (!fit.ok) {
+    fit.message = fit.records.front().message;
+  } else {
+    fit.stop = CheckStop(problem, trials, fit.shared, fit.starts, options.loss, options.jobs);
+    if (!fit.stop.complete) fit.message = fit.stop.faults.front();
+  }
   return fit;
 }
 

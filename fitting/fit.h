@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "fitting/discrepancy/estimate_discrepancy.h"
 #include "fitting/solve.h"
+#include "fitting/stop_check.h"
 
 namespace hoplab {
 
@@ -17,6 +19,14 @@ enum class FitStrategy {
 std::string_view NameOf(FitStrategy strategy);
 std::optional<FitStrategy> FindStrategy(std::string_view name);
 
+/// What a fit takes the noise for.
+enum class Discrepancy {
+  kNone,   // white, of the channels' sigma
+  kMatern  // white, and a model discrepancy where one pays (NoiseModel; default)
+};
+std::string_view NameOf(Discrepancy discrepancy);
+std::optional<Discrepancy> FindDiscrepancy(std::string_view name);
+
 struct FitOptions {
   FitStrategy strategy = FitStrategy::kApexShooting;
   int starts = 1;  // the nominal one, then scattered ones
@@ -24,6 +34,8 @@ struct FitOptions {
   Loss loss;
   int jobs = 1;
   int max_iterations = 100;
+  /// Of FitTraces and what is built on it; Fit itself takes the problem's noise as it is.
+  Discrepancy discrepancy = Discrepancy::kMatern;
   const std::atomic<bool>* stop = nullptr;
   /// Called as the search goes on: which start, what it does, its cost (NaN if not known).
   std::function<void(int start, std::string_view stage, int iteration, double cost)> progress =
@@ -36,6 +48,7 @@ struct StartRecord {
   Eigen::VectorXd hops;    // what single hops made of them (kApexShooting); else empty
   Eigen::VectorXd shared;  // where it ended
   double cost = 0.0;       // NaN if it led nowhere
+  bool complete = false;   // every simulation reaches the end of its data there
   SolveStatus status = SolveStatus::kFailed;
   std::string message;
   int iterations = 0;
@@ -43,15 +56,19 @@ struct StartRecord {
 };
 
 struct FitResult {
-  /// A usable optimum was found; false: see `message`.
+  /// Values were found that let something be simulated; false: see `message`.
   bool ok = false;
   bool interrupted = false;
   std::string message;
-  Eigen::VectorXd shared;                     // own units
-  std::vector<std::array<double, 4>> starts;  // of the train trials, in their order
-  double cost = 0.0;                          // half the sum of squared residuals, prior included
+  Eigen::VectorXd shared;         // own units
+  std::vector<OwnValues> starts;  // of the train trials, in their order
+  double cost = 0.0;              // half the sum of squared residuals, prior included
   std::vector<StartRecord> records;
   int best_start = -1;
+  /// Discrepancy found beside the values; absent: not looked for.
+  std::optional<DiscrepancyEstimate> discrepancy;
+  /// Whether they lie at a minimum: else they are no result.
+  StopCheck stop;
 };
 
 /// The train trials of a problem.
@@ -63,6 +80,6 @@ FitResult Fit(const FitProblem& problem, const FitOptions& options);
 /// Fits from given shared values instead of the nominal ones.
 StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                     const Eigen::VectorXd& shared, const FitOptions& options, int start_number,
-                    std::vector<std::array<double, 4>>* starts);
+                    std::vector<OwnValues>* starts);
 
 }  // namespace hoplab

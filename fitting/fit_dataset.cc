@@ -4,6 +4,8 @@
 #include <cstdio>
 
 #include "fitting/apex_segments.h"
+#include "fitting/discrepancy/refine.h"
+#include "fitting/trial_evaluator.h"
 
 namespace hoplab {
 
@@ -56,29 +58,115 @@ DatasetFit FitDataset(const Dataset& dataset, const ProblemOptions& problem_opti
   return FitTraces(MakeProblem(dataset, problem_options), fit_options, span);
 }
 
-DatasetFit FitTraces(FitProblem problem, const FitOptions& fit_options, FitSpan span) {
+namespace {
+
+// Fits the trials of a problem (whole traces or hops). Train trials that no values found let be
+// simulated are left out and named, and the rest is fitted again.
+FitResult FitWhatCanBeSimulated(FitProblem& problem, const FitOptions& options,
+                                std::vector<std::string>& left_out) {
+  constexpr int kRounds = 4;
+  FitResult fit;
+  for (int round = 0; round < kRounds; ++round) {
+    fit = Fit(problem, options);
+    if (!fit.ok || fit.stop.complete || fit.interrupted) return fit;
+    std::vector<TrialProblem> kept;
+    std::size_t train = 0;
+    for (TrialProblem& trial : problem.trials) {
+      bool carried = true;
+      if (trial.role == TrialRole::kTrain) {
+        TrialEvaluation e;
+        TrialEvaluator(problem, trial).Evaluate({fit.shared, fit.starts[train++]}, e);
+        carried = e.complete;
+      }
+      if (carried)
+        kept.push_back(std::move(trial));
+      else
+        left_out.push_back(trial.file);
+    }
+    problem.trials = std::move(kept);
+    if (TrialsOf(problem, TrialRole::kTrain).empty()) {
+      fit.ok = false;
+      return fit;
+    }
+  }
+  return fit;
+}
+
+std::string WhyByHop(const DatasetFit& whole, FitSpan span) {
+  if (span == FitSpan::kHops) return "fitted hop by hop, as asked: each hop has a start of its own";
+  const std::string so = ", so it was fitted hop by hop, each hop with a start of its own";
+  const FitResult& r = whole.result;
+  if (!r.ok || !r.stop.complete)
+    return "no values let the simulation last as long as the traces (" + r.message + ")" + so;
+  if (!r.stop.IsMinimum())
+    return "whole traces lead to no minimum (" + r.stop.faults.front() + ")" + so;
+  return whole.note + so;
+}
+
+}  // namespace
+
+namespace {
+
+// The noise that suits a fit, and the fit under it.
+void AddDiscrepancy(DatasetFit& fit, const FitOptions& options) {
+  FitResult& result = fit.result;
+  if (options.discrepancy == Discrepancy::kNone || !result.ok || result.interrupted ||
+      !result.stop.complete)
+    return;
+  const std::vector<TrialProblem> trials = TrialsOf(fit.problem, TrialRole::kTrain);
+  RefineRequest request;
+  request.trials = &trials;
+  request.shared = result.shared;
+  request.starts = result.starts;
+  request.loss = options.loss;
+  request.max_iterations = options.max_iterations;
+  request.jobs = options.jobs;
+  request.stop = options.stop;
+  const FitProblem white = fit.problem;
+  RefinedFit refined = Refine(fit.problem, request);
+  const bool usable = IsUsable(refined.at.status) && refined.at.complete;
+  if (!usable) {
+    fit.problem = white;
+    return;
+  }
+  result.discrepancy = refined.discrepancy;
+  if (fit.problem.noise.IsWhite()) return;  // nothing has moved
+  result.shared = refined.at.shared;
+  result.starts = refined.at.starts;
+  result.cost = refined.at.cost;
+  result.stop =
+      CheckStop(fit.problem, trials, result.shared, result.starts, options.loss, options.jobs);
+}
+
+DatasetFit FitUnderWhiteNoise(FitProblem problem, const FitOptions& fit_options, FitSpan span) {
   DatasetFit fit;
   fit.problem = std::move(problem);
   if (span != FitSpan::kHops) {
     fit.result = Fit(fit.problem, fit_options);
     fit.note = Disagreement(fit.problem, fit.result);
-    if (fit.result.ok || fit.result.interrupted || span == FitSpan::kWhole) return fit;
+    // Where whole traces pull a value far from what their hops say, they fit the model's error.
+    const bool done = fit.result.ok && fit.result.stop.IsMinimum() && fit.note.empty();
+    if (done || fit.result.interrupted || span == FitSpan::kWhole) return fit;
   }
-  FitProblem hops = SplitIntoHops(fit.problem);
-  if (hops.trials.size() == fit.problem.trials.size()) {
-    if (span == FitSpan::kHops) fit.result = Fit(fit.problem, fit_options);
-    return fit;  // no apexes to cut at
-  }
-  FitResult by_hop = Fit(hops, fit_options);
-  if (!by_hop.ok && span != FitSpan::kHops) return fit;
-  fit.by_hop = true;
-  fit.note = span == FitSpan::kHops
-                 ? "fitted hop by hop, as asked: each hop has a start of its own"
-                 : "no values let the simulation last as long as the traces (" +
-                       fit.result.message +
-                       "), so it was fitted hop by hop, each hop with a start of its own";
-  fit.problem = std::move(hops);
-  fit.result = std::move(by_hop);
+  DatasetFit pieces;
+  pieces.problem = SplitIntoHops(fit.problem);
+  pieces.by_hop = pieces.problem.trials.size() > fit.problem.trials.size();
+  // Without apexes to cut at a trial is the only piece of itself.
+  if (!pieces.by_hop && span != FitSpan::kHops && fit.result.ok && fit.result.stop.complete)
+    return fit;
+  pieces.result = FitWhatCanBeSimulated(pieces.problem, fit_options, pieces.left_out);
+  const bool usable = pieces.result.ok && pieces.result.stop.IsMinimum();
+  const bool whole_is_better = fit.result.ok && (fit.result.stop.IsMinimum() || !pieces.result.ok);
+  if (!usable && span != FitSpan::kHops && whole_is_better) return fit;
+  if (pieces.by_hop) pieces.note = WhyByHop(fit, span);
+  return pieces;
+}
+
+}  // namespace
+
+DatasetFit FitTraces(FitProblem problem, const FitOptions& fit_options, FitSpan span) {
+  DatasetFit fit = FitUnderWhiteNoise(std::move(problem), fit_options, span);
+  AddDiscrepancy(fit, fit_options);
   return fit;
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fitting/fit.h"
 
@@ -20,12 +21,15 @@ struct DatasetFit {
   FitProblem problem;  // the one that was fitted: trials are hops if `by_hop`
   FitResult result;
   bool by_hop = false;
+  /// Train hops (or trials) that no values found let be simulated; they are not in `problem`.
+  std::vector<std::string> left_out;
   std::string note;  // why it was fitted hop by hop, or that hops and whole traces disagree
 };
 
 /// Sets up and fits a dataset. A law that cannot carry a simulation through a whole trace (it falls
 /// where the hopper did not, whatever the parameters) is still fitted to single hops, which is
-/// said. Throws InputError as MakeProblem does.
+/// said; hops (or trials without apexes) that it cannot carry either are left out and named. What
+/// a fit's end is worth is `result.stop`. Throws InputError as MakeProblem does.
 DatasetFit FitDataset(const Dataset& dataset, const ProblemOptions& problem_options,
                       const FitOptions& fit_options, FitSpan span = FitSpan::kWholeElseHops);
 

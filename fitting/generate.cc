@@ -34,6 +34,7 @@ std::vector<GenerateTrial> TrialsOfScenario(const Scenario& scenario) {
   GenerateTrial trial;
   trial.file = "train-1.csv";
   trial.touchdown_angle_rad = scenario.touchdown_angle_rad;
+  trial.touchdown_angles_rad = scenario.touchdown_angles_rad;
   trial.initial = scenario.initial;
   trial.controller = scenario.controller;
   trial.mechanism = scenario.mechanism;
@@ -47,10 +48,97 @@ double HorizonOf(const Scenario& scenario) {
                     "Add `stop: {time_s: 2}` or `stop: {hops: 3}`."});
 }
 
+int Touchdowns(const Trajectory& run) {
+  return static_cast<int>(std::count_if(run.events.begin(), run.events.end(), [](const Event& e) {
+    return e.kind == EventKind::kTouchdown;
+  }));
+}
+
+// The inputs as a dataset names them: what they say, not by how much they were late or off.
+std::vector<InputSpec> WrittenInputs(const Scenario& scenario) {
+  std::vector<InputSpec> inputs;
+  for (const ScenarioInput& input : scenario.inputs) {
+    InputSpec written = input.spec;
+    written.column = InputName(written.id);
+    written.delay_s = 0.0;
+    written.scale = 1.0;
+    inputs.push_back(std::move(written));
+  }
+  return inputs;
+}
+
+// The columns that drove a run, as its log shows them: read at its rows, with their noise.
+void WriteInputs(const Scenario& scenario, const std::vector<DrivenInput>& inputs,
+                 RandomStream random, Trial& trial) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    InputSignal<double> logged(inputs[i], 0.0, 1.0);
+    TraceColumn column{InputName(scenario.inputs[i].spec.id), {}};
+    for (const double t : trial.trace.time_s) {
+      logged.Seek(t);
+      const double noise =
+          scenario.inputs[i].sigma > 0 ? scenario.inputs[i].sigma * random.Normal() : 0.0;
+      column.values.push_back(logged.At(t) + noise);
+    }
+    trial.trace.columns.push_back(std::move(column));
+  }
+}
+
+// What a log states of a run's touch-down angles: each off by a draw.
+void MisstateAngles(double sigma_rad, const Trajectory& run, RandomStream random, Trial& trial) {
+  trial.touchdown_angle_sigma_rad = sigma_rad;
+  std::vector<double>& angles = trial.touchdown_angles_rad;
+  if (angles.empty())
+    angles.assign(static_cast<std::size_t>(std::max(Touchdowns(run), 1)),
+                  trial.touchdown_angle_rad);
+  for (double& angle : angles) angle += sigma_rad * random.Normal();
+  trial.touchdown_angle_rad = angles.front();
+}
+
 }  // namespace
+
+void CheckAngleEach(const std::vector<double>& angles, const Trajectory& run,
+                    const std::string& place, const std::string& file) {
+  const int touchdowns = Touchdowns(run);
+  if (angles.empty() || touchdowns <= static_cast<int>(angles.size())) return;
+  throw InputError(
+      {place,
+       (file.empty() ? "" : file + ": ") + "touchdown_angle_deg has " +
+           std::to_string(angles.size()) + (angles.size() == 1 ? " angle" : " angles"),
+       "the run touches down " + std::to_string(touchdowns) + " times, and each needs its own",
+       "Add what is missing, or let the run stop before."});
+}
+
+InputSet KindsOf(const std::vector<DrivenInput>& inputs) {
+  InputSet kinds = 0;
+  for (const DrivenInput& input : inputs) kinds |= BitOf(input.kind);
+  return kinds;
+}
+
+std::vector<DrivenInput> DrivenInputsOf(const Scenario& scenario) {
+  std::vector<DrivenInput> inputs;
+  for (const ScenarioInput& input : scenario.inputs)
+    inputs.push_back({.kind = static_cast<InputKind>(input.spec.id),
+                      .times = input.time_s,
+                      .values = input.values,
+                      .held = input.spec.held,
+                      .delay = input.spec.delay_s,
+                      .scale = input.spec.scale});
+  return inputs;
+}
 
 SimulationRequest RequestOfScenario(const Scenario& scenario,
                                     const std::vector<EffectSetting>& effects) {
+  if (!scenario.inputs.empty() || !scenario.touchdown_angles_rad.empty())
+    throw InputError(
+        {scenario.origin.place, scenario.inputs.empty() ? "touchdown_angle_deg" : "inputs",
+         "tells one run from its log, and this command makes runs of its own",
+         "Use simulate or generate, or give one touchdown_angle_deg and a controller."});
+  return RequestOfScenario(scenario, effects, {});
+}
+
+SimulationRequest RequestOfScenario(const Scenario& scenario,
+                                    const std::vector<EffectSetting>& effects,
+                                    const std::vector<DrivenInput>& inputs) {
   SimulationRequest request;
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   request.law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
@@ -58,22 +146,31 @@ SimulationRequest RequestOfScenario(const Scenario& scenario,
   request.liftoff = LiftoffOfSpec(scenario.mechanism);
   request.parameters =
       ParametersOfSpec(scenario.mechanism, scenario.controller, scenario.touchdown_angle_rad);
+  if (scenario.start_angle_rad) request.parameters.start_angle = *scenario.start_angle_rad;
   request.effects = effects;
-  request.initial = StateOfSpec(RequireInitial(scenario));
+  request.initial = InitialOf(RequireInitial(scenario));
+  request.start_mode = ModeOfSpec(scenario.initial->mode, scenario.mechanism.type);
+  request.touchdown_angles = scenario.touchdown_angles_rad;
+  request.inputs = inputs;
   request.horizon = HorizonOf(scenario);
   request.max_hops = scenario.stop.hops.value_or(0);
   return request;
 }
 
 GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions& options) {
+  if (scenario.start_angle_rad)
+    throw InputError({scenario.origin.place, "start_angle_deg",
+                      "cannot go into a dataset, whose trials land at one angle each",
+                      "Leave it out, or look at the run with simulate."});
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
   const std::vector<GenerateTrial> trials = TrialsOfScenario(scenario);
   const bool any_toe_mass = std::any_of(
       trials.begin(), trials.end(),
       [](const GenerateTrial& trial) { return LegMassOfSpec(trial.mechanism) == LegMass::kAtToe; });
-  const std::vector<EffectSetting> effects =
-      ResolveEffects(scenario.effects, law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone);
+  const std::vector<DrivenInput> inputs = DrivenInputsOf(scenario);
+  const std::vector<EffectSetting> effects = ResolveEffects(
+      scenario.effects, law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone, KindsOf(inputs));
   const std::vector<ChannelSpec> channels = ChannelsOf(scenario, options);
   const double horizon = HorizonOf(scenario);
   const double rate =
@@ -92,6 +189,7 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
   dataset.mechanism = scenario.mechanism;
   dataset.controller = scenario.controller;
   dataset.channels = channels;
+  dataset.inputs = WrittenInputs(scenario);
 
   std::vector<Channel> wanted;
   for (const ChannelSpec& c : channels) wanted.push_back(ChannelOfSpec(c.id));
@@ -109,13 +207,17 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
     request.parameters =
         ParametersOfSpec(plan.mechanism, plan.controller, plan.touchdown_angle_rad);
     request.effects = effects;
-    request.initial = StateOfSpec(truth);
+    request.initial = InitialOf(truth);
+    request.start_mode = ModeOfSpec(truth.mode, plan.mechanism.type);
+    request.touchdown_angles = plan.touchdown_angles_rad;
+    request.inputs = inputs;
     request.horizon = horizon;
     request.max_hops = scenario.stop.hops.value_or(0);
     request.row_times = times;
     request.channels = wanted;
     request.integrator = options.integrator;
     const Trajectory run = Simulate(request);
+    CheckAngleEach(plan.touchdown_angles_rad, run, scenario.origin.place, plan.file);
 
     std::size_t rows = 0;
     while (rows < times.size() && times[rows] <= run.end_time &&
@@ -138,6 +240,11 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
     trial.file = plan.file;
     trial.role = plan.role;
     trial.touchdown_angle_rad = plan.touchdown_angle_rad;
+    trial.touchdown_angles_rad = plan.touchdown_angles_rad;
+    if (scenario.dataset && scenario.dataset->touchdown_angle_sigma_rad)
+      MisstateAngles(*scenario.dataset->touchdown_angle_sigma_rad, run,
+                     RandomStream(options.seed, 1000 * (i + 1) + 998), trial);
+    trial.inputs = dataset.inputs;
     trial.mechanism = plan.mechanism;
     trial.controller = plan.controller;
     trial.trace.time_s.assign(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(rows));
@@ -152,16 +259,22 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
       }
       trial.trace.columns.push_back(std::move(column));
     }
+    WriteInputs(scenario, inputs, RandomStream(options.seed, 1000 * (i + 1) + 997), trial);
     trial.initial = truth;
     if (scenario.dataset && scenario.dataset->initial_sigma) {
       RandomStream random(options.seed, 1000 * (i + 1) + 999);
-      std::array<double, 4> stated = StateOfSpec(truth);
-      const std::array<double, 4> sigma = StateOfSpec(*scenario.dataset->initial_sigma);
+      Eigen::Vector4d stated = StateOfSpec(truth);
+      const StateSpec& known = *scenario.dataset->initial_sigma;
+      const Eigen::Vector4d sigma = StateOfSpec(known);
       for (int k = 0; k < 4; ++k) {
         const double draw = random.Normal();
         if (std::isfinite(sigma[k])) stated[k] += sigma[k] * draw;
       }
       trial.initial = SpecOfState(stated);
+      trial.initial->mode = truth.mode;
+      trial.initial->contact_x_m = truth.contact_x_m;
+      if (truth.contact_x_m && known.contact_x_m)
+        *trial.initial->contact_x_m += *known.contact_x_m * random.Normal();
       trial.initial_sigma = scenario.dataset->initial_sigma;
     }
     dataset.trials.push_back(std::move(trial));

@@ -34,8 +34,22 @@ struct GeneratedDataset {
 /// their size. Throws InputError if a run has no rows at all or the scenario lacks what it needs.
 GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions& options);
 
-/// The scenario's run as a simulation request; spans in it point into `effects`.
+/// What drives a scenario's run, for its request to point into.
+std::vector<DrivenInput> DrivenInputsOf(const Scenario& scenario);
+
+InputSet KindsOf(const std::vector<DrivenInput>& inputs);
+/// Throws InputError where a run touches down more often than it has angles of its own. `file` may
+/// be empty.
+void CheckAngleEach(const std::vector<double>& angles, const Trajectory& run,
+                    const std::string& place, const std::string& file = "");
+
+/// The scenario's run as a simulation request; spans in it point into `effects`. Throws InputError
+/// for a scenario that a log drives, or whose touch-downs have angles of their own.
 SimulationRequest RequestOfScenario(const Scenario& scenario,
                                     const std::vector<EffectSetting>& effects);
+/// The same for any scenario; spans point into `scenario` and `inputs` (DrivenInputsOf) too.
+SimulationRequest RequestOfScenario(const Scenario& scenario,
+                                    const std::vector<EffectSetting>& effects,
+                                    const std::vector<DrivenInput>& inputs);
 
 }  // namespace hoplab

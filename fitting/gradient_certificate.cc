@@ -9,8 +9,6 @@
 namespace hoplab {
 namespace {
 
-constexpr std::array<const char*, 4> kStartNames = {"x0", "y0", "vx0", "vy0"};
-
 // Differences need simulations whose own error is far below the step's effect.
 IntegratorOptions Tight(const IntegratorOptions& options) {
   IntegratorOptions tight = options;
@@ -60,10 +58,10 @@ void Flag(const TrialProblem& trial, const Trajectory& trajectory,
 }
 
 TrialReport CheckTrial(const FitProblem& problem, const TrialProblem& trial,
-                       const Eigen::VectorXd& shared, const std::array<double, 4>& start,
+                       const Eigen::VectorXd& shared, const OwnValues& start,
                        const JacobianSource& source) {
   const TrialEvaluator evaluator(problem, trial);
-  const int n = problem.shared_count(), width = n + 4;
+  const int n = problem.shared_count(), width = evaluator.column_count();
   const IntegratorOptions tight = Tight(problem.integrator);
   TrialReport report;
   Trajectory analytic;
@@ -78,14 +76,14 @@ TrialReport CheckTrial(const FitProblem& problem, const TrialProblem& trial,
   const std::size_t crossings = CrossingTimes(analytic).size();
   const std::size_t columns = problem.channels.size();
   for (int k = 0; k < width; ++k) {
-    if (k >= n && !trial.start_free[k - n]) continue;
+    if (k >= n && !trial.own[k - n].free) continue;
     const double h = k < n ? kStep * Size(problem.shared[k], shared[k])
-                           : std::max(kStep * trial.start_scale[k - n], kLeastStartStep);
+                           : std::max(kStep * trial.own[k - n].scale, kLeastStartStep);
     // An event beyond the last row comes before it where a value is shifted.
     double first_new = std::numeric_limits<double>::infinity();
     const auto simulate = [&](double offset, std::vector<double>& samples) {
       Eigen::VectorXd p = shared;
-      std::array<double, 4> z = start;
+      OwnValues z = start;
       (k < n ? p[k] : z[k - n]) += offset;
       evaluator.Simulate({p, z, false}, tight, shifted);
       samples = shifted.samples;
@@ -136,7 +134,7 @@ TrialReport CheckTrial(const FitProblem& problem, const TrialProblem& trial,
 GradientCertificate CertifyGradients(const FitProblem& problem,
                                      const std::vector<TrialProblem>& trials,
                                      const Eigen::VectorXd& shared,
-                                     const std::vector<std::array<double, 4>>& starts, int jobs,
+                                     const std::vector<OwnValues>& starts, int jobs,
                                      const JacobianSource& source) {
   std::vector<TrialReport> reports(trials.size());
   ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
@@ -164,9 +162,10 @@ GradientCertificate CertifyGradients(const FitProblem& problem,
     take(column);
   }
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < trials[i].own_count(); ++k) {
       const double error = reports[i].errors[n + k];
-      if (!std::isnan(error)) take({trials[i].file + "." + kStartNames[k], trials[i].file, error});
+      if (!std::isnan(error))
+        take({trials[i].file + "." + trials[i].own[k].name, trials[i].file, error});
     }
     out.flags.insert(out.flags.end(), reports[i].flags.begin(), reports[i].flags.end());
   }

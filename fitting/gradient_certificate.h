@@ -40,7 +40,7 @@ using JacobianSource =
 GradientCertificate CertifyGradients(const FitProblem& problem,
                                      const std::vector<TrialProblem>& trials,
                                      const Eigen::VectorXd& shared,
-                                     const std::vector<std::array<double, 4>>& starts, int jobs,
+                                     const std::vector<OwnValues>& starts, int jobs,
                                      const JacobianSource& source = nullptr);
 
 }  // namespace hoplab

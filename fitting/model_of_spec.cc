@@ -29,6 +29,7 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
     if (controller->torque_limit_N_m) p.torque_limit = *controller->torque_limit_N_m;
   }
   if (mechanism.fall_height_m) p.fall_height = *mechanism.fall_height_m;
+  p.on_guide = mechanism.on_guide;
   p.variant = mechanism.variant;
   p.m_toe = mechanism.toe_mass_kg.value_or(0.0);
   if (mechanism.placement) {
@@ -80,10 +81,29 @@ MechanismKind MechanismOfSpec(const MechanismSpec& mechanism) {
   return MechanismKind::kCLeg;
 }
 
-std::array<double, 4> StateOfSpec(const StateSpec& s) {
+Eigen::Vector4d StateOfSpec(const StateSpec& s) {
   return {s.x_m, s.y_m, s.vx_m_per_s, s.vy_m_per_s};
 }
-StateSpec SpecOfState(const std::array<double, 4>& s) { return {s[0], s[1], s[2], s[3]}; }
+StateSpec SpecOfState(const Eigen::Vector4d& s) { return {s[0], s[1], s[2], s[3]}; }
+Mode ModeOfSpec(StartMode mode, MechanismType type) {
+  const bool c_leg = type == MechanismType::kCLeg;
+  switch (mode) {
+    case StartMode::kRolling:
+      return c_leg ? Mode::kRolling : Mode::kStance;
+    case StartMode::kToe:
+      return c_leg ? Mode::kToe : Mode::kStance;
+    case StartMode::kStance:
+      return Mode::kStance;
+    case StartMode::kFlight:
+      break;
+  }
+  return Mode::kFlight;
+}
+std::vector<double> InitialOf(const StateSpec& s) {
+  std::vector<double> initial = {s.x_m, s.y_m, s.vx_m_per_s, s.vy_m_per_s};
+  if (s.contact_x_m) initial.push_back(*s.contact_x_m);
+  return initial;
+}
 
 Channel ChannelOfSpec(ChannelId id) { return *FindChannel(ChannelName(id)); }
 
@@ -121,16 +141,23 @@ const Effect& ResolveEffect(const std::string& name, const std::string& place) {
                     DidYouMean(name, known) + " `hoplab effects` lists them."});
 }
 
-void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place) {
-  if (AppliesTo(effect, law, mass)) return;
+void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place,
+                  InputSet inputs) {
+  if (AppliesTo(effect, law, mass, inputs)) return;
+  if (AppliesTo(effect, law, mass, kEveryInput)) {
+    throw InputError({place, "effect " + std::string(effect.info.name),
+                      "changes a logged input, and nothing of the kind drives these runs",
+                      "Name the column under `inputs`, or leave the effect out."});
+  }
   if (AppliesTo(effect, law)) {
     throw InputError({place, "effect " + std::string(effect.info.name),
                       "does not apply to a leg with a toe mass", "Leave it or toe_mass_kg out."});
   }
   const MechanismKind mechanism = MechanismOf(law);
   const std::span<const Law> laws = LawsOf(mechanism);
-  const bool to_another =
-      std::any_of(laws.begin(), laws.end(), [&](Law l) { return AppliesTo(effect, l); });
+  const bool to_another = std::any_of(laws.begin(), laws.end(), [&](Law l) {
+    return AppliesTo(effect, l, LegMass::kNone, kEveryInput);
+  });
   throw InputError({place, "effect " + std::string(effect.info.name),
                     to_another
                         ? "does not apply to the law " + std::string(NameOf(law))
@@ -139,11 +166,11 @@ void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string
 }
 
 std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,
-                                          LegMass mass) {
+                                          LegMass mass, InputSet inputs) {
   std::vector<EffectSetting> settings;
   for (const EffectSpec& spec : specs) {
     const Effect& effect = ResolveEffect(spec.name, spec.origin.place);
-    CheckApplies(effect, law, mass, spec.origin.place);
+    CheckApplies(effect, law, mass, spec.origin.place, inputs);
     EffectSetting setting = EffectSetting::Null(effect);
     for (const NamedNumber& given : spec.parameters) {
       const std::optional<int> index = effect.FindParameter(given.name);

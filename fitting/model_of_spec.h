@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -17,8 +17,12 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
 LiftoffRule LiftoffOfSpec(const MechanismSpec& mechanism);
 LegMass LegMassOfSpec(const MechanismSpec& mechanism);
 MechanismKind MechanismOfSpec(const MechanismSpec& mechanism);
-std::array<double, 4> StateOfSpec(const StateSpec& state);
-StateSpec SpecOfState(const std::array<double, 4>& state);
+Eigen::Vector4d StateOfSpec(const StateSpec& state);
+StateSpec SpecOfState(const Eigen::Vector4d& state);
+/// The mode a record begins in.
+Mode ModeOfSpec(StartMode mode, MechanismType type);
+/// The same as a simulation begins with.
+std::vector<double> InitialOf(const StateSpec& state);
 Channel ChannelOfSpec(ChannelId id);
 
 /// The law named `name` (empty: the mechanism's default). Throws InputError, place `place`, for a
@@ -31,12 +35,14 @@ void CheckVariant(const ThesisVariant& variant, Law law, const std::string& plac
 /// The effect named `name`; throws InputError with the nearest known name.
 const Effect& ResolveEffect(const std::string& name, const std::string& place);
 
-/// Throws InputError if the effect means nothing under the law, or on a leg with that mass.
-void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place);
+/// Throws InputError if the effect means nothing under the law, on a leg with that mass, or without
+/// an input it changes.
+void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place,
+                  InputSet inputs = 0);
 
 /// Effects with their values as a scenario gives them; parameters not given stay null. Throws
 /// InputError for unknown names, values out of bounds, an effect that this law or leg cannot have.
 std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,
-                                          LegMass mass);
+                                          LegMass mass, InputSet inputs = 0);
 
 }  // namespace hoplab

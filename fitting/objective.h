@@ -12,8 +12,8 @@ namespace hoplab {
 
 /// The least-squares objective of trials at one point: what a fit makes small, with its exact
 /// derivatives, for whoever searches or samples by other means. Columns are the shared values, then
-/// the starts (x, y [m], vx, vy [m/s]) of one trial after the other, all in their own units; held
-/// components of a start have columns, too.
+/// the own values (x, y [m], vx, vy [m/s] of the start first) of one trial after the other, all in
+/// their own units; held ones have columns, too.
 struct Objective {
   /// Every trial was simulated to the end of its data. If not, numbers are NaN and the rest empty.
   bool complete = false;
@@ -24,11 +24,11 @@ struct Objective {
   std::vector<Outcome> outcomes;  // one a trial
 };
 
-/// The objective of `trials` (of `problem`) at shared values and starts, one a trial. The result
-/// does not depend on `jobs`.
+/// The objective of `trials` (of `problem`) at shared values and own values, one set a trial. The
+/// result does not depend on `jobs`. Residuals and Jacobian, which grow with the square of the
+/// number of trials, are left empty unless `matrices` asks for them.
 Objective EvaluateObjective(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                            const Eigen::VectorXd& shared,
-                            const std::vector<std::array<double, 4>>& starts, const Loss& loss = {},
-                            int jobs = 1);
+                            const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
+                            const Loss& loss = {}, int jobs = 1, bool matrices = true);
 
 }  // namespace hoplab

@@ -2,11 +2,13 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/check.h"
 #include "base/input_error.h"
 #include "base/text.h"
+#include "fitting/driven_trial.h"
 #include "fitting/model_of_spec.h"
 #include "fitting/noise.h"
 #include "model/leg_compliance.h"
@@ -14,11 +16,11 @@
 namespace hoplab {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Sizes of a change of start that matter where no prior tells one: [m], [m], [m/s], [m/s].
 constexpr std::array<double, 4> kStartScale = {0.01, 0.01, 0.05, 0.05};
+constexpr std::array<const char*, 4> kStartNames = {"x0", "y0", "vx0", "vy0"};
 // Priors tighter than this pin a component: the optimiser still sees a well-scaled variable.
 constexpr double kTightest = 1e-9;
 
@@ -57,6 +59,10 @@ class Builder {
   FitProblem Build() {
     problem_.law = ResolveLaw(options_.law, mechanism_, "--law");
     problem_.integrator = options_.integrator;
+    problem_.clocks = ClocksOf(dataset_);
+    problem_.known = KnownCauses(dataset_.known);
+    if (const std::string known = problem_.known.Text(); !known.empty())
+      problem_.notes.push_back("known of the set-up: " + known);
     AddTrials();
     AddChannels();
     FillTrials();
@@ -89,6 +95,8 @@ class Builder {
         continue;
       }
       ChannelProblem c{ChannelOfSpec(spec.id), spec.sigma.value_or(kNaN), !spec.sigma};
+      for (std::size_t i = 0; i < problem_.clocks.size(); ++i)
+        if (problem_.clocks[i].name == spec.clock) c.clock = static_cast<int>(i);
       if (!spec.sigma) {
         std::vector<SampledColumn> columns;
         for (const Trial& trial : dataset_.trials) {
@@ -139,6 +147,7 @@ class Builder {
       }
       if (problem_.uses_contact) ReadContact(trial, t);
       SetStart(trial, t);
+      AddDriven(trial, problem_, t);
     }
   }
 
@@ -162,25 +171,44 @@ class Builder {
   }
 
   void SetStart(const Trial& trial, TrialProblem& t) {
-    t.prior_sigma.fill(kInfinity);
-    t.start_scale = kStartScale;
-    t.start = trial.initial ? StateOfSpec(*trial.initial) : StartFromTrace(trial, t);
-    t.prior_mean = t.start;
+    t.start = trial.initial ? OwnValues(StateOfSpec(*trial.initial)) : StartFromTrace(trial, t);
+    for (int i = 0; i < 4; ++i) {
+      t.own.push_back({.name = kStartNames[i],
+                       .direction = SensitivityDirection::InitialState(i),
+                       .scale = kStartScale[i],
+                       .prior_mean = t.start[i]});
+    }
     if (trial.initial && trial.initial_sigma) {
-      t.prior_sigma = StateOfSpec(*trial.initial_sigma);
+      const OwnValues sigma = StateOfSpec(*trial.initial_sigma);
       for (int i = 0; i < 4; ++i) {
-        t.prior_sigma[i] = std::max(t.prior_sigma[i], kTightest);
-        t.start_scale[i] = std::min(t.start_scale[i], t.prior_sigma[i]);
+        t.own[i].prior_sigma = std::max(sigma[i], kTightest);
+        t.own[i].scale = std::min(t.own[i].scale, t.own[i].prior_sigma);
       }
     }
+    if (trial.initial && trial.initial->mode != StartMode::kFlight) SetContact(trial, t);
     // Without a channel that knows where the hopper is along the ground, x is a free choice.
-    if (!Sees(Channel::kBodyX) && std::isinf(t.prior_sigma[0])) t.start_free[0] = false;
+    if (!Sees(Channel::kBodyX) && std::isinf(t.own[0].prior_sigma)) t.own[0].free = false;
+  }
+
+  // The contact of a record that begins in stance.
+  static void SetContact(const Trial& trial, TrialProblem& t) {
+    t.start_mode = ModeOfSpec(trial.initial->mode, trial.mechanism.type);
+    const bool known = trial.initial_sigma && trial.initial_sigma->contact_x_m;
+    OwnParameter contact{.name = "contact0",
+                         .direction = SensitivityDirection::InitialState(4),
+                         .scale = kStartScale[0],
+                         .prior_mean = *trial.initial->contact_x_m};
+    if (known) contact.prior_sigma = std::max(*trial.initial_sigma->contact_x_m, kTightest);
+    contact.scale = std::min(contact.scale, contact.prior_sigma);
+    t.start.conservativeResize(5);
+    t.start[4] = contact.prior_mean;
+    t.own.push_back(contact);
   }
 
   // Start of a trial that states none: a parabola through the first flight, line in x.
-  std::array<double, 4> StartFromTrace(const Trial& trial, const TrialProblem& t) const {
+  OwnValues StartFromTrace(const Trial& trial, const TrialProblem& t) const {
     const double g = t.parameters.g;
-    std::array<double, 4> start = {0.0, kNaN, 0.0, 0.0};
+    OwnValues start = Eigen::Vector4d(0.0, kNaN, 0.0, 0.0);
     const double touchdown = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
     const std::vector<double>* y = trial.trace.Find(ChannelId::kBodyY);
     std::size_t rows = t.row_times.size();
@@ -231,6 +259,7 @@ class Builder {
   // --fix name=value: a parameter of the mechanism in every trial, or an effect at that value.
   void FixValues() {
     for (const auto& [name, value] : options_.fix) {
+      if (FixDriven(name, value, problem_)) continue;
       const ParameterName split = SplitName(name);
       if (split.effect.empty()) {
         const ParameterId id = KnownParameter(name, "--fix");
@@ -240,6 +269,7 @@ class Builder {
         const auto [index, component] = EffectParameterOf(split, "--fix");
         const EffectParameter& info = problem_.effects[index].effect->info.parameters[component];
         CheckRange(name, value, info.lower, info.upper, info.unit, "--fix");
+        problem_.known.CheckValue(*problem_.effects[index].effect, component, value, "--fix");
         problem_.effects[index].values[component] = value;
       }
     }
@@ -286,7 +316,7 @@ class Builder {
   }
 
   int EffectIndex(const Effect& effect, const std::string& place) {
-    CheckApplies(effect, problem_.law, problem_.leg_mass(), place);
+    CheckApplies(effect, problem_.law, problem_.leg_mass(), place, problem_.inputs());
     for (std::size_t i = 0; i < problem_.effects.size(); ++i) {
       if (problem_.effects[i].effect == &effect) return static_cast<int>(i);
     }
@@ -309,11 +339,13 @@ class Builder {
     }
     for (const std::string& name : options_.with_effects) {
       const Effect& effect = ResolveEffect(name, "--with");
-      for (const EffectParameter& p : effect.info.parameters) {
-        const std::string whole = name + "." + std::string(p.name);
+      problem_.known.CheckOpen(effect, "--with");
+      for (const OpenParameter& p : problem_.known.OpenParameters(effect)) {
+        const std::string whole = name + "." + std::string(p.info.name);
         if (!options_.fix.count(whole)) AddSharedNamed(whole, "--with");
       }
     }
+    FreeWhatIsUncertain(dataset_, options_.fix, problem_);
     if (problem_.shared.empty())
       throw InputError({"--fix", "", "leaves nothing to fit", "Free at least one parameter."});
   }
@@ -322,16 +354,31 @@ class Builder {
     for (const SharedParameter& s : problem_.shared) {
       if (s.name == name) throw InputError({place, name, "is named twice", ""});
     }
+    if (const auto driven = DrivenParameter(problem_, name, place)) {
+      problem_.shared.push_back(*driven);
+      return;
+    }
     const ParameterName split = SplitName(name);
     if (!split.effect.empty()) {
       const auto [index, component] = EffectParameterOf(split, place);
-      const EffectParameter& info = problem_.effects[index].effect->info.parameters[component];
+      const Effect& effect = *problem_.effects[index].effect;
+      const std::optional<EffectParameter> info = problem_.known.Open(effect, component);
+      if (!info)
+        throw InputError({place, name,
+                          "is known to be null: known of the set-up is " + problem_.known.Text(),
+                          "Remove the line under `known` if it may be present after all."});
       problem_.shared.push_back(
-          {name, std::string(info.unit), SensitivityDirection::EffectParameter(index, component),
-           info.lower, info.upper, problem_.effects[index].values[component], info.typical});
+          {name, std::string(info->unit), SensitivityDirection::EffectParameter(index, component),
+           info->lower, info->upper, problem_.effects[index].values[component], info->typical});
       return;
     }
     const ParameterId id = KnownParameter(name, place);
+    const bool own_angles = std::any_of(
+        problem_.trials.begin(), problem_.trials.end(),
+        [](const TrialProblem& t) { return !t.touchdown_angles.empty() || !t.inputs.empty(); });
+    if (id == ParameterId::kThetaTd && own_angles)
+      throw InputError({place, name, "is each touch-down's own in this dataset",
+                        "Say touchdown_angle_sigma_deg, or try the effect touchdown_angle_bias."});
     const Parameters<double>& p = problem_.trials.front().parameters;
     const double nominal = Field(p, id);
     for (const TrialProblem& t : problem_.trials) {
@@ -364,6 +411,13 @@ LegMass FitProblem::leg_mass() const {
   const bool any = std::any_of(trials.begin(), trials.end(),
                                [](const TrialProblem& t) { return t.parameters.m_toe > 0.0; });
   return any ? LegMass::kAtToe : LegMass::kNone;
+}
+
+InputSet FitProblem::inputs() const {
+  InputSet set = 0;
+  for (const TrialProblem& t : trials)
+    for (const DrivenColumn& column : t.inputs) set |= BitOf(column.kind);
+  return set;
 }
 
 std::vector<std::string> FitProblem::shared_names() const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <limits>
 #include <map>
 #include <optional>
@@ -9,6 +8,8 @@
 #include <vector>
 
 #include "datasets/dataset.h"
+#include "fitting/discrepancy/noise_model.h"
+#include "fitting/known.h"
 #include "model/simulate.h"
 
 namespace hoplab {
@@ -27,10 +28,46 @@ struct SharedParameter {
   std::string only_recording = {};
 };
 
+/// A value one trial has of its own, to be fitted beside the shared ones: a component of its start.
+struct OwnParameter {
+  std::string name;  // "vx0"
+  SensitivityDirection direction;
+  double scale = 1.0;  // one typical size of a change, > 0
+  /// Gaussian prior; an infinite sigma is no prior.
+  double prior_mean = 0.0;
+  double prior_sigma = std::numeric_limits<double>::infinity();
+  bool free = true;  // what no channel can see (x without body_x) is held
+};
+/// Values of one trial's own parameters, in their own units.
+using OwnValues = Eigen::VectorXd;
+
 /// How a contact channel's switching times are compared with the events of a simulation.
 struct ContactTimes {
   std::vector<double> touchdown_s, liftoff_s;  // middle between the rows they lie between
   std::vector<double> touchdown_sigma_s, liftoff_sigma_s;  // uniform over that gap: gap/sqrt(12)
+};
+
+/// A logged column that drives a trial's simulation; times count from the trial's first row.
+struct DrivenColumn {
+  InputKind kind = InputKind::kHipTorque;
+  std::vector<double> times = {}, values = {};
+  bool held = false;
+  double delay = 0.0, scale = 1.0;
+  int clock = -1;  // of FitProblem::clocks
+};
+
+/// A Gaussian prior on a shared value, counted once: by the trial that carries it.
+struct SharedPrior {
+  int shared = 0;  // place among the problem's shared values
+  double mean = 0.0, sigma = 1.0;
+};
+
+/// Sensors that share a clock: what it stamps t was read at t + offset.
+struct ClockProblem {
+  std::string name;
+  double offset = 0.0;     // s, nominal
+  double sigma = 0.0;      // how well it is known; 0: exactly
+  bool per_trial = false;  // each trial's own
 };
 
 /// One recorded trial, ready to be compared with a simulation. Row times count from the first row.
@@ -44,14 +81,17 @@ struct TrialProblem {
   std::vector<double> row_times;  // s since the first row
   std::vector<double> data;       // row-major [row][channel]; NaN = missing
   ContactTimes contact;
-  std::array<double, 4> start{};  // x, y [m], vx, vy [m/s]: where the fit begins
-  /// Gaussian prior on the start; an infinite sigma is no prior.
-  std::array<double, 4> prior_mean{};
-  std::array<double, 4> prior_sigma{};
-  /// Components no channel can see (x without body_x) are held.
-  std::array<bool, 4> start_free{true, true, true, true};
-  std::array<double, 4> start_scale{};  // one typical size of a change, > 0
-  long sample_count = 0;                // finite entries of `data`, contact times included
+  /// The components of the start first: x, y [m], vx, vy [m/s], in stance the contact's place [m].
+  std::vector<OwnParameter> own;
+  OwnValues start;  // values of `own` where the fit begins
+  Mode start_mode = Mode::kFlight;
+  std::vector<double> touchdown_angles;  // one a touch-down [rad]; empty: parameters.theta_td
+  std::vector<double> touchdown_times;   // of those, as the trace shows them [s]
+  std::vector<DrivenColumn> inputs;
+  std::vector<SharedPrior> shared_priors;
+  long sample_count = 0;  // finite entries of `data`, contact times included
+
+  int own_count() const { return static_cast<int>(own.size()); }
 };
 
 /// A channel that is compared, and its noise.
@@ -59,21 +99,27 @@ struct ChannelProblem {
   Channel channel;
   double sigma;          // 1 standard deviation in the channel's unit
   bool sigma_estimated;  // from the traces, not stated
+  int clock = -1;        // of FitProblem::clocks; -1: the trial's own time
 };
 
 /// A dataset as a least-squares problem: what is shared, what each trial has of its own.
 struct FitProblem {
-  Law law = Law::kLargeDeflection;
+  Law law = Law::kElastica;
   std::vector<SharedParameter> shared;
-  std::vector<EffectSetting> effects;    // with their nominal values
+  std::vector<EffectSetting> effects;  // with their nominal values
+  std::vector<ClockProblem> clocks;
+  KnownCauses known;                     // what the set-up rules out or bounds
   std::vector<ChannelProblem> channels;  // without `contact`
   bool uses_contact = false;
   std::vector<TrialProblem> trials;
+  NoiseModel noise;  // white until it is estimated
   IntegratorOptions integrator;
   std::vector<std::string> notes;  // what was decided on the way, for the reader
 
   /// Whether the leg has a mass at its toe in any trial.
   LegMass leg_mass() const;
+  /// What drives any trial.
+  InputSet inputs() const;
   int shared_count() const { return static_cast<int>(shared.size()); }
   std::vector<std::string> shared_names() const;
 };
@@ -88,7 +134,8 @@ struct ProblemOptions {
 };
 
 /// Sets the problem up. Throws InputError (place: the option) for unknown names, values out of
-/// bounds, a parameter that differs between trials but is to be shared.
+/// bounds, a parameter that differs between trials but is to be shared, an effect that is known not
+/// to be there.
 FitProblem MakeProblem(const Dataset& dataset, const ProblemOptions& options);
 
 /// Values of the shared parameters at which a search starts: nominal, but off their bounds.

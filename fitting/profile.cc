@@ -18,7 +18,7 @@ struct Walker {
 
   // Refits everything but `parameter`, held at `value`, starting from `from`.
   SolveResult At(double value, const Eigen::VectorXd& shared,
-                 const std::vector<std::array<double, 4>>& starts) const {
+                 const std::vector<OwnValues>& starts) const {
     SolveRequest request;
     request.problem = &problem;
     request.trials = &trials;
@@ -53,7 +53,7 @@ Profile ComputeProfile(const FitProblem& problem, const FitResult& fit, const Fi
   for (const double side : {-1.0, 1.0}) {
     std::vector<ProfilePoint> points;
     Eigen::VectorXd shared = fit.shared;
-    std::vector<std::array<double, 4>> starts = fit.starts;
+    std::vector<OwnValues> starts = fit.starts;
     double step = first_step;
     ProfilePoint last = middle;
     for (int i = 0; i < max_points; ++i) {

@@ -30,21 +30,21 @@ class Evaluations : public ceres::EvaluationCallback {
         problem_(*request.problem),
         trials_(*request.trials),
         shared_(problem_.shared_count()),
-        starts_(trials_.size()),
         evaluations_(trials_.size()),
         run_shared_(Eigen::VectorXd::Constant(shared_.size(), std::nan(""))) {
     for (const TrialProblem& trial : trials_) {
       evaluators_.emplace_back(problem_, trial);
-      reduced_.emplace_back(evaluators_.back().residual_count(), problem_.shared_count() + 4);
+      reduced_.emplace_back(evaluators_.back().residual_count(), evaluators_.back().column_count());
+      own_begin_.push_back(own_begin_.back() + trial.own_count());
     }
+    own_ = Eigen::VectorXd::Zero(own_begin_.back());
     for (int i = 0; i < problem_.shared_count(); ++i)
       shared_[i] = request.shared[i] / problem_.shared[i].scale;
-    for (auto& start : starts_) start.fill(0.0);
   }
 
   // A line search and the step it ends in ask for one point under two names.
   void PrepareForEvaluation(bool jacobians, bool) override {
-    const bool known = shared_ == run_shared_ && starts_ == run_starts_;
+    const bool known = run_own_.size() == own_.size() && shared_ == run_shared_ && own_ == run_own_;
     if (known && (have_jacobian_ || !jacobians)) return;
     Run(jacobians);
     for (std::size_t i = 0; i < trials_.size(); ++i) {
@@ -54,11 +54,13 @@ class Evaluations : public ceres::EvaluationCallback {
   void Run(bool jacobians) {
     have_jacobian_ = jacobians;
     run_shared_ = shared_;
-    run_starts_ = starts_;
+    run_own_ = own_;
     const Eigen::VectorXd shared = SharedValues();
     ParallelFor(static_cast<int>(trials_.size()), request_.jobs, [&](int i) {
-      evaluators_[i].Evaluate({shared, StartValues(i), jacobians, request_.loss}, evaluations_[i]);
-      if (evaluations_[i].complete)
+      const OwnValues own = OwnValuesOf(i);
+      evaluators_[i].Evaluate({shared, own, jacobians, request_.loss, /*fly_on=*/true},
+                              evaluations_[i]);
+      if (evaluations_[i].evaluated)
         reduced_[i].Reduce(evaluations_[i], jacobians, ColumnScales(trials_[i]));
     });
   }
@@ -69,14 +71,19 @@ class Evaluations : public ceres::EvaluationCallback {
     for (int i = 0; i < values.size(); ++i) values[i] = shared_[i] * problem_.shared[i].scale;
     return values;
   }
-  std::array<double, 4> StartValues(int trial) const {
-    std::array<double, 4> values = request_.starts[trial];
-    for (int i = 0; i < 4; ++i) values[i] += starts_[trial][i] * trials_[trial].start_scale[i];
+  OwnValues OwnValuesOf(int trial) const {
+    OwnValues values = request_.starts[trial];
+    for (int k = 0; k < values.size(); ++k)
+      values[k] += own_[own_begin_[trial] + k] * trials_[trial].own[k].scale;
     return values;
   }
   double* shared() { return shared_.data(); }
-  double* start(int trial) { return starts_[trial].data(); }
+  double* own(int trial) { return own_.data() + own_begin_[trial]; }
   const TrialEvaluation& evaluation(int trial) const { return evaluations_[trial]; }
+  bool AllComplete() const {
+    return std::all_of(evaluations_.begin(), evaluations_.end(),
+                       [](const TrialEvaluation& e) { return e.complete; });
+  }
   double Cost() const {
     double sum = 0.0;
     for (const TrialEvaluation& e : evaluations_) sum += 0.5 * e.residuals.squaredNorm();
@@ -88,9 +95,10 @@ class Evaluations : public ceres::EvaluationCallback {
 
  private:
   Eigen::VectorXd ColumnScales(const TrialProblem& trial) const {
-    Eigen::VectorXd scale(problem_.shared_count() + 4);
-    for (int k = 0; k < problem_.shared_count(); ++k) scale[k] = problem_.shared[k].scale;
-    for (int k = 0; k < 4; ++k) scale[problem_.shared_count() + k] = trial.start_scale[k];
+    const int n = problem_.shared_count();
+    Eigen::VectorXd scale(n + trial.own_count());
+    for (int k = 0; k < n; ++k) scale[k] = problem_.shared[k].scale;
+    for (int k = 0; k < trial.own_count(); ++k) scale[n + k] = trial.own[k].scale;
     return scale;
   }
 
@@ -99,37 +107,42 @@ class Evaluations : public ceres::EvaluationCallback {
   const std::vector<TrialProblem>& trials_;
   std::vector<TrialEvaluator> evaluators_;
   std::vector<ReducedTrial> reduced_;
-  Eigen::VectorXd shared_;                     // value/scale
-  std::vector<std::array<double, 4>> starts_;  // (value - first value)/scale
+  Eigen::VectorXd shared_;  // value/scale
+  /// (value - first value)/scale of all trials in one piece: Ceres takes the blocks of a group in
+  /// the order of their addresses, and sums must be formed in one order.
+  Eigen::VectorXd own_;
+  std::vector<int> own_begin_ = {0};  // one a trial, and the end
   std::vector<TrialEvaluation> evaluations_;
   Eigen::VectorXd run_shared_;  // where `evaluations_` are
-  std::vector<std::array<double, 4>> run_starts_;
+  Eigen::VectorXd run_own_;
   bool have_jacobian_ = false;
   std::map<std::string, int> rejected_;
 };
 
-// One trial, reduced, as Evaluations holds it. Blocks: shared, start.
+// One trial, reduced, as Evaluations holds it. Blocks: shared, own.
 class TrialCost : public ceres::CostFunction {
  public:
-  TrialCost(int shared_count, const Evaluations& evaluations, int index)
+  TrialCost(int shared_count, int own_count, const Evaluations& evaluations, int index)
       : shared_count_(shared_count), evaluations_(evaluations), index_(index) {
     set_num_residuals(evaluations.reduced(index).rows());
     mutable_parameter_block_sizes()->push_back(shared_count);
-    mutable_parameter_block_sizes()->push_back(4);
+    if (own_count > 0) mutable_parameter_block_sizes()->push_back(own_count);
   }
 
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
-    // Not complete: a rejected step; the reason is kept in Evaluations.
-    if (!evaluations_.evaluation(index_).complete) return false;
+    // Not even a free flight leads on from there: a rejected step; Evaluations keeps the reason.
+    if (!evaluations_.evaluation(index_).evaluated) return false;
     const ReducedTrial& trial = evaluations_.reduced(index_);
     const int rows = num_residuals();
     std::copy(trial.residuals().data(), trial.residuals().data() + rows, residuals);
     if (!jacobians) return true;
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const auto own_count = trial.jacobian().cols() - shared_count_;
     if (jacobians[0])
       Eigen::Map<RowMajor>(jacobians[0], rows, shared_count_) =
           trial.jacobian().leftCols(shared_count_);
-    if (jacobians[1]) Eigen::Map<RowMajor>(jacobians[1], rows, 4) = trial.jacobian().rightCols(4);
+    if (own_count > 0 && jacobians[1])
+      Eigen::Map<RowMajor>(jacobians[1], rows, own_count) = trial.jacobian().rightCols(own_count);
     return true;
   }
 
@@ -203,7 +216,7 @@ SolveResult SolveOnce(const SolveRequest& request) {
   evaluations.Run(false);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const TrialEvaluation& e = evaluations.evaluation(static_cast<int>(i));
-    if (e.complete) continue;
+    if (e.evaluated) continue;
     result.status = SolveStatus::kNoStart;
     result.message = Reason(trials[i], e.trajectory);
     return result;
@@ -217,16 +230,24 @@ SolveResult SolveOnce(const SolveRequest& request) {
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &evaluations;
   ceres::Problem ceres_problem(problem_options);
+  // Own values belong to one trial each: Ceres eliminates them trial by trial, so that the cost of
+  // a step grows with the number of trials and no faster.
+  auto* ordering = new ceres::ParameterBlockOrdering;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    const int index = static_cast<int>(i);
-    ceres_problem.AddResidualBlock(new TrialCost(problem.shared_count(), evaluations, index),
-                                   nullptr, evaluations.shared(), evaluations.start(index));
+    const int index = static_cast<int>(i), own_count = trials[i].own_count();
+    std::vector<double*> blocks = {evaluations.shared()};
+    if (own_count > 0) blocks.push_back(evaluations.own(index));
+    ceres_problem.AddResidualBlock(
+        new TrialCost(problem.shared_count(), own_count, evaluations, index), nullptr, blocks);
+    if (own_count == 0) continue;
+    ordering->AddElementToGroup(evaluations.own(index), 0);
     std::vector<int> held;
-    for (int k = 0; k < 4; ++k) {
-      if (request.hold_starts || !trials[i].start_free[k]) held.push_back(k);
+    for (int k = 0; k < own_count; ++k) {
+      if (request.hold_starts || !trials[i].own[k].free) held.push_back(k);
     }
-    HoldComponents(ceres_problem, evaluations.start(index), 4, held);
+    HoldComponents(ceres_problem, evaluations.own(index), own_count, held);
   }
+  ordering->AddElementToGroup(evaluations.shared(), 1);
   std::vector<int> held = request.held;
   if (request.hold_shared) {
     held.clear();
@@ -242,12 +263,15 @@ SolveResult SolveOnce(const SolveRequest& request) {
   }
 
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
+  const bool eliminates = !request.hold_shared && !request.hold_starts;
+  options.linear_solver_type = eliminates ? ceres::DENSE_SCHUR : ceres::DENSE_QR;
+  options.linear_solver_ordering.reset(ordering);
   options.max_num_iterations = request.max_iterations;
   options.function_tolerance = request.function_tolerance;
   options.parameter_tolerance = 1e-11;
   options.gradient_tolerance = 1e-12;
-  // Far from the optimum many steps end in a fall before the data do; each only shrinks the region.
+  // Beyond a fall the cost jumps where the sequence of events changes: such a step only shrinks the
+  // region.
   options.max_num_consecutive_invalid_steps = 60;
   options.line_search_interpolation_type = ceres::QUADRATIC;  // cubic asks for Jacobians
   options.max_num_line_search_step_size_iterations = 5;       // the trust region shrinks after that
@@ -269,10 +293,12 @@ SolveResult SolveOnce(const SolveRequest& request) {
   result.status = StatusOf(summary);
   result.shared = evaluations.SharedValues();
   for (std::size_t i = 0; i < trials.size(); ++i)
-    result.starts[i] = evaluations.StartValues(static_cast<int>(i));
+    result.starts[i] = evaluations.OwnValuesOf(static_cast<int>(i));
   result.cost = summary.final_cost + summary.fixed_cost;
   result.iterations = static_cast<int>(summary.iterations.size());
   result.rejected = evaluations.rejected();
+  evaluations.PrepareForEvaluation(false, false);
+  result.complete = evaluations.AllComplete();
   if (result.status == SolveStatus::kFailed) result.message = summary.message;
   return result;
 }
@@ -304,7 +330,7 @@ std::vector<int> PulledInside(const SolveRequest& request, const SolveResult& at
     double gradient = 0.0;
     for (std::size_t i = 0; i < request.trials->size(); ++i) {
       const TrialEvaluation& e = evaluations.evaluation(static_cast<int>(i));
-      if (e.complete) gradient += e.jacobian.col(k).dot(e.residuals);
+      if (e.evaluated) gradient += e.jacobian.col(k).dot(e.residuals);
     }
     const bool on_lower = at.shared[k] <= s.lower + 1e-9 * s.scale;
     if (on_lower ? gradient < 0.0 : gradient > 0.0) inside.push_back(k);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <atomic>
 #include <functional>
 #include <limits>
@@ -14,12 +13,12 @@
 
 namespace hoplab {
 
-/// One least-squares problem for Ceres: shared values and each trial's start.
+/// One least-squares problem for Ceres: shared values and each trial's own.
 struct SolveRequest {
   const FitProblem* problem = nullptr;
   const std::vector<TrialProblem>* trials = nullptr;  // one residual block each
   Eigen::VectorXd shared;                             // where to begin, own units
-  std::vector<std::array<double, 4>> starts;          // one a trial
+  std::vector<OwnValues> starts;                      // own values, one a trial
   bool hold_shared = false;                           // only the starts move
   bool hold_starts = false;                           // only the shared values move
   std::vector<int> held;                              // shared values held one by one
@@ -39,7 +38,7 @@ enum class SolveStatus {
   kConverged,
   kIterationLimit,  // values are usable but not at an optimum
   kGaveUp,          // the same, since it was not worth going on
-  kNoStart,         // the simulation fails where the search begins, or is far off
+  kNoStart,         // nothing can be simulated where the search begins, or it is far off
   kFailed,          // the solver gave up
   kInterrupted      // stopped from outside; values are the best so far
 };
@@ -51,10 +50,11 @@ struct SolveResult {
   SolveStatus status = SolveStatus::kFailed;
   std::string message;  // for kNoStart and kFailed: which trial, what happened, when
   Eigen::VectorXd shared;
-  std::vector<std::array<double, 4>> starts;
-  double cost = 0.0;  // half the sum of squared residuals
+  std::vector<OwnValues> starts;  // own values of the trials
+  bool complete = false;          // every simulation reaches the end of its data
+  double cost = 0.0;              // half the sum of squared residuals
   int iterations = 0;
-  /// Steps rejected because a simulation ended before its data: reason -> how often.
+  /// Points at which a simulation ended before its data: reason -> how often.
   std::map<std::string, int> rejected;
 };
 

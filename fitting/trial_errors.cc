@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-std::array<double, 4> RefitStart(const FitProblem& problem, const TrialProblem& trial,
-                                 const Eigen::VectorXd& shared, const FitOptions& options) {
+OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
+                     const Eigen::VectorXd& shared, const FitOptions& options) {
   const std::vector<TrialProblem> one = {trial};
   SolveRequest request;
   request.problem = &problem;
@@ -64,11 +64,30 @@ std::vector<HopErrors> PerHop(const TrialProblem& trial, const Trajectory& traje
   return hops;
 }
 
+void AddSampleLikelihoods(const FitProblem& problem, const TrialEvaluator& evaluator,
+                          const Eigen::VectorXd& shared, const OwnValues& own, TrialErrors& out) {
+  TrialEvaluation raw;
+  EvaluationRequest request{shared, own};
+  request.whiten = false;
+  evaluator.Evaluate(request, raw);
+  const TrialProblem& trial = evaluator.trial();
+  RowMajorMatrix rows = raw.residuals.head(raw.data_residuals);
+  Eigen::VectorXd log_roots = Eigen::VectorXd::Zero(rows.rows());
+  evaluator.WhitenRows(problem.noise, rows, &log_roots);
+  Eigen::Index row = 0;
+  for (std::size_t cell = 0; cell < trial.data.size(); ++cell) {
+    if (std::isnan(trial.data[cell])) continue;
+    out.sample_times.push_back(trial.row_times[cell / problem.channels.size()]);
+    out.sample_nll.push_back(0.5 * rows(row, 0) * rows(row, 0) + log_roots[row]);
+    ++row;
+  }
+}
+
 }  // namespace
 
 std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult& fit,
-                                      const FitOptions& options) {
-  std::vector<std::array<double, 4>> starts(problem.trials.size());
+                                      const FitOptions& options, bool test_only) {
+  std::vector<OwnValues> starts(problem.trials.size());
   std::size_t train = 0;
   for (std::size_t i = 0; i < problem.trials.size(); ++i) {
     if (problem.trials[i].role == TrialRole::kTrain) starts[i] = fit.starts[train++];
@@ -76,13 +95,14 @@ std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult
   std::vector<TrialErrors> errors(problem.trials.size());
   ParallelFor(static_cast<int>(errors.size()), options.jobs, [&](int i) {
     const TrialProblem& trial = problem.trials[i];
+    TrialErrors& out = errors[i];
+    out.file = trial.file;
+    out.role = trial.role;
+    if (test_only && trial.role == TrialRole::kTrain) return;
     if (trial.role == TrialRole::kTest) starts[i] = RefitStart(problem, trial, fit.shared, options);
     const TrialEvaluator evaluator(problem, trial);
     TrialEvaluation e;
     evaluator.Evaluate({fit.shared, starts[i], false}, e);
-    TrialErrors& out = errors[i];
-    out.file = trial.file;
-    out.role = trial.role;
     out.outcome = e.trajectory.outcome;
     out.end_time = e.trajectory.end_time;
     out.complete = e.complete;
@@ -95,7 +115,9 @@ std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult
     if (e.complete) {
       out.rmse = Rmse(trial, e.trajectory, channels, 0, trial.row_times.size());
       out.hops = PerHop(trial, e.trajectory, channels);
-      out.chi2 = e.residuals.head(e.data_residuals).squaredNorm();
+      out.chi2 = e.white_square;
+      AddSampleLikelihoods(problem, evaluator, fit.shared, starts[i], out);
+      out.prior_nll = 0.5 * e.residuals.tail(e.residuals.size() - e.data_residuals).squaredNorm();
       double nll = 0.5 * out.chi2;
       for (std::size_t cell = 0; cell < trial.data.size(); ++cell) {
         if (std::isnan(trial.data[cell])) continue;

@@ -26,10 +26,14 @@ struct TrialErrors {
   double nll_per_sample;     // Gaussian, with the channels' sigma; NaN unless complete
   double chi2 = 0.0;         // of the data's whitened residuals
   long samples;
+  /// Of each sample in turn: its time, and - log density under the problem's noise given those
+  /// before it, in units of its sigma [nats, but for log(2 pi)/2]; empty unless complete.
+  std::vector<double> sample_times, sample_nll;
+  double prior_nll = 0.0;  // of its own values, half the sum of squares under their priors
   std::vector<HopErrors> hops;
-  std::array<double, 4> start;  // fitted
-  double max_flexure = 0.0;     // F C/l0; beyond 0.2 `large_deflection` is not to be trusted
-  Trajectory trajectory;        // samples at the rows
+  OwnValues start;           // fitted own values, those of the start first
+  double max_flexure = 0.0;  // F C/l0; beyond 0.2 `large_deflection` is not to be trusted
+  Trajectory trajectory;     // samples at the rows
 };
 
 /// Means over trials of one role.
@@ -43,8 +47,9 @@ struct RoleErrors {
 /// Errors at the fitted values. Train trials keep their fitted starts; a test trial's start is
 /// refitted under its prior with the shared values held (a nominal start may be off by more than
 /// the model is).
+/// With `test_only` nothing but the role and the file of a train trial is filled in.
 std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult& fit,
-                                      const FitOptions& options);
+                                      const FitOptions& options, bool test_only = false);
 RoleErrors Summarise(const FitProblem& problem, const std::vector<TrialErrors>& trials,
                      TrialRole role);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fitting/driven_trial.h"
+
 namespace hoplab {
 namespace {
 
@@ -62,10 +64,29 @@ double ApplyLoss(const Loss& loss, double& r) {
   return slope;
 }
 
+// Where among a trial's inputs the one of a shared direction is; -1: it has none.
+int InputPlace(const TrialProblem& trial, const SensitivityDirection& direction) {
+  for (std::size_t i = 0; i < trial.inputs.size(); ++i)
+    if (static_cast<int>(trial.inputs[i].kind) == direction.index) return static_cast<int>(i);
+  return -1;
+}
+
+// A shared direction in one trial's request: an input by its place there. What does not act in the
+// trial is differentiated by something else, and its column emptied.
+SensitivityDirection DirectionIn(const TrialProblem& trial, const SharedParameter& shared) {
+  SensitivityDirection d = shared.direction;
+  if (d.of != SensitivityDirection::Of::kInput) return d;
+  d.index = InputPlace(trial, d);
+  return d.index >= 0 ? d : SensitivityDirection::InitialState(0);
+}
+
 }  // namespace
 
 bool ActsIn(const SharedParameter& parameter, const TrialProblem& trial) {
-  return parameter.only_recording.empty() || parameter.only_recording == trial.recording;
+  if (!parameter.only_recording.empty() && parameter.only_recording != trial.recording)
+    return false;
+  return parameter.direction.of != SensitivityDirection::Of::kInput ||
+         InputPlace(trial, parameter.direction) >= 0;
 }
 
 void ApplyShared(const FitProblem& problem, const TrialProblem& trial,
@@ -77,9 +98,18 @@ void ApplyShared(const FitProblem& problem, const TrialProblem& trial,
     const SensitivityDirection& d = problem.shared[i].direction;
     if (d.of == SensitivityDirection::Of::kParameter)
       Field(parameters, d.parameter) = shared[i];
-    else
+    else if (d.of == SensitivityDirection::Of::kEffect)
       effects[d.index].values[d.component] = shared[i];
   }
+}
+
+std::vector<double> InitialOf(const TrialProblem& trial, const Eigen::Ref<const OwnValues>& own) {
+  std::vector<double> initial;
+  for (int k = 0; k < trial.own_count(); ++k) {
+    if (trial.own[k].direction.of == SensitivityDirection::Of::kInitialState)
+      initial.push_back(own[k]);
+  }
+  return initial;
 }
 
 TrialEvaluator::TrialEvaluator(const FitProblem& problem, const TrialProblem& trial)
@@ -88,25 +118,31 @@ TrialEvaluator::TrialEvaluator(const FitProblem& problem, const TrialProblem& tr
     channels_.push_back(c.channel);
     sigma_.push_back(c.sigma);
   }
-  for (const SharedParameter& s : problem.shared) directions_.push_back(s.direction);
-  for (int i = 0; i < 4; ++i) directions_.push_back(SensitivityDirection::InitialState(i));
+  for (const SharedParameter& s : problem.shared) directions_.push_back(DirectionIn(trial, s));
+  for (const OwnParameter& o : trial.own) directions_.push_back(o.direction);
+  channel_rows_.resize(channels_.size());
+  int row = 0;
+  for (std::size_t cell = 0; cell < trial.data.size(); ++cell) {
+    if (std::isnan(trial.data[cell])) continue;
+    ChannelRows& c = channel_rows_[cell % channels_.size()];
+    c.rows.push_back(row++);
+    c.times.push_back(trial.row_times[cell / channels_.size()]);
+  }
   horizon_ = trial.row_times.back();
   if (problem.uses_contact) horizon_ += kContactMargin;
   horizon_ = std::max(horizon_, LatestReading(problem.effects, trial.row_times.back()));
+  horizon_ += LatestClock(problem, trial);
   residual_count_ = static_cast<int>(trial.sample_count);
-  for (double sigma : trial.prior_sigma) residual_count_ += std::isfinite(sigma) ? 1 : 0;
+  for (const OwnParameter& o : trial.own) residual_count_ += std::isfinite(o.prior_sigma) ? 1 : 0;
+  residual_count_ += static_cast<int>(trial.shared_priors.size());
 }
 
 void TrialEvaluator::Simulate(const EvaluationRequest& request, const IntegratorOptions& integrator,
                               Trajectory& out) const {
-  SimulationRequest sim;
-  sim.law = problem_->law;
-  sim.liftoff = trial_->liftoff;
-  sim.parameters = trial_->parameters;
-  std::vector<EffectSetting> effects;
-  ApplyShared(*problem_, *trial_, request.shared, sim.parameters, effects);
-  sim.effects = effects;
-  sim.initial = request.start;
+  TrialRequest trial_request;
+  FillTrialRequest(*problem_, *trial_, request.shared, request.own, trial_request);
+  SimulationRequest& sim = trial_request.request;
+  sim.fly_on = request.fly_on;
   sim.horizon = horizon_;
   sim.row_times = trial_->row_times;
   sim.channels = channels_;
@@ -121,19 +157,18 @@ void TrialEvaluator::Simulate(const EvaluationRequest& request, const Integrator
 void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation& out) const {
   Trajectory& trajectory = out.trajectory;
   Simulate(request, problem_->integrator, trajectory);
-  out.complete = false;
+  out.complete = out.evaluated = false;
   out.data_residuals = static_cast<int>(trial_->sample_count);
   out.residuals.resize(residual_count_);
-  const int shared = problem_->shared_count();
-  const int width = shared + 4;
+  const int shared = problem_->shared_count(), width = column_count();
   if (request.want_jacobian) out.jacobian.resize(residual_count_, width);
 
   int next = 0;
+  bool complete = true;
   const auto add = [&](double residual, const double* slopes, double scale) {
-    const double slope = ApplyLoss(request.loss, residual);
     out.residuals[next] = residual;
     if (request.want_jacobian) {
-      for (int k = 0; k < width; ++k) out.jacobian(next, k) = slope * scale * slopes[k];
+      for (int k = 0; k < width; ++k) out.jacobian(next, k) = scale * slopes[k];
     }
     ++next;
   };
@@ -142,34 +177,59 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
   for (std::size_t cell = 0; cell < trial_->data.size(); ++cell) {
     if (std::isnan(trial_->data[cell])) continue;
     if (std::isnan(trajectory.samples[cell])) return;
+    const bool in_run = static_cast<int>(cell / columns) < trajectory.rows_in_run;
+    complete = complete && in_run;
     const double weight = 1.0 / sigma_[cell % columns];
     add((trajectory.samples[cell] - trial_->data[cell]) * weight,
         request.want_jacobian ? &trajectory.sensitivities[cell * width] : nullptr, weight);
   }
+  const std::vector<double> no_slopes(static_cast<std::size_t>(width), 0.0);
   const auto add_times = [&](EventKind kind, const std::vector<double>& measured,
                              const std::vector<double>& sigma) {
     const std::vector<EventTime> simulated = TimesOf(trajectory, kind);
-    if (simulated.size() < measured.size()) return false;
     for (std::size_t i = 0; i < measured.size(); ++i) {
-      add((simulated[i].time - measured[i]) / sigma[i],
-          request.want_jacobian ? &trajectory.event_time_sensitivities[simulated[i].index * width]
-                                : nullptr,
-          1.0 / sigma[i]);
+      const bool made = i < simulated.size();
+      complete = complete && made;
+      const double time = made ? simulated[i].time : horizon_;
+      const double* slopes = !request.want_jacobian ? nullptr
+                             : !made
+                                 ? no_slopes.data()
+                                 : &trajectory.event_time_sensitivities[simulated[i].index * width];
+      add((time - measured[i]) / sigma[i], slopes, 1.0 / sigma[i]);
     }
-    return true;
+    return complete || request.fly_on;
   };
   const EventKind down = problem_->law == Law::kBall ? EventKind::kBounce : EventKind::kTouchdown;
   if (!add_times(down, trial_->contact.touchdown_s, trial_->contact.touchdown_sigma_s)) return;
   if (!add_times(EventKind::kLiftoff, trial_->contact.liftoff_s, trial_->contact.liftoff_sigma_s))
     return;
 
+  out.white_square = out.residuals.head(next).squaredNorm();
+  out.half_log_determinant = 0.0;
+  if (request.whiten && !problem_->noise.IsWhite()) Whiten(out, request.want_jacobian);
+  if (request.loss.kind != LossKind::kSquared) {
+    for (int i = 0; i < next; ++i) {
+      const double slope = ApplyLoss(request.loss, out.residuals[i]);
+      if (request.want_jacobian) out.jacobian.row(i) *= slope;
+    }
+  }
+
   // The prior is not a measurement with outliers: no loss on it.
-  for (int i = 0; i < 4; ++i) {
-    if (!std::isfinite(trial_->prior_sigma[i])) continue;
-    out.residuals[next] = (request.start[i] - trial_->prior_mean[i]) / trial_->prior_sigma[i];
+  for (int k = 0; k < trial_->own_count(); ++k) {
+    const OwnParameter& o = trial_->own[k];
+    if (!std::isfinite(o.prior_sigma)) continue;
+    out.residuals[next] = (request.own[k] - o.prior_mean) / o.prior_sigma;
     if (request.want_jacobian) {
       out.jacobian.row(next).setZero();
-      out.jacobian(next, shared + i) = 1.0 / trial_->prior_sigma[i];
+      out.jacobian(next, shared + k) = 1.0 / o.prior_sigma;
+    }
+    ++next;
+  }
+  for (const SharedPrior& prior : trial_->shared_priors) {
+    out.residuals[next] = (request.shared[prior.shared] - prior.mean) / prior.sigma;
+    if (request.want_jacobian) {
+      out.jacobian.row(next).setZero();
+      out.jacobian(next, prior.shared) = 1.0 / prior.sigma;
     }
     ++next;
   }
@@ -178,7 +238,32 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
       if (!ActsIn(problem_->shared[k], *trial_)) out.jacobian.col(k).setZero();
     }
   }
-  out.complete = next == residual_count_;
+  out.evaluated = next == residual_count_;
+  out.complete = out.evaluated && complete;
+}
+
+double TrialEvaluator::WhitenRows(const NoiseModel& noise,
+                                  Eigen::Ref<RowMajorMatrix> block,  // NOLINT: a view, written to
+                                  Eigen::VectorXd* log_roots) const {
+  double half_log_determinant = 0.0;
+  for (std::size_t c = 0; c < channels_.size(); ++c) {
+    const double ratio = noise.AmplitudeOf(c);
+    if (!(ratio > 0.0)) continue;
+    const ChannelRows& at = channel_rows_[c];
+    half_log_determinant +=
+        WhitenMatern(at.times, at.rows, ratio, noise.time_scale, block, log_roots);
+  }
+  return half_log_determinant;
+}
+
+void TrialEvaluator::Whiten(TrialEvaluation& out, bool jacobian) const {
+  const Eigen::Index columns = jacobian ? out.jacobian.cols() : 0;
+  RowMajorMatrix block(out.data_residuals, columns + 1);
+  if (jacobian) block.leftCols(columns) = out.jacobian.topRows(out.data_residuals);
+  block.col(columns) = out.residuals.head(out.data_residuals);
+  out.half_log_determinant = WhitenRows(problem_->noise, block);
+  if (jacobian) out.jacobian.topRows(out.data_residuals) = block.leftCols(columns);
+  out.residuals.head(out.data_residuals) = block.col(columns);
 }
 
 TrialProblem CutTrial(const FitProblem& problem, const TrialProblem& trial, int first, int last) {
@@ -209,7 +294,13 @@ TrialProblem CutTrial(const FitProblem& problem, const TrialProblem& trial, int 
             cut.contact.touchdown_sigma_s);
   cut_times(trial.contact.liftoff_s, trial.contact.liftoff_sigma_s, cut.contact.liftoff_s,
             cut.contact.liftoff_sigma_s);
-  if (first > 0) cut.prior_sigma.fill(std::numeric_limits<double>::infinity());
+  if (first > 0) {
+    for (OwnParameter& o : cut.own) {
+      if (o.direction.of == SensitivityDirection::Of::kInitialState)
+        o.prior_sigma = std::numeric_limits<double>::infinity();
+    }
+  }
+  CutDriven(cut, origin, end, first == 0);
   return cut;
 }
 

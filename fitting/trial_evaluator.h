@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
+#include "fitting/discrepancy/matern_filter.h"
 #include "fitting/problem.h"
 
 namespace hoplab {
@@ -19,22 +19,40 @@ struct Loss {
 /// A trial compared with its simulation.
 struct TrialEvaluation {
   Trajectory trajectory;
-  /// Every datum has a simulated counterpart. If not, `residuals` and `jacobian` are not filled.
+  /// Every datum has a simulated counterpart.
   bool complete = false;
-  /// Whitened: (simulated - measured)/sigma of the data that are there, row by row, then contact
-  /// times, then the prior on the start; the loss is worked in.
+  /// `residuals` and `jacobian` are filled: complete, or read on from a free flight past the end
+  /// (EvaluationRequest::fly_on).
+  bool evaluated = false;
+  /// Whitened by the problem's noise: (simulated - measured)/sigma of the data that are there, row
+  /// by row, then contact times, then priors; the loss is worked in.
   Eigen::VectorXd residuals;
-  /// d residuals / d [shared parameters, start], in their own units. Empty unless asked for.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian;
+  /// d residuals / d [shared parameters, own ones], in their own units. Empty unless asked for.
+  RowMajorMatrix jacobian;
   int data_residuals = 0;  // how many of `residuals` come from data, the prior's left out
+  /// Sum of squares of the data's residuals over the channels' sigma, before the discrepancy is
+  /// whitened and without a loss.
+  double white_square = 0.0;
+  /// Half the logarithm of the determinant of the noise, in units of the channels' sigma.
+  double half_log_determinant = 0.0;
 };
 
 /// What is asked of an evaluation.
 struct EvaluationRequest {
   Eigen::Ref<const Eigen::VectorXd> shared;  // values in their own units
-  std::array<double, 4> start;
+  Eigen::Ref<const OwnValues> own;           // the trial's own values
   bool want_jacobian = false;
   Loss loss = {};
+  /// A simulation that ends before its data goes on as a free flight, so that a search can step
+  /// back; contacts it does not make count as if they came at its horizon.
+  bool fly_on = false;
+  bool whiten = true;  // false: residuals and Jacobian in units of the channels' sigma
+};
+
+/// Where a channel's samples stand among the residuals, and when they were taken [s].
+struct ChannelRows {
+  std::vector<int> rows;
+  std::vector<double> times;
 };
 
 /// Compares one trial with the simulation; reuses its memory from call to call. The problem and the
@@ -47,9 +65,18 @@ class TrialEvaluator {
   /// Rows of `residuals`, the same for every complete evaluation.
   int residual_count() const { return residual_count_; }
   const TrialProblem& trial() const { return *trial_; }
+  const std::vector<ChannelRows>& channel_rows() const { return channel_rows_; }
+  /// Columns of `jacobian`: the shared parameters and the trial's own.
+  int column_count() const { return static_cast<int>(directions_.size()); }
+
+  /// Whitens rows laid out as `residuals` (priors left out or not) by a noise; returns half the
+  /// logarithm of its determinant in units of the channels' sigma.
+  /// `log_roots`, if there (one a row), gets what each row adds to that.
+  double WhitenRows(const NoiseModel& noise, Eigen::Ref<RowMajorMatrix> block,
+                    Eigen::VectorXd* log_roots = nullptr) const;
 
   /// The simulation alone: the request of this trial at these values, every problem channel in
-  /// every row, sensitivities with respect to [shared, start] if wanted.
+  /// every row, sensitivities with respect to [shared, own] if wanted.
   void Simulate(const EvaluationRequest& request, const IntegratorOptions& integrator,
                 Trajectory& out) const;
 
@@ -59,6 +86,9 @@ class TrialEvaluator {
   std::vector<Channel> channels_;
   std::vector<double> sigma_;
   std::vector<SensitivityDirection> directions_;
+  std::vector<ChannelRows> channel_rows_;
+
+  void Whiten(TrialEvaluation& out, bool jacobian) const;
   double horizon_ = 0.0;
   int residual_count_ = 0;
 };
@@ -70,6 +100,9 @@ bool ActsIn(const SharedParameter& parameter, const TrialProblem& trial);
 void ApplyShared(const FitProblem& problem, const TrialProblem& trial,
                  const Eigen::Ref<const Eigen::VectorXd>& shared, Parameters<double>& parameters,
                  std::vector<EffectSetting>& effects);
+
+/// State a trial's simulation begins with, out of its own values.
+std::vector<double> InitialOf(const TrialProblem& trial, const Eigen::Ref<const OwnValues>& own);
 
 /// The trial cut to its rows [first, last), its time starting anew at `first`.
 TrialProblem CutTrial(const FitProblem& problem, const TrialProblem& trial, int first, int last);

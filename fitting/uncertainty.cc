@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "fitting/eliminated_trial.h"
 
 namespace hoplab {
 namespace {
@@ -19,48 +20,24 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRankTolerance = 1e-8;
 constexpr double kNormal975 = 1.959963984540054;
 
-// One trial's whitened residuals and sensitivities in scaled units, its starts projected out.
 struct Reduced {
-  Eigen::VectorXd r;  // residuals orthogonal to what the start can explain
-  Eigen::MatrixXd S;  // shared columns, likewise
-  int samples = 0;    // of data
-  double chi2 = 0.0;  // of data and prior
+  EliminatedTrial trial;
+  int samples = 0;    // of data; 0: the simulation ends before them
+  double chi2 = 0.0;  // of data over the channels' sigma, and of priors
 };
 
-// Empty if the simulation ends before the data.
 Reduced ReduceTrial(const FitProblem& problem, const TrialProblem& trial,
-                    const Eigen::VectorXd& shared, const std::array<double, 4>& start,
-                    const Loss& loss) {
+                    const Eigen::VectorXd& shared, const OwnValues& start, const Loss& loss,
+                    const std::vector<KeptColumn>& columns) {
   const TrialEvaluator evaluator(problem, trial);
   TrialEvaluation e;
   evaluator.Evaluate({shared, start, true, loss}, e);
   Reduced out;
   if (!e.complete) return out;
   out.samples = e.data_residuals;
-  out.chi2 = e.residuals.squaredNorm();
-  const int n = problem.shared_count();
-  Eigen::MatrixXd S = e.jacobian.leftCols(n);
-  for (int k = 0; k < n; ++k) S.col(k) *= problem.shared[k].scale;
-  Eigen::MatrixXd Z(e.jacobian.rows(), 4);
-  int free = 0;
-  for (int k = 0; k < 4; ++k) {
-    if (trial.start_free[k]) Z.col(free++) = e.jacobian.col(n + k) * trial.start_scale[k];
-  }
-  Z.conservativeResize(Eigen::NoChange, free);
-  out.r = e.residuals;
-  out.S = S;
-  if (free == 0) return out;
-  // Columns of very different length (a prior of 1e-9 beside one of 0.02) are scaled first; a
-  // direction of the start no sample sees drops out by rank.
-  for (int k = 0; k < free; ++k) {
-    const double norm = Z.col(k).norm();
-    if (norm > 0.0) Z.col(k) /= norm;
-  }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(Z);
-  qr.setThreshold(1e-10);
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(Z.rows(), qr.rank());
-  out.r -= Q * (Q.transpose() * out.r);
-  out.S -= Q * (Q.transpose() * out.S);
+  const Eigen::Index priors = e.residuals.size() - e.data_residuals;
+  out.chi2 = e.white_square + e.residuals.tail(priors).squaredNorm();
+  out.trial = EliminateOwn(trial, e, problem.shared_count(), columns);
   return out;
 }
 
@@ -76,55 +53,52 @@ bool AtBound(double value, const SharedParameter& s) {
 }  // namespace
 
 Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                              const Eigen::VectorXd& shared,
-                              const std::vector<std::array<double, 4>>& starts, const Loss& loss,
-                              int jobs) {
+                              const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
+                              const Loss& loss, int jobs) {
   const int n = problem.shared_count();
-  std::vector<Reduced> reduced(trials.size());
-  ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
-    reduced[i] = ReduceTrial(problem, trials[i], shared, starts[i], loss);
-  });
-
   Uncertainty out;
   out.parameters.resize(n);
-  long rows = 0, samples = 0, free_starts = 0, priors = 0, used = 0;
+  // Values on a bound are taken as given; what the rest would do if they moved is a question for
+  // the profile.
+  std::vector<int> active;
+  std::vector<KeptColumn> columns;
+  for (int k = 0; k < n; ++k) {
+    out.parameters[k].at_bound = AtBound(shared[k], problem.shared[k]);
+    if (out.parameters[k].at_bound) continue;
+    active.push_back(k);
+    columns.push_back({k, problem.shared[k].scale});
+  }
+  const int m = static_cast<int>(active.size());
+
+  std::vector<Reduced> reduced(trials.size());
+  ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
+    reduced[i] = ReduceTrial(problem, trials[i], shared, starts[i], loss, columns);
+  });
+  long samples = 0, free_own = 0, priors = 0, used = 0;
   double chi2 = 0.0;
+  std::vector<EliminatedTrial> parts;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    rows += reduced[i].r.size();
     samples += reduced[i].samples;
     chi2 += reduced[i].chi2;
     if (reduced[i].samples == 0) continue;
     ++used;
-    for (int k = 0; k < 4; ++k) {
-      free_starts += trials[i].start_free[k];
-      priors += std::isfinite(trials[i].prior_sigma[k]);
+    parts.push_back(reduced[i].trial);
+    for (const OwnParameter& o : trials[i].own) {
+      free_own += o.free;
+      priors += std::isfinite(o.prior_sigma);
     }
   }
 
-  // Values on a bound are taken as given; what the rest would do if they moved is a question for
-  // the profile.
-  std::vector<int> active;
-  for (int k = 0; k < n; ++k) {
-    out.parameters[k].at_bound = AtBound(shared[k], problem.shared[k]);
-    if (!out.parameters[k].at_bound) active.push_back(k);
-  }
-  const int m = static_cast<int>(active.size());
-
-  const double dof = std::max<double>(static_cast<double>(samples + priors - free_starts - m), 1.0);
+  const double dof = std::max<double>(static_cast<double>(samples + priors - free_own - m), 1.0);
   out.chi2_per_dof = chi2 / dof;
   out.chi2_p_value = boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), chi2));
   out.misfit = out.chi2_p_value < 1e-3;
 
-  Eigen::MatrixXd S(rows, m);
-  long at = 0;
-  for (const Reduced& trial : reduced) {
-    if (trial.samples == 0) continue;
-    for (int j = 0; j < m; ++j) S.block(at, j, trial.S.rows(), 1) = trial.S.col(active[j]);
-    at += trial.S.rows();
-  }
+  const EliminatedTrial all = Stacked(parts);
+  const Eigen::MatrixXd& S = all.columns;
   out.covariance = Eigen::MatrixXd::Constant(n, n, kNaN);
   out.correlation = Eigen::MatrixXd::Constant(n, n, kNaN);
-  if (m == 0 || rows < m) return out;
+  if (m == 0 || S.rows() < m) return out;
 
   const Eigen::MatrixXd R =
       Eigen::HouseholderQR<Eigen::MatrixXd>(S).matrixQR().topRows(m).triangularView<Eigen::Upper>();
@@ -154,10 +128,8 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
 
   // Between trials: C (sum of trial scores squared) C, the scores being what each trial pulls.
   Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(m, m);
-  for (const Reduced& trial : reduced) {
-    if (trial.samples == 0) continue;
-    Eigen::VectorXd score(m);
-    for (int j = 0; j < m; ++j) score[j] = trial.S.col(active[j]).dot(trial.r);
+  for (const EliminatedTrial& trial : parts) {
+    const Eigen::VectorXd score = trial.columns.transpose() * trial.residuals;
     pull += score * score.transpose();
   }
   const double groups = static_cast<double>(used);

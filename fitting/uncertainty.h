@@ -54,8 +54,7 @@ inline constexpr double kWeakStdError = 0.3;
 /// Linearises `trials` (of `problem`) at given values. Trials whose simulation ends before their
 /// data are left out.
 Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                              const Eigen::VectorXd& shared,
-                              const std::vector<std::array<double, 4>>& starts, const Loss& loss,
-                              int jobs);
+                              const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
+                              const Loss& loss, int jobs);
 
 }  // namespace hoplab

@@ -13,6 +13,11 @@ namespace hoplab {
 template <int N>
 using Jet = ceres::Jet<double, N>;
 
+/// Widths of the dual numbers the simulator is built for; a run with more directions is cut into
+/// chunks. Measured in docs/decisions/0002-sensitivities.md.
+inline constexpr int kNarrowJet = 4;
+inline constexpr int kWideJet = 8;
+
 template <class T>
 struct JetWidth : std::integral_constant<int, 0> {};
 template <int N>

@@ -2,9 +2,11 @@
 
 namespace hoplab {
 namespace {
-constexpr std::array<std::string_view, kChannelCount> kNames = {
-    "body_x_m",     "body_y_m",         "body_vx_m_per_s",  "body_vy_m_per_s", "leg_angle_rad",
-    "leg_length_m", "ground_force_x_N", "ground_force_y_N", "hip_torque_N_m",  "contact"};
+constexpr std::array<std::string_view, kSeenCount> kNames = {
+    "body_x_m",         "body_y_m",         "body_vx_m_per_s",  "body_vy_m_per_s", "leg_angle_rad",
+    "leg_length_m",     "ground_force_x_N", "ground_force_y_N", "hip_torque_N_m",  "contact",
+    "body_ax_m_per_s2", "body_ay_m_per_s2", "imu_ax_m_per_s2",  "imu_ay_m_per_s2", "contact_x_m",
+    "contact_y_m",      "contact_arc_rad"};
 }  // namespace
 
 std::string_view NameOf(Channel channel) { return kNames[static_cast<std::size_t>(channel)]; }

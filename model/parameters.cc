@@ -40,8 +40,8 @@ constexpr std::array kStraightLegParameters = {kStiffness, kD,  kRestLength, kM,
 constexpr std::array kToeParameters = {kToeMass, kKpPlace, kKdPlace};
 constexpr std::array kBallParameters = {kRestitution, kTangentialLoss, kM, kGravity, kRadius};
 
-constexpr std::array kCLegLaws = {Law::kLargeDeflection, Law::kConsistent, Law::kNoSlip,
-                                  Law::kThesis};
+constexpr std::array kCLegLaws = {Law::kElastica, Law::kLargeDeflection, Law::kConsistent,
+                                  Law::kNoSlip, Law::kThesis};
 constexpr std::array kStraightLegLaws = {Law::kStraightLeg};
 constexpr std::array kBallLaws = {Law::kBall};
 
@@ -50,9 +50,12 @@ struct LawText {
   std::string_view name;
   std::string_view sentence;
 };
-constexpr std::array<LawText, 6> kLaws = {{
+constexpr std::array<LawText, 7> kLaws = {{
     {Law::kLargeDeflection, "large_deflection",
-     "c_leg, default: static equilibrium of the elastic arc with the next term of the elastica; "
+     "c_leg: static equilibrium of the elastic arc with the next term of the elastica; conserves "
+     "energy."},
+    {Law::kElastica, "elastica",
+     "c_leg, default: static equilibrium of an inextensible elastic arc, exact for any load; "
      "conserves energy."},
     {Law::kConsistent, "consistent",
      "c_leg: static equilibrium of the elastic arc, first-order bending with tip rotation; "

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
 
 #include "base/thesis_variant.h"
+#include "model/inputs.h"
 
 namespace hoplab {
 
@@ -13,7 +15,7 @@ namespace hoplab {
 enum class MechanismKind { kCLeg, kStraightLeg, kBall };
 
 /// How a C-leg carries its load; section 3 of the equation sheet.
-enum class Law { kThesis, kNoSlip, kConsistent, kLargeDeflection, kStraightLeg, kBall };
+enum class Law { kThesis, kNoSlip, kConsistent, kLargeDeflection, kStraightLeg, kBall, kElastica };
 
 /// What ends a stance: the chord force back at zero, or the chord back at its rest length.
 enum class LiftoffRule { kZeroForce, kRestLength };
@@ -27,6 +29,11 @@ struct LawTerms {
   bool rolling_active = false;
   bool torque_active = false;
   bool second_order_active = false;
+  bool slopes_active = false;  // something asks how arc and contact follow the hip
+  bool leg_mass_active = false;
+  bool foot_friction_active = false;
+  bool higher_order_active = false;
+  bool material_damping_active = false;
   T hardening{0.0};          // beta [-]
   T rolling{0.0};            // share of the other rolling law [-]
   T tip{0.0};                // share of the tip's rotation [-]
@@ -35,6 +42,10 @@ struct LawTerms {
   T ground_compliance{0.0};  // c_g [m/N]
   T second_order{0.0};       // share of M2b under laws without it [-]
   T foot_slip{0.0};          // c_slip [m/(N s)]
+  T leg_mass{0.0};           // of the mass m that is weighed, the leg's [kg]
+  T foot_friction{0.0};      // 1/mu under the foot [-]
+  T material_damping{0.0};   // tau of the strip's Kelvin-Voigt material [s]
+  T higher_order{0.0};       // share of what large_deflection lacks of the elastica [-]
 };
 
 /// Everything physical about one trial, in SI units and radians. Fields a mechanism does not use
@@ -74,11 +85,17 @@ struct Parameters {
   T torque_lag{0.0};                  // time constant of the hip torque [s]
   T rest_length_step{0.0};            // growth of l0 at greatest compression [m]
   bool has_rest_length_step = false;  // greatest compression is an event
+  // Added to those of the run's inputs, by InputKind: delay [s], scale [-].
+  std::array<T, kInputKinds> input_delay{T(0.0), T(0.0), T(0.0), T(0.0)};
+  std::array<T, kInputKinds> input_scale{T(0.0), T(0.0), T(0.0), T(0.0)};
   LawTerms<T> law_terms;
   // Settings without derivatives.
   ThesisVariant variant;  // of the law `thesis`; its torque_sign of every leg
   double torque_limit = std::numeric_limits<double>::infinity();  // T_max [N m]
   double fall_height = std::numeric_limits<double>::quiet_NaN();  // y_min [m]; NaN: the default
+  bool on_guide = false;                                          // a vertical guide holds x
+  /// Leg angle of the first touch-down [rad], M47; NaN: theta_td.
+  double start_angle = std::numeric_limits<double>::quiet_NaN();
   double time_origin = 0.0;  // time of the run's start since the trial's first row [s]
 };
 

@@ -22,6 +22,15 @@ Parameters<To> ConvertParameters(const Parameters<From>& from) {
   to.law_terms.rolling_active = terms.rolling_active;
   to.law_terms.torque_active = terms.torque_active;
   to.law_terms.second_order_active = terms.second_order_active;
+  to.law_terms.slopes_active = terms.slopes_active;
+  to.law_terms.leg_mass_active = terms.leg_mass_active;
+  to.law_terms.foot_friction_active = terms.foot_friction_active;
+  to.law_terms.higher_order_active = terms.higher_order_active;
+  to.law_terms.material_damping_active = terms.material_damping_active;
+  to.law_terms.material_damping = To(Value(terms.material_damping));
+  to.law_terms.leg_mass = To(Value(terms.leg_mass));
+  to.law_terms.foot_friction = To(Value(terms.foot_friction));
+  to.law_terms.higher_order = To(Value(terms.higher_order));
   to.law_terms.hardening = To(Value(terms.hardening));
   to.law_terms.rolling = To(Value(terms.rolling));
   to.law_terms.tip = To(Value(terms.tip));
@@ -30,10 +39,16 @@ Parameters<To> ConvertParameters(const Parameters<From>& from) {
   to.law_terms.stiffness_drift = To(Value(terms.stiffness_drift));
   to.law_terms.ground_compliance = To(Value(terms.ground_compliance));
   to.law_terms.foot_slip = To(Value(terms.foot_slip));
+  for (int k = 0; k < kInputKinds; ++k) {
+    to.input_delay[k] = To(Value(from.input_delay[k]));
+    to.input_scale[k] = To(Value(from.input_scale[k]));
+  }
+  to.on_guide = from.on_guide;
   to.variant = from.variant;
   to.time_origin = from.time_origin;
   to.torque_limit = from.torque_limit;
   to.fall_height = from.fall_height;
+  to.start_angle = from.start_angle;
   return to;
 }
 

@@ -2,55 +2,19 @@
 
 #include <limits>
 
-#include "model/automata.h"
+#include "model/mechanisms/ball.h"
+#include "model/mechanisms/leg.h"
+#include "model/mechanisms/toe_mass_body.h"
+#include "model/run.h"
 
 namespace hoplab {
 namespace {
 
-struct Automaton {
-  void (*run)(const SimulationRequest&, Trajectory&);
-  double (*energy)(const SimulationRequest&, Mode, std::span<const double>);
-};
-
-Automaton MasslessAutomatonOf(Law law) {
-  switch (law) {
-    case Law::kThesis:
-      return {RunThesis, EnergyThesis};
-    case Law::kNoSlip:
-      return {RunNoSlip, EnergyNoSlip};
-    case Law::kConsistent:
-      return {RunConsistent, EnergyConsistent};
-    case Law::kLargeDeflection:
-      return {RunLargeDeflection, EnergyLargeDeflection};
-    case Law::kStraightLeg:
-      return {RunStraightLeg, EnergyStraightLeg};
-    case Law::kBall:
-      return {RunBall, EnergyBall};
-  }
-  return {};
-}
-
-Automaton ToeMassAutomatonOf(Law law) {
-  switch (law) {
-    case Law::kThesis:
-      return {RunToeMassThesis, EnergyToeMassThesis};
-    case Law::kNoSlip:
-      return {RunToeMassNoSlip, EnergyToeMassNoSlip};
-    case Law::kConsistent:
-      return {RunToeMassConsistent, EnergyToeMassConsistent};
-    case Law::kLargeDeflection:
-      return {RunToeMassLargeDeflection, EnergyToeMassLargeDeflection};
-    case Law::kStraightLeg:
-      return {RunToeMassStraightLeg, EnergyToeMassStraightLeg};
-    case Law::kBall:
-      break;
-  }
-  return MasslessAutomatonOf(law);
-}
-
-Automaton AutomatonOf(const SimulationRequest& request) {
-  return request.parameters.m_toe > 0.0 ? ToeMassAutomatonOf(request.law)
-                                        : MasslessAutomatonOf(request.law);
+const Mechanism& MechanismFor(const SimulationRequest& request) {
+  static constexpr Mechanism kBall = MakeMechanism<Ball>();
+  static constexpr Mechanism kWithToe = MakeMechanism<ToeMassBody>();
+  if (request.law == Law::kBall) return kBall;
+  return request.parameters.m_toe > 0.0 ? kWithToe : LegLawOf(request.law).body;
 }
 
 }  // namespace
@@ -63,7 +27,7 @@ void Simulate(const SimulationRequest& request, Trajectory& out) {
   const std::size_t cells = request.row_times.size() * request.channels.size();
   out.samples.assign(cells, kMissing);
   out.sensitivities.assign(cells * request.directions.size(), kMissing);
-  AutomatonOf(request).run(request, out);
+  RunRequest(request, MechanismFor(request), out);
 }
 
 Trajectory Simulate(const SimulationRequest& request) {
@@ -73,7 +37,7 @@ Trajectory Simulate(const SimulationRequest& request) {
 }
 
 double Energy(const SimulationRequest& request, Mode mode, std::span<const double> state) {
-  return AutomatonOf(request).energy(request, mode, state);
+  return EnergyOf(request, MechanismFor(request), mode, state);
 }
 
 }  // namespace hoplab

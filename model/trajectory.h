@@ -28,7 +28,8 @@ struct Segment {
 };
 
 /// A simulated run: outcome, events, segments, and the samples asked for.
-/// `samples` is row-major [row][channel]; rows past the end of the run are NaN.
+/// `samples` is row-major [row][channel]; rows past the end of the run are NaN, or where
+/// SimulationRequest::fly_on asks for it those of a free flight from there.
 /// `sensitivities` is row-major [row][channel][direction].
 /// Everything is in world W, but that the contact coordinate counts along a sloping ground.
 /// `final_state` (LegState, of a leg with a toe mass ToeState), its derivatives
@@ -47,8 +48,9 @@ struct Trajectory {
   std::vector<double> final_state;
   std::vector<double> final_sensitivities;
   std::vector<double> final_rate;
-  int hops = 0;    // apexes after a stance (bounces of a ball)
-  long steps = 0;  // integrator steps taken
+  int hops = 0;         // apexes after a stance (bounces of a ball)
+  int rows_in_run = 0;  // the first rows, read before the run ended
+  long steps = 0;       // integrator steps taken
   /// Smallest |crossing_rate| over the events that reset something.
   double least_crossing_rate = std::numeric_limits<double>::infinity();
   /// Smallest value, in units of its scale, of a guard that came down and turned back without

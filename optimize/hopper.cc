@@ -41,6 +41,8 @@ double ValueOf(const Hopper& hopper, const SensitivityDirection& direction) {
       return hopper.request.initial[direction.index];
     case SensitivityDirection::Of::kEffect:
       return hopper.effects[direction.index].values[direction.component];
+    default:
+      break;  // no log drives a gait
   }
   HOPLAB_CHECK(false);
 }
@@ -56,6 +58,8 @@ void SetValue(Hopper& hopper, const SensitivityDirection& direction, double valu
     case SensitivityDirection::Of::kEffect:
       hopper.effects[direction.index].values[direction.component] = value;
       return;
+    default:
+      HOPLAB_CHECK(false);
   }
 }
 
@@ -70,6 +74,8 @@ double ScaleOf(const Hopper& hopper, const SensitivityDirection& direction) {
       const EffectInfo& info = hopper.effects[direction.index].effect->info;
       return std::max(size, std::abs(info.parameters[direction.component].typical));
     }
+    default:
+      break;
   }
   HOPLAB_CHECK(false);
 }

@@ -1,6 +1,7 @@
 #include "optimize/return_map.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/check.h"
 
@@ -32,6 +33,7 @@ ReturnMap::ReturnMap(Hopper hopper) : hopper_(std::move(hopper)) {
 SimulationRequest ReturnMap::RequestFrom(const ApexState& start) const {
   SimulationRequest request = RequestOf(hopper_);
   request.initial = {0.0, start[1], start[0], 0.0};
+  request.parameters.start_angle = std::numeric_limits<double>::quiet_NaN();  // it is placed
   request.horizon = kHopHorizon;
   request.max_hops = 1;
   return request;

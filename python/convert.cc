@@ -140,6 +140,7 @@ FitOptions FitOptionsOf(const py::dict& options) {
   out.loss.scale = Option<double>(options, "loss_scale");
   if (!(out.loss.scale > 0.0))
     throw InputError({"loss_scale", FormatDouble(out.loss.scale), "must be positive", ""});
+  out.discrepancy = Word(options, "discrepancy", FindDiscrepancy, {"matern", "none"});
   out.jobs = Option<int>(options, "jobs");
   return out;
 }

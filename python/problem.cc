@@ -22,6 +22,10 @@ TrainProblem MakeTrainProblem(const DatasetSource& source, const py::dict& optio
   out.problem = MakeProblem(DatasetOf(source), ProblemOptionsOf(options));
   out.trials = TrialsOf(out.problem, TrialRole::kTrain);
   out.jobs = Option<int>(options, "jobs");
+  for (const TrialProblem& trial : out.trials)
+    if (trial.start.size() != 4)
+      throw InputError({trial.file, std::to_string(trial.start.size()) + " values of its own",
+                        "must be 4, those of the start", "leave angles free hop by hop to fit()"});
   return out;
 }
 
@@ -65,20 +69,20 @@ Eigen::VectorXd CheckedValues(const TrainProblem& p, const DoubleArray& values) 
   return Eigen::Map<const Eigen::VectorXd>(given.data(), count);
 }
 
-std::vector<std::array<double, 4>> CheckedStarts(const TrainProblem& p, const DoubleArray& starts) {
+std::vector<OwnValues> CheckedStarts(const TrainProblem& p, const DoubleArray& starts) {
   const auto trials = static_cast<py::ssize_t>(p.trials.size());
   if (starts.ndim() != 2 || starts.shape(0) != trials || starts.shape(1) != 4)
     throw InputError({"starts", "an array of another shape",
                       "must be of shape (" + std::to_string(trials) + ", 4)", ""});
-  std::vector<std::array<double, 4>> rows(p.trials.size());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    std::copy_n(starts.data() + 4 * i, 4, rows[i].begin());
+  std::vector<OwnValues> rows;
+  for (std::size_t i = 0; i < p.trials.size(); ++i)
+    rows.push_back(Eigen::Map<const Eigen::Vector4d>(starts.data() + 4 * i));
   return rows;
 }
 
 py::dict Evaluate(const TrainProblem& p, const DoubleArray& values, const DoubleArray& starts) {
   const Eigen::VectorXd shared = CheckedValues(p, values);
-  const std::vector<std::array<double, 4>> rows = CheckedStarts(p, starts);
+  const std::vector<OwnValues> rows = CheckedStarts(p, starts);
   const Objective o = [&] {
     const py::gil_scoped_release unlocked;
     return EvaluateObjective(p.problem, p.trials, shared, rows, {}, p.jobs);

@@ -131,8 +131,10 @@ py::dict SimulationOf(const py::dict& options) {
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   const LegMass mass = LegMassOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
-  const std::vector<EffectSetting> effects = ResolveEffects(scenario.effects, law, mass);
-  SimulationRequest request = RequestOfScenario(scenario, effects);
+  const std::vector<DrivenInput> inputs = DrivenInputsOf(scenario);
+  const std::vector<EffectSetting> effects =
+      ResolveEffects(scenario.effects, law, mass, KindsOf(inputs));
+  SimulationRequest request = RequestOfScenario(scenario, effects, inputs);
   request.integrator = IntegratorOf(options);
   const std::vector<ParameterId> ids = IdsOf(mechanism, mass);
   SetParameters(Option<std::map<std::string, double>>(options, "parameters"), ids,

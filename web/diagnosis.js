@@ -1,7 +1,7 @@
 // The report of a diagnosis.
 
-const statusKinds = {supported: 'one', indistinguishable: 'three', excluded: 'two', not_tested: 'soft'};
-const statusSymbols = {supported: 'circle', indistinguishable: 'diamond', excluded: 'x-thin-open', not_tested: 'circle-open'};
+const statusKinds = {supported: 'one', indistinguishable: 'three', excluded: 'two', not_needed: 'two', not_tested: 'soft'};
+const statusSymbols = {supported: 'circle', indistinguishable: 'diamond', excluded: 'x-thin-open', not_needed: 'line-ew-open', not_tested: 'circle-open'};
 
 const causeText = (c) => (c.only_in_trial ? `${c.effect} (${c.only_in_trial} only)` : c.effect);
 
@@ -41,6 +41,36 @@ function ladderPlot(candidates) {
       shapes: isNumber(penalty) ? [{type: 'line', yref: 'paper', y0: 0, y1: 1, x0: penalty, x1: penalty, line: {color: colour('ink'), dash: 'dash', width: 1}}] : [],
     }, height: 120 + (narrow.matches ? 34 : 20) * shown.length};
   }, {height: 120 + 20 * shown.length});
+}
+
+// Share as it stands in the report on the terminal: never rounded up.
+const shareText = (share) => {
+  const percent = 100 * Math.min(Math.max(share, 0), 1);
+  return percent > 0 && percent < 0.1 ? 'under 0.1 %' : `${percent < 10 ? percent.toFixed(1) : Math.floor(percent)} %`;
+};
+
+// The extension taken apart: what each cause explains, how likely the name is, and the held-out error without it.
+function causesPart(causes, extension) {
+  if (!causes.length) return undefined;
+  const channels = Object.keys(causes[0].held_out_rmse_without);
+  const unit = (c) => splitUnit(c).unit;
+  const row = (c) => [causeText({...c, effect: c.name}), c.parameters.map((p) => `${p.name} = ${quantity(p.value, p.unit, 3)}`).join('; '),
+    shareText(c.share), isNumber(c.probability) ? c.probability.toFixed(2) : notComputed,
+    ...channels.map((ch) => (isNumber(c.held_out_rmse_without[ch]) ? quantity(c.held_out_rmse_without[ch], unit(ch), 3) : notComputed))];
+  const heads = ['size', 'explains', 'P', ...channels.map((ch) => `without it, ${splitUnit(ch).name}`)];
+  const [main, small] = [causes.filter((c) => c.main), causes.filter((c) => !c.main)];
+  const align = `llrr${'r'.repeat(channels.length)}`;
+  const left = Object.entries(run.left ?? {}).filter(([, l]) => isNumber(l?.amplitude) && l.amplitude > 0);
+  const asked = causes.map((c) => c.name);
+  return section(main.length ? 'The causes' : 'Small corrections',
+    main.length ? dataTable(['main cause', ...heads], main.map(row), align, 'What each cause explains, and the held-out errors without it') : undefined,
+    small.length ? details('Small corrections the data also want, which may stand for details of the model', dataTable(['cause', ...heads], small.map(row), align)) : undefined,
+    ...causes.filter((c) => c.varies).flatMap((c) => c.varies.map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
+      paragraph(`${v.name}: mean ${quantity(v.mean, v.unit, 3)}, spread ${quantity(v.spread, v.unit, 2)}.`),
+      dataTable(['trial', v.name], v.trials.map((t) => [t.trial, quantity(t.value, v.unit, 3)]), 'lr')))),
+    paragraph(`Probability that the cause is outside the catalogue: ${isNumber(run.probability_unlisted) ? run.probability_unlisted.toFixed(2) : notComputed}.`),
+    left.length && extension ? paragraph(`What is left is a smooth error of ${left.map(([ch, l]) => `${splitUnit(ch).name} ${quantity(l.amplitude, unit(ch), 3)} over ${quantity(l.time_scale_s, 's', 2)}`).join(', ')}: ${shareText(run.left_share ?? 0)} of the misfit.`) : undefined,
+    explained(...asked, 'share', 'probability', 'main-cause', 'discrepancy'));
 }
 
 function ladderTable(candidates) {
@@ -200,6 +230,7 @@ function diagnosisReport() {
           {label: extension ? 'before' : '', kind: extension ? 'before' : 'after', ...states(trial, 'before')}] : []),
       }));
   }
+  causesPart(list(run.causes), extension);
   if (candidates.length) {
     const count = (status) => candidates.filter((c) => c.status === status).length;
     section('The evidence', paragraph(`${candidates.length} causes were tried: ${Object.keys(statusKinds).filter(count).map((s) => `${count(s)} ${words(s)}`).join(', ')}.`),

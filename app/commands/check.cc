@@ -80,6 +80,7 @@ Json RecordOf(const Dataset& dataset, const CheckSettings& settings, const FitPr
   Json record = NewRecord(header);
   record["warnings"] = check.warnings;
   record["notes"] = check.notes;
+  record["known"] = KnownRecord(problem);
   record["trials"] = Json::array();
   for (const TrialCheck& t : check.trials) record["trials"].push_back(TrialRecord(t));
   record["noise"] = Json::array();

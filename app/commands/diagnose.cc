@@ -23,9 +23,11 @@ struct DiagnoseSettings : RunSettings {
   ProblemSettings problem;
   std::vector<std::string> effects, without;
   int max_effects = DiagnosisOptions().max_effects;
+  double material = 100.0 * kMaterial;  // [%]
   int starts = 1;
   std::uint64_t seed = 1;
   std::string span = "whole_else_hops";
+  std::string discrepancy = "matern";
 };
 
 DiagnosisOptions OptionsOf(const DiagnoseSettings& settings) {
@@ -34,9 +36,11 @@ DiagnosisOptions OptionsOf(const DiagnoseSettings& settings) {
   options.fit.starts = settings.starts;
   options.fit.seed = settings.seed;
   options.fit.jobs = JobsOf(settings.problem.jobs);
+  options.fit.discrepancy = *FindDiscrepancy(settings.discrepancy);
   options.span = *FindSpan(settings.span);
   options.candidates = {settings.effects, settings.without};
   options.max_effects = settings.max_effects;
+  options.material = settings.material / 100.0;
   return options;
 }
 
@@ -116,6 +120,11 @@ void AddDiagnoseCommand(CLI::App& app, Invocation& invocation) {
                  "Most effects to add to the model (default 5)")
       ->check(CLI::Range(1, 10))
       ->option_text("N");
+  sub.add_option("--material", settings->material,
+                 "Share of the misfit below which a cause is a small correction (default 2)")
+      ->check(CLI::Range(0.0, 100.0))
+      ->option_text("PERCENT");
+  AddDiscrepancyOption(sub, settings->discrepancy);
   sub.add_option("--starts", settings->starts,
                  "Searches for the model as it is: from the nominal values, then scattered")
       ->check(CLI::Range(1, 1000000))

@@ -28,6 +28,7 @@ struct FitSettings : RunSettings {
   std::string strategy = "apex_shooting";
   std::string span = "whole_else_hops";
   std::string loss = "squared";
+  std::string discrepancy = "matern";
   double loss_scale = Loss().scale;
   std::vector<std::string> profile;
 };
@@ -41,6 +42,7 @@ FitRunOptions OptionsOf(const FitSettings& settings) {
   options.fit.seed = settings.seed;
   options.fit.loss = {settings.loss == "squared" ? LossKind::kSquared : LossKind::kPseudoHuber,
                       settings.loss_scale};
+  options.fit.discrepancy = *FindDiscrepancy(settings.discrepancy);
   options.fit.jobs = JobsOf(settings.problem.jobs);
   options.profile = settings.profile;
   return options;
@@ -126,6 +128,7 @@ void AddFitCommand(CLI::App& app, Invocation& invocation) {
                  "Standard deviations from which pseudo_huber is linear (default 2)")
       ->check(CLI::PositiveNumber)
       ->option_text("NUMBER");
+  AddDiscrepancyOption(sub, settings->discrepancy);
   sub.add_option("--profile", settings->profile, "Profile likelihood of these parameters, or all")
       ->delimiter(',')
       ->option_text("NAME,...")

@@ -25,7 +25,7 @@ struct ImportSettings {
   std::string out, name, format;
   std::string type = "c_leg";
   std::optional<double> rate_hz;
-  bool accept_guesses = false, zero_time = false, force = false, json = false;
+  bool accept_guesses = false, zero_time = false, mend_times = false, force = false, json = false;
 };
 
 // "FILE=WHAT" of an option that may be given for one of several files; without "FILE=" all of them.
@@ -140,6 +140,7 @@ ImportRequest RequestOf(const ImportSettings& settings) {
   }
   request.options.rate_hz = settings.rate_hz;
   request.options.zero_time = settings.zero_time;
+  request.options.mend_times = settings.mend_times;
   for (const std::string& text : settings.shift) AddShift(text, &request.options);
   for (const std::string& text : settings.set) {
     const std::size_t equals = text.find('=');
@@ -198,6 +199,7 @@ Json RecordOf(const ImportRequest& request, const ImportSettings& settings,
                     {"cut", settings.cut},
                     {"shift", settings.shift},
                     {"zero_time", settings.zero_time},
+                    {"mend_times", settings.mend_times},
                     {"rate_hz", NumberOrNull(settings.rate_hz)},
                     {"type", settings.type},
                     {"set", settings.set}};
@@ -223,7 +225,11 @@ Json RecordOf(const ImportRequest& request, const ImportSettings& settings,
                                 {"format", log.format},
                                 {"role", RoleName(log.role)},
                                 {"rows", log.trace.rows},
-                                {"missing", missing}});
+                                {"missing", missing},
+                                {"mended",
+                                 {{"swapped", log.trace.mended.swapped},
+                                  {"dropped", log.trace.mended.dropped},
+                                  {"spread", log.trace.mended.spread}}}});
   }
   record["blank"] = Json::array();
   for (const BlankValue& blank : made.blanks) record["blank"].push_back(blank.key);
@@ -316,7 +322,7 @@ void AddImportCommand(CLI::App& app, Invocation& invocation) {
       ->option_text("DATASET");
   sub.add_flag("--force", settings->force, "Replace the dataset that stands there");
   sub.footer(
-      "Channels: t x y vx vy leg_angle leg_length fx fy torque contact; x ahead, y up.\n"
+      "Channels: t x y vx vy ax ay leg_angle leg_length fx fy torque contact, ..\n"
       "Without --accept-guesses it shows what it would take for what.\n"
       "Examples:\n"
       "  hoplab import docs/tutorial/run-1.csv --accept-guesses --out mine\n"

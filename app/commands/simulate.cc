@@ -105,9 +105,10 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
   const RunFolder folder(RunFolderOptionsOf(settings), scenario.name, "simulate");
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
+  const std::vector<DrivenInput> inputs = DrivenInputsOf(scenario);
   const std::vector<EffectSetting> effects =
-      ResolveEffects(scenario.effects, law, LegMassOfSpec(scenario.mechanism));
-  SimulationRequest request = RequestOfScenario(scenario, effects);
+      ResolveEffects(scenario.effects, law, LegMassOfSpec(scenario.mechanism), KindsOf(inputs));
+  SimulationRequest request = RequestOfScenario(scenario, effects, inputs);
   request.integrator = IntegratorOptionsOf(settings.solver);
   std::vector<SensitivityDirection> directions;
   for (const std::string& name : settings.sensitivities)
@@ -115,6 +116,7 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
         ResolveDirection(name, mechanism, LegMassOfSpec(scenario.mechanism), effects));
   request.directions = directions;
   const Trajectory run = Simulate(request);
+  CheckAngleEach(scenario.touchdown_angles_rad, run, scenario.origin.place);
 
   Json record = NewSimulationRecord(settings, scenario, request.law);
   AddSimulation(request, run, settings.sensitivities, record);

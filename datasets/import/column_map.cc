@@ -32,6 +32,11 @@ const std::vector<Word>& Words() {
       {"fy", ChannelId::kGroundForceY},
       {"torque", ChannelId::kHipTorque},
       {"contact", ChannelId::kContact},
+      {"ax", ChannelId::kBodyAx},
+      {"ay", ChannelId::kBodyAy},
+      {"imu_ax", ChannelId::kImuAx},
+      {"imu_ay", ChannelId::kImuAy},
+      {"contact_x", ChannelId::kContactX},
   };
   return kWords;
 }

@@ -79,6 +79,8 @@ class Importer {
     options.from_s = cut.from_s;
     options.to_s = cut.to_s;
     imported.trace = TraceOfTable(table, map, options);
+    if (imported.trace.mended.any())
+      result_.notes.push_back(table.file + ": " + imported.trace.mended.Text());
     // Should a trace be refused after all, its message is the format's own.
     ParseTraceCsv(imported.trace.csv, imported.file);
     if (!result_.files.emplace(imported.file, std::move(imported.trace.csv)).second)
@@ -129,6 +131,9 @@ class Importer {
                    (mapped.unit.dimension == Dimension::kNone ? "" : " in " + mapped.unit.name);
       if (mapped.channel) text.channels.push_back(*mapped.channel);
     }
+    for (const ImportedLog& log : result_.logs)
+      if (log.trace.mended.any())
+        text.note += "; stamps of " + log.file + " mended: " + log.trace.mended.Text();
     std::sort(text.channels.begin(), text.channels.end());
     for (const ImportedLog& log : result_.logs) text.trials.push_back({log.file, log.role});
     // With ones in the blanks it must be a dataset like any other.

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "datasets/import/table.h"
 #include "datasets/import/text_rows.h"
+#include "datasets/import/typed_columns.h"
 #include "datasets/text_file.h"
 
 namespace hoplab {
@@ -42,6 +43,7 @@ class MotiveReader {
     if (table_.lines.empty())
       Fail(axes, "", "has a header and no samples", "Export the take again.");
     CheckFrames();
+    AddAngles();
     return std::move(table_);
   }
 
@@ -103,6 +105,16 @@ class MotiveReader {
       table_.columns.push_back({name, "", {}});
       const bool quaternion = kind == "Rotation" && settings_["Rotation Type"] == "Quaternion";
       if (quaternion) table_.columns.back().unit = "1";
+    }
+  }
+
+  // The turns of quaternions about each axis.
+  void AddAngles() {
+    for (std::size_t i = 0; i + 3 < table_.columns.size(); ++i) {
+      const std::string& name = table_.columns[i].name;
+      const bool begins = table_.columns[i].unit == "1" && name.ends_with(".X") &&
+                          table_.columns[i + 3].name.ends_with(".W");
+      if (begins) AddTurnAngles(name.substr(0, name.size() - 2), i + 3, i, i + 1, i + 2, &table_);
     }
   }
 

@@ -1,5 +1,6 @@
 // OpenSim's text formats. TRC: five rows of header, then frame, time and x, y, z of each marker.
-// MOT and STO: a header of key=value lines up to `endheader`, a row of labels, then the samples.
+// MOT and STO: a header of key=value lines up to `endheader`, a row of labels, then the samples; in
+// a typed table (DataType=Quaternion) each sample is a tuple.
 
 #include <algorithm>
 #include <map>
@@ -8,6 +9,7 @@
 #include "base/text.h"
 #include "datasets/import/table.h"
 #include "datasets/import/text_rows.h"
+#include "datasets/import/typed_columns.h"
 #include "datasets/text_file.h"
 
 namespace hoplab {
@@ -122,14 +124,18 @@ class StorageReader : OpenSimReader {
 
   Table Read() {
     const std::size_t labels = ReadHeader();
-    const Cells names = Split(lines_[labels].text);
-    for (const std::string_view label : names)
-      if (!label.empty()) table_.columns.push_back({std::string(label), "", {}});
-    ReadRows(labels + 1);
+    Cells names = Split(lines_[labels].text);
+    std::erase_if(names, [](std::string_view label) { return label.empty(); });
+    MakeColumns(names);
+    if (parts_.empty())
+      ReadRows(labels + 1);
+    else
+      ReadTypedRows(labels + 1, names);
     if (table_.lines.empty())
       Fail(labels, "", "has labels and no samples", "Export the motion again.");
-    CheckStated({"nColumns", "datacolumns"}, table_.columns.size(), "columns");
+    CheckStated({"nColumns", "datacolumns"}, names.size(), "columns");
     CheckStated({"nRows", "datarows"}, table_.lines.size(), "rows of samples");
+    AddAngles(names);
     return std::move(table_);
   }
 
@@ -152,11 +158,7 @@ class StorageReader : OpenSimReader {
     if (end == lines_.size())
       Fail(0, "", "has no line endheader, as every MOT and STO file has",
            "Check that the file is one; if it is plain CSV, say --format csv.");
-    const auto type = header_.find("DataType");
-    if (type != header_.end() && type->second.value != "double")
-      Fail(type->second.line, "DataType = " + Printable(type->second.value),
-           "only columns of plain numbers (DataType=double) are read",
-           "Flatten the table before writing it: TimeSeriesTable.flatten().");
+    ReadDataType();
     table_.units = {{Dimension::kTime, "s"},
                     {Dimension::kLength, "m"},
                     {Dimension::kVelocity, "m/s"},
@@ -169,6 +171,64 @@ class StorageReader : OpenSimReader {
       Fail(end, "", "ends after its header; must have a row of labels and samples",
            "Export the motion again.");
     return end;
+  }
+
+  // What the cells of a typed table hold; nothing for plain numbers.
+  void ReadDataType() {
+    const auto type = header_.find("DataType");
+    if (type == header_.end() || type->second.value == "double") return;
+    if (type->second.value == "Quaternion")
+      parts_ = {".W", ".X", ".Y", ".Z"};
+    else if (type->second.value == "Vec3" || type->second.value == "UnitVec3")
+      parts_ = {".X", ".Y", ".Z"};
+    else
+      Fail(type->second.line, "DataType = " + Printable(type->second.value),
+           "only tables of double, Quaternion, Vec3 and UnitVec3 are read",
+           "Flatten the table before writing it: TimeSeriesTable.flatten().");
+  }
+
+  void MakeColumns(const Cells& names) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::string name(names[i]);
+      if (parts_.empty() || i == 0) {
+        table_.columns.push_back({name, "", {}});
+        continue;
+      }
+      // Components of a turn have no unit; those of a vector may be lengths or anything else.
+      for (const char* part : parts_)
+        table_.columns.push_back({name + part, parts_.size() == 4 ? "1" : "", {}});
+    }
+    if (parts_.size() == 3) table_.units = {{Dimension::kTime, "s"}};
+  }
+
+  // Rows whose cells, but for the time, are tuples: 0.99,0.01,0,0.14.
+  void ReadTypedRows(std::size_t first, const Cells& names) {
+    for (std::size_t i = first; i < lines_.size(); ++i) {
+      if (Trim(lines_[i].text).empty()) continue;
+      const Cells tuples = Split(lines_[i].text);
+      Cells cells;
+      for (std::size_t c = 0; c < tuples.size(); ++c) {
+        if (c == 0) {
+          cells.push_back(tuples[c]);
+          continue;
+        }
+        const Cells parts = SplitCells(tuples[c], ',');
+        if (parts.size() != parts_.size() && !IsMissing(tuples[c]))
+          Fail(i, (c < names.size() ? std::string(names[c]) + " = " : "") + Printable(tuples[c]),
+               "must be " + std::to_string(parts_.size()) + " numbers, separated by commas",
+               "Export the table again.");
+        for (std::size_t p = 0; p < parts_.size(); ++p)
+          cells.push_back(parts.size() == parts_.size() ? parts[p] : std::string_view());
+      }
+      AddRow(lines_[i], cells, &table_);
+    }
+  }
+
+  void AddAngles(const Cells& names) {
+    for (std::size_t i = 1; parts_.size() == 4 && i < names.size(); ++i) {
+      const std::size_t w = 1 + 4 * (i - 1);
+      AddTurnAngles(std::string(names[i]), w, w + 1, w + 2, w + 3, &table_);
+    }
   }
 
   void ReadAngleUnit() {
@@ -190,6 +250,7 @@ class StorageReader : OpenSimReader {
   }
 
   std::map<std::string, Stated> header_;
+  std::vector<const char*> parts_;  // of a typed cell; empty: plain numbers
 };
 
 }  // namespace

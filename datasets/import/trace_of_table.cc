@@ -33,8 +33,9 @@ class TraceBuilder {
     for (const MappedColumn* mapped : channels_)
       trace_.csv += std::string(",") + ChannelName(*mapped->channel);
     trace_.csv += "\n";
-    const std::size_t rows = CommonLength();
-    for (std::size_t row = 0; row < rows; ++row) AddRow(row);
+    std::vector<StampedRow> rows = RowsOfCut(CommonLength());
+    if (options_.mend_times) Mend(rows);
+    for (const StampedRow& row : rows) AddRow(row, rows.front());
     if (trace_.rows == 0)
       throw InputError({table_.file, "", "no row lies within the cut" + CutText(),
                         "The log spans " + FormatDouble(first_s_) + " to " + FormatDouble(last_s_) +
@@ -94,8 +95,23 @@ class TraceBuilder {
     return *sum;
   }
 
-  // The row's time; empty if it lies outside the cut.
-  std::string TimeText(std::size_t row) {
+  // The rows within the cut, in the order of the log.
+  std::vector<StampedRow> RowsOfCut(std::size_t count) {
+    std::vector<StampedRow> rows;
+    for (std::size_t row = 0; row < count; ++row) {
+      StampedRow stamped = Stamped(row);
+      const double time = stamped.time_s;
+      if (row == 0) first_s_ = time;
+      last_s_ = time;
+      if (time < options_.from_s.value_or(time) || time > options_.to_s.value_or(time)) continue;
+      if (time_ != nullptr && !rows.empty() && !options_.mend_times)
+        CheckOrder(row, time, rows.back());
+      rows.push_back(std::move(stamped));
+    }
+    return rows;
+  }
+
+  StampedRow Stamped(std::size_t row) const {
     std::string text;
     if (time_ == nullptr) {
       text = FormatDouble(static_cast<double>(row) / *options_.rate_hz);
@@ -106,18 +122,30 @@ class TraceBuilder {
       CheckRange(row, text);
     }
     const double time = *ParseDouble(text);
-    if (row == 0) first_s_ = time;
-    last_s_ = time;
-    if (time < options_.from_s.value_or(time) || time > options_.to_s.value_or(time)) return "";
-    if (time_ != nullptr) CheckOrder(row, time);
-    last_kept_ = row;
-    last_kept_s_ = time;
-    if (!options_.zero_time) return text;
-    if (!first_kept_) first_kept_ = row;
+    return {row, std::move(text), time};
+  }
+
+  void Mend(std::vector<StampedRow>& rows) {
+    const auto same_samples = [&](std::size_t a, std::size_t b) {
+      return std::all_of(channels_.begin(), channels_.end(), [&](const MappedColumn* mapped) {
+        return SiText(a, *mapped) == SiText(b, *mapped);
+      });
+    };
+    const auto too_far = [&](std::size_t row) {
+      Fail(row, *time_, table_.columns[time_->column].cells[row],
+           "lies more than " + std::to_string(kFurthestSwap) +
+               " rows from where its stamp belongs: the clock was set, the rows were not swapped",
+           "Cut the log there with --cut, or sort the rows.");
+    };
+    if (time_ != nullptr) trace_.mended = MendTimes(rows, same_samples, too_far);
+  }
+
+  // A row's time as it is written.
+  std::string TimeText(const StampedRow& row, const StampedRow& first) const {
+    if (!options_.zero_time) return row.text;
     if (time_ == nullptr)
-      return FormatDouble(static_cast<double>(row - *first_kept_) / *options_.rate_hz);
-    if (zero_.empty()) zero_ = NegateDecimal(text);
-    return Sum(row, *time_, text, zero_);
+      return FormatDouble(static_cast<double>(row.row - first.row) / *options_.rate_hz);
+    return Sum(row.row, *time_, row.text, NegateDecimal(first.text));
   }
 
   void CheckRange(std::size_t row, const std::string& text) const {
@@ -126,20 +154,19 @@ class TraceBuilder {
            "Check its unit in --map.");
   }
 
-  // Of the rows within the cut.
-  void CheckOrder(std::size_t row, double time) const {
-    if (!last_kept_ || time > last_kept_s_) return;
+  void CheckOrder(std::size_t row, double time, const StampedRow& before) const {
+    if (time > before.time_s) return;
     const std::vector<std::string_view>& cells = table_.columns[time_->column].cells;
     Fail(row, *time_, cells[row],
-         (time == last_kept_s_ ? "repeats the time before, "
-                               : "goes back behind the time before, ") +
-             std::string(cells[*last_kept_]),
-         "Remove the row, sort the rows by time, or cut the log with --cut.");
+         (time == before.time_s ? "repeats the time before, "
+                                : "goes back behind the time before, ") +
+             std::string(cells[before.row]),
+         "Remove the row, sort the rows by time, cut the log with --cut, or say --mend-times.");
   }
 
-  void AddRow(std::size_t row) {
-    const std::string time = TimeText(row);
-    if (time.empty()) return;
+  void AddRow(const StampedRow& stamped, const StampedRow& first) {
+    const std::size_t row = stamped.row;
+    const std::string time = TimeText(stamped, first);
     std::string line = time;
     for (const MappedColumn* mapped : channels_) {
       const std::string text = SiText(row, *mapped);
@@ -166,9 +193,6 @@ class TraceBuilder {
   const TraceOptions& options_;
   const MappedColumn* time_ = nullptr;
   std::vector<const MappedColumn*> channels_;
-  std::optional<std::size_t> first_kept_, last_kept_;  // rows
-  double last_kept_s_ = 0;
-  std::string zero_;  // what takes its time to 0
   double first_s_ = 0, last_s_ = 0;
   ImportedTrace trace_;
 };

@@ -52,6 +52,9 @@ const std::vector<UnitRow>& Rows() {
       {"kN m", kTorque, 3, 1, {"kNm"}},
       {"lbf in", kTorque, 0, 4.4482216152605 * 0.0254, {"in lbf", "lbf*in"}},
       {"lbf ft", kTorque, 0, 4.4482216152605 * 0.3048, {"ft lbf", "lbf*ft"}},
+      {"m/s^2", kAcceleration, 0, 1, {"m/s2", "m/s²", "m s-2", "m s^-2", "m per s2"}},
+      {"mm/s^2", kAcceleration, -3, 1, {"mm/s2", "mm/s²", "mm s-2"}},
+      {"g0", kAcceleration, 0, 9.80665, {"gee", "gees"}},
       {"1", kNone, 0, 1, {"-", "bool"}},
   };
   return kRows;
@@ -84,7 +87,8 @@ ColumnTitle SplitAtWord(std::string_view title) {
 
 const char* DimensionName(Dimension dimension) {
   static constexpr const char* kNames[] = {
-      "a time", "a length", "a speed", "an angle", "a force", "a torque", "a number without unit"};
+      "a time",  "a length", "a speed",         "an angle",
+      "a force", "a torque", "an acceleration", "a number without unit"};
   return kNames[static_cast<std::size_t>(dimension)];
 }
 
@@ -93,6 +97,7 @@ Dimension DimensionOf(ChannelId channel) {
     case ChannelId::kBodyX:
     case ChannelId::kBodyY:
     case ChannelId::kLegLength:
+    case ChannelId::kContactX:
       return Dimension::kLength;
     case ChannelId::kBodyVx:
     case ChannelId::kBodyVy:
@@ -104,6 +109,11 @@ Dimension DimensionOf(ChannelId channel) {
       return Dimension::kForce;
     case ChannelId::kHipTorque:
       return Dimension::kTorque;
+    case ChannelId::kBodyAx:
+    case ChannelId::kBodyAy:
+    case ChannelId::kImuAx:
+    case ChannelId::kImuAy:
+      return Dimension::kAcceleration;
     case ChannelId::kContact:
       break;
   }

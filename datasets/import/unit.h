@@ -10,7 +10,7 @@
 namespace hoplab {
 
 /// What a column of a log measures.
-enum class Dimension { kTime, kLength, kVelocity, kAngle, kForce, kTorque, kNone };
+enum class Dimension { kTime, kLength, kVelocity, kAngle, kForce, kTorque, kAcceleration, kNone };
 
 /// "a length".
 const char* DimensionName(Dimension dimension);

@@ -1,287 +1,311 @@
 #include "experiments/identification/identification.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 
 #include "base/parallel.h"
-#include "fitting/least_squares.h"
-#include "optimize/box_search.h"
+#include "experiments/identification/findings.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr StudyTables kEnergyAlone{true, false, false};
-constexpr StudyTables kSmooth{true, true, false};
-constexpr StudyTables kAll{true, true, true};
+using Fits = std::vector<StudyFit>;
+using Units = std::vector<StudyUnit>;
 
-// The misfit of one reading on some tables, as a function of the logarithms of the free constants.
-class ReadingProblem {
- public:
-  ReadingProblem(const IdentificationRequest& request, const StudyReading& reading,
-                 const StudyTables& tables)
-      : request_(request), tables_(tables), hopper_{reading, request.fixed, request.integrator} {
-    for (StudyConstant c : request.free) {
-      if (c == StudyConstant::kGain && !tables.stiffness) continue;  // no torque in table 6.5
-      free_.push_back(c);
-      hoplab::At(hopper_.constants, c) = kNaN;  // until it is found
-    }
-  }
-
-  StudyFit Globally() { return Search({}); }
-  StudyFit From(const StudyConstants& constants) { return Search(constants); }
-
-  // By least squares where that does better; the tables' smooth part alone.
-  StudyFit Polished(StudyFit fit) {
-    if (Stopped()) return fit;
-    LeastSquaresRequest q;
-    q.residual_count = ResidualCount(request_.data, tables_);
-    q.start = q.lower = q.upper = Eigen::VectorXd(static_cast<Eigen::Index>(free_.size()));
-    for (std::size_t i = 0; i < free_.size(); ++i) {
-      q.lower[Index(i)] = std::log(InfoOf(free_[i]).low);
-      q.upper[Index(i)] = std::log(InfoOf(free_[i]).high);
-      q.start[Index(i)] =
-          std::clamp(std::log(At(fit.constants, free_[i])), q.lower[Index(i)], q.upper[Index(i)]);
-    }
-    q.max_iterations = 20;
-    q.stop = request_.stop;
-    q.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
-      ++evaluations_;
-      return ResidualsOf(At(x.data()), request_.data, tables_, free_, r, jacobian);
-    };
-    const LeastSquaresResult solved = SolveLeastSquares(q);
-    if (!solved.usable()) return fit;
-    const StudyHopper polished = At(solved.x.data());
-    const double misfit = MisfitOf(polished, request_.data, tables_);
-    if (misfit < fit.misfit) fit = {hopper_.reading, polished.constants, misfit};
-    return fit;
-  }
-
-  std::vector<StudyDirection> Directions(const StudyConstants& constants) {
-    hopper_.constants = constants;
-    const Eigen::Index n = static_cast<Eigen::Index>(request_.free.size());
-    Eigen::VectorXd residuals(ResidualCount(request_.data, tables_));
-    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(residuals.size(), n);
-    std::vector<StudyDirection> directions;
-    if (!ResidualsOf(hopper_, request_.data, tables_, request_.free, residuals, &slopes))
-      return directions;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(slopes, Eigen::ComputeFullV);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Eigen::VectorXd v = svd.matrixV().col(i);
-      const double strength = i < svd.singularValues().size() ? svd.singularValues()[i] : 0.0;
-      directions.push_back({strength, {v.begin(), v.end()}});
-    }
-    return directions;
-  }
-
-  long evaluations() const { return evaluations_; }
-
- private:
-  static Eigen::Index Index(std::size_t i) { return static_cast<Eigen::Index>(i); }
-  static double At(const StudyConstants& constants, StudyConstant c) {
-    return hoplab::At(constants, c);
-  }
-  StudyHopper At(const double* logarithms) const {
-    StudyHopper hopper = hopper_;
-    for (std::size_t i = 0; i < free_.size(); ++i)
-      hoplab::At(hopper.constants, free_[i]) = std::exp(logarithms[i]);
-    return hopper;
-  }
-  bool Stopped() const { return request_.stop && *request_.stop; }
-
-  StudyFit Search(const std::optional<StudyConstants>& from) {
-    BoxSearchRequest q;
-    for (StudyConstant c : free_) {
-      q.low.push_back(std::log(InfoOf(c).low));
-      q.high.push_back(std::log(InfoOf(c).high));
-      if (from) q.start.push_back(std::clamp(std::log(At(*from, c)), q.low.back(), q.high.back()));
-    }
-    q.cost = [&](std::span<const double> x) {
-      return MisfitOf(At(x.data()), request_.data, tables_);
-    };
-    q.budget = request_.budget;
-    q.seed = request_.seed;
-    q.stop = request_.stop;
-    const BoxSearchResult found = SearchBox(q);
-    evaluations_ += found.evaluations;
-    if (found.x.empty()) return {hopper_.reading, from.value_or(hopper_.constants), kNaN};
-    return {hopper_.reading, At(found.x.data()).constants, found.cost};
-  }
-
-  const IdentificationRequest& request_;
-  StudyTables tables_;
-  StudyHopper hopper_;
-  std::vector<StudyConstant> free_;
-  long evaluations_ = 0;
-};
-
-// The fit with what it makes of the tables; all missing where a stop left it without constants.
-ScoredFit Scored(const StudyFit& fit, const IdentificationRequest& request) {
-  if (!std::isnan(fit.misfit))
-    return {fit, ScoresOf({fit.reading, fit.constants, request.integrator}, request.data)};
-  StudyScores none{};
-  none.energy_rms = none.energy_worst = none.stiffness_rms = none.stiffness_worst = kNaN;
-  none.start_rank_correlation = none.modulus_trend = none.convergence_rms = kNaN;
-  return {fit, none};
-}
+// Shares of the budget of a unit over steady hops; a set of tables takes twenty times as long.
+constexpr double kNearbyShare = 0.5, kTablesShare = 0.1, kRefineShare = 0.2, kFrontShare = 0.1;
+// A leg with a toe mass vibrates: its runs take thirty times as long.
+constexpr double kToeShare = 0.08, kToeTables = 0.02;
+constexpr int kEnergyMost = 300;  // evaluations: table 6.5 has no more to say
+// Half-width of a search about the best of another reading, in logarithms.
+constexpr double kNearby = 0.3;
+constexpr double kToeBox = 0.6;  // of the other constants once there is a toe mass
+constexpr double kFirstToeMass = 0.01, kFirstRate = 30.0, kFirstDamping = 0.5;
+constexpr double kEmphasis = 10.0;
 
 // NaN last, so that what a stop cut short does not lead.
 bool IsBetter(double a, double b) { return std::isnan(b) ? !std::isnan(a) : a < b; }
 
-// Runs `fit_one(i)` for each of `count` readings on `jobs` threads, with progress.
-std::vector<StudyFit> FitEach(const IdentificationRequest& request, const std::string& stage,
-                              std::size_t count, std::atomic<long>& evaluations,
-                              const std::function<StudyFit(std::size_t, long&)>& fit_one) {
-  std::vector<StudyFit> fits(count);
-  std::mutex mutex;
-  int done = 0;
-  ParallelFor(static_cast<int>(count), request.jobs, [&](int i) {
-    long spent = 0;
-    fits[static_cast<std::size_t>(i)] = fit_one(static_cast<std::size_t>(i), spent);
-    evaluations += spent;
-    if (!request.progress) return;
-    const std::lock_guard lock(mutex);
-    request.progress(stage, ++done, static_cast<int>(count));
-  });
+void SortByMisfit(Fits& fits) {
   std::stable_sort(fits.begin(), fits.end(), [](const StudyFit& a, const StudyFit& b) {
     return IsBetter(a.misfit, b.misfit);
   });
-  return fits;
 }
 
-std::vector<StudyFit> FitEnergy(const IdentificationRequest& request,
-                                std::atomic<long>& evaluations) {
-  return FitEach(request, "table 6.5", request.readings.size(), evaluations,
-                 [&](std::size_t i, long& spent) {
-                   ReadingProblem problem(request, request.readings[i], kEnergyAlone);
-                   const StudyFit fit = problem.Polished(problem.Globally());
-                   spent = problem.evaluations();
-                   return fit;
-                 });
-}
+class Identifier {
+ public:
+  Identifier(const IdentificationRequest& request, const FitUnits& fit_units)
+      : request_(request), fit_units_(fit_units) {}
 
-// What rolls and bends, without what damps and when it leaves the ground.
-StudyReading FamilyOf(StudyReading reading) {
-  reading.variant.damping_rate = {};
-  reading.liftoff = {};
-  return reading;
-}
+  IdentificationResult Run() {
+    FitEnergy();
+    FitSteady();
+    FitTables();
+    FitToeMass();
+    Refine();
+    SortByMisfit(all_);
+    Score();
+    if (request_.with_front) FindFront();
+    AddFindings(request_, result_);
+    result_.interrupted = request_.context.stop && *request_.context.stop;
+    return std::move(result_);
+  }
 
-std::vector<StudyFit> FitStiffness(const IdentificationRequest& request,
-                                   const std::vector<StudyFit>& by_energy,
-                                   std::atomic<long>& evaluations) {
-  std::vector<StudyReading> readings, families;
-  for (const StudyFit& fit : by_energy) {
-    const StudyReading family = FamilyOf(fit.reading);
-    const bool is_known = std::find(families.begin(), families.end(), family) != families.end();
-    if (is_known || std::ssize(families) >= request.keep) continue;
-    families.push_back(family);
+ private:
+  // The fits of a stage, best first.
+  Fits Fit(const std::string& stage, const Units& units) {
+    Fits fits = fit_units_(stage, units);
+    for (const StudyFit& fit : fits) result_.evaluations += fit.evaluations;
+    return fits;
+  }
+  StudyUnit UnitOf(StudyUnit::Runs runs, const StudyReading& reading, double share) const {
+    StudyUnit unit;
+    unit.runs = runs;
+    unit.reading = reading;
+    unit.free = request_.free;
+    unit.constants = request_.fixed;
+    unit.seed = request_.seed;
+    unit.budget = std::max(20, static_cast<int>(share * request_.budget));
+    return unit;
+  }
+  bool HasTables() const {
+    return !request_.context.data.modulus.empty() || !request_.context.data.starts.empty();
+  }
+
+  void FitEnergy() {
+    if (request_.context.data.energy.empty()) return;
+    Units units;
+    for (const StudyReading& reading : request_.readings) {
+      StudyUnit unit = UnitOf(StudyUnit::Runs::kEnergy, reading, kNearbyShare);
+      unit.budget = std::min(unit.budget, kEnergyMost);
+      unit.weights = kEnergyAlone;
+      std::erase_if(unit.free, [](StudyConstant c) { return !IsInEnergy(c); });
+      unit.box = kWholeBox;
+      units.push_back(unit);
+    }
+    result_.by_energy = Fit("table 6.5", units);
+    SortByMisfit(result_.by_energy);
+  }
+
+  // Each reading with both signs of the torque: from scratch, and with the constants that 6.5 has
+  // found for it, the others being searched; then all of them about the best of these, since a
+  // search that finds no steady hop undamped has nothing to follow.
+  void FitSteady() {
+    if (!HasTables()) return;
+    result_.by_steady = Fit("steady hops", SteadyUnits());
+    SortByMisfit(result_.by_steady);
+    if (result_.by_steady.empty() || std::isnan(result_.by_steady.front().misfit)) return;
+    Units units;
+    for (const StudyReading& reading : KeptReadings()) {
+      StudyUnit unit = UnitOf(StudyUnit::Runs::kSteady, reading, kNearbyShare);
+      unit.constants = result_.by_steady.front().constants;
+      unit.box = kNearby;
+      AddWithBothSigns(unit, units);
+    }
+    const Fits nearby = Fit("steady hops about the best", units);
+    result_.by_steady.insert(result_.by_steady.end(), nearby.begin(), nearby.end());
+    SortByMisfit(result_.by_steady);
+  }
+  Units SteadyUnits() const {
+    Units units;
+    for (const StudyReading& reading : KeptReadings()) {
+      StudyUnit unit = UnitOf(StudyUnit::Runs::kSteady, reading, 1.0);
+      unit.box = kWholeBox;
+      AddWithBothSigns(unit, units);
+    }
+    for (const StudyFit& fit : Best(result_.by_energy, request_.keep_readings)) {
+      if (std::isnan(fit.misfit)) continue;
+      StudyUnit unit = UnitOf(StudyUnit::Runs::kSteady, fit.reading, kNearbyShare);
+      unit.constants = fit.constants;
+      std::erase_if(unit.free, [](StudyConstant c) { return IsInEnergy(c); });
+      unit.box = kWholeBox;
+      if (!unit.free.empty()) AddWithBothSigns(unit, units);
+    }
+    return units;
+  }
+  static void AddWithBothSigns(const StudyUnit& unit, Units& units) {
     for (const auto sign :
          {ThesisVariant::TorqueSign::kNormal, ThesisVariant::TorqueSign::kPrinted}) {
-      readings.push_back(fit.reading);
-      readings.back().variant.torque_sign = sign;
+      units.push_back(unit);
+      units.back().reading.variant.torque_sign = sign;
     }
   }
-  return FitEach(request, "stiffness", readings.size(), evaluations,
-                 [&](std::size_t i, long& spent) {
-                   ReadingProblem problem(request, readings[i], kSmooth);
-                   StudyFit fit = problem.Polished(problem.Globally());
-                   spent = problem.evaluations();
-                   return fit;
-                 });
-}
 
-// The other readings of each fit's family that are asked for, from its constants; the fits first.
-std::vector<StudyFit> WithRelatives(std::vector<StudyFit> fits,
-                                    const std::vector<StudyReading>& readings) {
-  const std::size_t count = fits.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    for (StudyReading reading : readings) {
-      reading.variant.torque_sign = fits[i].reading.variant.torque_sign;
-      if (FamilyOf(reading) != FamilyOf(fits[i].reading) || reading == fits[i].reading) continue;
-      fits.push_back({reading, fits[i].constants, kNaN});
-    }
+  // All readings, or those that do best on 6.5.
+  std::vector<StudyReading> KeptReadings() const {
+    if (result_.by_energy.empty()) return request_.readings;
+    std::vector<StudyReading> kept;
+    for (const StudyFit& fit : Best(result_.by_energy, request_.keep_readings))
+      kept.push_back(fit.reading);
+    return kept;
   }
-  return fits;
-}
 
-void FitAll(const IdentificationRequest& request, const std::vector<StudyFit>& smooth,
-            std::atomic<long>& evaluations, IdentificationResult& result) {
-  const auto to_the_end = static_cast<std::size_t>(std::max(request.keep_to_the_end, 1));
-  std::vector<StudyFit> fits =
-      FitEach(request, "all tables", smooth.size(), evaluations, [&](std::size_t i, long& spent) {
-        StudyFit fit = smooth[i];
-        const StudyHopper hopper{fit.reading, fit.constants, request.integrator};
-        fit.misfit = std::isnan(fit.misfit) ? kNaN : MisfitOf(hopper, request.data, kAll);
-        spent = 1;
-        return fit;
+  void FitTables() {
+    if (!HasTables()) {
+      all_ = result_.by_energy;
+      return;
+    }
+    Units units;
+    for (const StudyFit& fit : Best(result_.by_steady, request_.keep)) {
+      StudyUnit unit = UnitOf(StudyUnit::Runs::kTables, fit.reading, kTablesShare);
+      unit.constants = fit.constants;
+      units.push_back(unit);
+    }
+    all_ = Fit("all tables", units);
+    SortByMisfit(all_);
+  }
+
+  // The best readings again with a toe mass, by a part of the runs: from the constants and the toe
+  // mass that 6.5 finds, and in a box about the best without one; then by all runs.
+  void FitToeMass() {
+    if (request_.toe_free.empty() || !HasTables()) return;
+    Units units = ToeUnitsFromEnergy();
+    for (const StudyFit& fit : BestReadings(all_, request_.keep_toe)) {
+      units.push_back(ToeUnit(fit));
+      units.back().box = kToeBox;
+    }
+    Fits found = Fit("toe mass", units);
+    SortByMisfit(found);
+    units.clear();
+    for (const StudyFit& fit : Best(found, request_.keep_toe)) {
+      units.push_back(ToeUnit(fit));
+      units.back().runs = StudyUnit::Runs::kTables;
+      units.back().constants = fit.constants;
+      units.back().budget = std::max(20, static_cast<int>(kToeTables * request_.budget));
+    }
+    const Fits polished = Fit("toe mass, all tables", units);
+    all_.insert(all_.end(), polished.begin(), polished.end());
+    SortByMisfit(all_);
+  }
+  Units ToeUnitsFromEnergy() {
+    constexpr int kReadings = 4;  // times those that go on
+    Units units;
+    for (const StudyFit& fit : BestReadings(result_.by_steady, kReadings * request_.keep_toe)) {
+      StudyUnit unit = ToeUnit(fit);
+      unit.runs = StudyUnit::Runs::kEnergy;
+      unit.weights = kEnergyAlone;
+      std::erase_if(unit.free, [](StudyConstant c) {
+        return !IsInEnergy(c) || c == StudyConstant::kPlacementRate ||
+               c == StudyConstant::kPlacementDamping;
       });
-  const std::vector<StudyFit> kept = WithRelatives(
-      {fits.begin(), fits.begin() + static_cast<long>(std::min(to_the_end, fits.size()))},
-      request.readings);
-  std::vector<StudyFit> polished =
-      FitEach(request, "polishing", kept.size(), evaluations, [&](std::size_t i, long& spent) {
-        ReadingProblem problem(request, kept[i].reading, kAll);
-        const StudyFit fit = problem.From(kept[i].constants);
-        spent = problem.evaluations();
-        return fit;
-      });
-  polished.insert(polished.end(), fits.begin(), fits.end());
-  std::stable_sort(polished.begin(), polished.end(), [](const StudyFit& a, const StudyFit& b) {
-    return IsBetter(a.misfit, b.misfit);
-  });
-  result.by_all.resize(polished.size());
-  ParallelFor(static_cast<int>(polished.size()), request.jobs, [&](int i) {
-    result.by_all[static_cast<std::size_t>(i)] =
-        Scored(polished[static_cast<std::size_t>(i)], request);
-  });
-}
+      unit.box = kWholeBox;
+      units.push_back(unit);
+    }
+    if (request_.context.data.energy.empty()) return {};
+    Fits fits = Fit("table 6.5, toe mass", units);
+    SortByMisfit(fits);
+    units.clear();
+    for (const StudyFit& fit : Best(fits, request_.keep_toe)) {
+      StudyUnit unit = ToeUnit(fit);
+      unit.constants = fit.constants;
+      std::erase_if(unit.free,
+                    [](StudyConstant c) { return c == StudyConstant::kToeMass || IsInEnergy(c); });
+      unit.box = kWholeBox;
+      if (!unit.free.empty()) units.push_back(unit);
+    }
+    return units;
+  }
+  // A search over steady hops with a toe mass, from a fit without one.
+  StudyUnit ToeUnit(const StudyFit& fit) const {
+    StudyUnit unit = UnitOf(StudyUnit::Runs::kSteady, fit.reading, kToeShare);
+    unit.reading.liftoff = LiftoffRule::kZeroForce;
+    unit.free.insert(unit.free.end(), request_.toe_free.begin(), request_.toe_free.end());
+    unit.constants = fit.constants;
+    At(unit.constants, StudyConstant::kToeMass) = kFirstToeMass;
+    At(unit.constants, StudyConstant::kPlacementRate) = kFirstRate;
+    At(unit.constants, StudyConstant::kPlacementDamping) = kFirstDamping;
+    return unit;
+  }
 
-void FindSpread(IdentificationResult& result) {
-  constexpr double kAsGood = 2.0;
-  result.low = result.high = result.by_all.front().fit.constants;
-  for (const ScoredFit& scored : result.by_all) {
-    if (!(scored.fit.misfit <= kAsGood * result.by_all.front().fit.misfit)) continue;
-    ++result.as_good;
-    for (std::size_t c = 0; c < result.low.size(); ++c) {
-      result.low[c] = std::min(result.low[c], scored.fit.constants[c]);
-      result.high[c] = std::max(result.high[c], scored.fit.constants[c]);
+  void Refine() {
+    if (!HasTables()) return;
+    Units units;
+    for (const StudyFit& fit : Best(all_, request_.refine)) {
+      if (std::isnan(fit.misfit)) continue;
+      units.push_back(From(fit, kRefineShare));
+    }
+    const Fits refined = Fit("refined", units);
+    all_.insert(all_.end(), refined.begin(), refined.end());
+  }
+
+  void FindFront() {
+    if (!HasTables() || all_.empty() || std::isnan(all_.front().misfit)) return;
+    Units units;
+    std::vector<std::string> names;
+    for (int i = 0; i < kStudyPartCount; ++i) {
+      const std::string part(NameOf(static_cast<StudyPart>(i)));
+      for (const double weight : {kEmphasis, 0.0}) {
+        StudyUnit unit = From(all_.front(), kFrontShare);
+        unit.weights[static_cast<std::size_t>(i)] = weight;
+        units.push_back(unit);
+        names.push_back(weight == 0.0 ? "without " + part : part + " x 10");
+      }
+    }
+    const Fits fits = Fit("front", units);
+    result_.front.push_back({"all", result_.by_all.front()});
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      if (!std::isnan(fits[i].misfit))
+        result_.front.push_back({names[i], Scored(fits[i], request_.context)});
     }
   }
-}
 
-// What each set of tables says about each open point.
-std::vector<PointDecision> Decide(const IdentificationResult& result) {
-  std::vector<PointDecision> decisions;
-  const auto least = [](double a, double b) { return IsBetter(b, a) ? b : a; };
-  const auto add = [&](std::string point, std::span<const std::string_view> words, auto word_of) {
-    PointDecision decision{std::move(point), {}};
-    for (const std::string_view word : words)
-      decision.words.push_back({std::string(word), kNaN, kNaN});
-    const bool is_in_energy = decision.point != "torque_sign";  // no torque in table 6.5
-    for (const StudyFit& fit : result.by_energy) {
-      if (!is_in_energy) break;
-      double& best = decision.words[static_cast<std::size_t>(word_of(fit.reading))].energy_misfit;
-      best = least(best, fit.misfit);
+  // A local search on all tables from a fit, of what is free in it.
+  StudyUnit From(const StudyFit& fit, double share) const {
+    const bool has_toe = At(fit.constants, StudyConstant::kToeMass) > 0.0;
+    StudyUnit unit =
+        UnitOf(StudyUnit::Runs::kTables, fit.reading, has_toe ? kToeTables * share : share);
+    unit.constants = fit.constants;
+    if (has_toe)
+      unit.free.insert(unit.free.end(), request_.toe_free.begin(), request_.toe_free.end());
+    return unit;
+  }
+
+  static Fits Best(const Fits& fits, int count) {
+    const auto kept = std::min(std::ssize(fits), static_cast<std::ptrdiff_t>(count));
+    return {fits.begin(), fits.begin() + kept};
+  }
+  // The best fit of each of the best readings that a toe mass goes with.
+  static Fits BestReadings(const Fits& fits, int count) {
+    Fits best;
+    for (const StudyFit& fit : fits) {
+      const bool is_known = std::any_of(best.begin(), best.end(), [&](const StudyFit& other) {
+        return other.reading.variant == fit.reading.variant;
+      });
+      if (!is_known && std::ssize(best) < count && !std::isnan(fit.misfit)) best.push_back(fit);
     }
-    for (const ScoredFit& scored : result.by_all) {
-      double& best =
-          decision.words[static_cast<std::size_t>(word_of(scored.fit.reading))].all_misfit;
-      best = least(best, scored.fit.misfit);
-    }
-    decisions.push_back(std::move(decision));
-  };
-  for (const VariantKey& key : VariantKeys())
-    add(std::string(key.key), key.words, [&](const StudyReading& r) { return key.get(r.variant); });
-  static constexpr std::array<std::string_view, 2> kLiftoff = {"zero_force", "rest_length"};
-  add("liftoff", kLiftoff, [](const StudyReading& r) { return static_cast<int>(r.liftoff); });
-  return decisions;
-}
+    return best;
+  }
+
+  void Score() {
+    if (!result_.by_energy.empty())
+      result_.best_by_energy = Scored(result_.by_energy.front(), request_.context);
+    for (const StudyFit& fit : all_) result_.by_all.push_back(Scored(fit, request_.context));
+  }
+
+  const IdentificationRequest& request_;
+  const FitUnits& fit_units_;
+  IdentificationResult result_;
+  Fits all_;  // fits to all tables
+};
 
 }  // namespace
+
+FitUnits ThreadedFits::On(const UnitContext& context) const {
+  return [&context, *this](const std::string& stage, const Units& units) {
+    Fits fits(units.size());
+    std::mutex mutex;
+    int done = 0;
+    ParallelFor(static_cast<int>(units.size()), jobs, [&](int i) {
+      const auto at = static_cast<std::size_t>(i);
+      fits[at] = FitUnit(context, units[at]);
+      if (!progress) return;
+      const std::lock_guard lock(mutex);
+      progress(stage, ++done, static_cast<int>(units.size()));
+    });
+    return fits;
+  };
+}
 
 std::vector<StudyReading> AllReadings() {
   std::vector<StudyReading> readings = {StudyReading()};
@@ -304,24 +328,20 @@ std::vector<StudyReading> AllReadings() {
   return readings;
 }
 
-IdentificationResult Identify(const IdentificationRequest& request) {
-  std::atomic<long> evaluations{0};
-  IdentificationResult result;
-  result.by_energy = FitEnergy(request, evaluations);
-  result.best_by_energy = Scored(result.by_energy.front(), request);
-  FitAll(request, FitStiffness(request, result.by_energy, evaluations), evaluations, result);
-  FindSpread(result);
-  const StudyFit& best = result.by_all.front().fit;
-  if (!std::isnan(best.misfit)) {
-    result.energy_directions =
-        ReadingProblem(request, best.reading, kEnergyAlone).Directions(best.constants);
-    result.smooth_directions =
-        ReadingProblem(request, best.reading, kSmooth).Directions(best.constants);
-  }
-  result.decisions = Decide(result);
-  result.evaluations = evaluations;
-  result.interrupted = request.stop && *request.stop;
-  return result;
+ScoredFit Scored(const StudyFit& fit, const UnitContext& context) {
+  ScoredFit scored{fit, {}, {}};
+  scored.scores.modulus_trend = scored.scores.convergence_rms = std::nan("");
+  if (std::isnan(fit.misfit)) return scored;
+  if (!context.convergence.empty())
+    scored.convergence = context.convergence[static_cast<std::size_t>(fit.parts.reading)];
+  const StudyRuns runs = RunTables({fit.reading, fit.constants, context.integrator}, context.data,
+                                   WantsOf({scored.convergence}));
+  scored.scores = ScoresOf(runs, context.data, scored.convergence);
+  return scored;
+}
+
+IdentificationResult Identify(const IdentificationRequest& request, const FitUnits& fit_units) {
+  return Identifier(request, fit_units).Run();
 }
 
 }  // namespace hoplab

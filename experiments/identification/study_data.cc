@@ -1,5 +1,9 @@
 #include "experiments/identification/study_data.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "base/units.h"
 #include "experiments/study/published_tables.h"
 
@@ -7,6 +11,7 @@ namespace hoplab {
 namespace {
 
 constexpr double kGiga = 1e9;
+constexpr double kDamped = 6.0;  // N s/m
 
 void AddModulusTable(const char* name, double damping, StudyData& data) {
   const PublishedTable& table = FindPublishedTable(name);
@@ -16,10 +21,30 @@ void AddModulusTable(const char* name, double damping, StudyData& data) {
     data.modulus.push_back({modulus[i] * kGiga, damping, time[i], k_min[i], k_max[i]});
 }
 
+void AddStartTable(const char* name, double damping, StudyData& data) {
+  const PublishedTable& table = FindPublishedTable(name);
+  const auto speed = table.Column("initial_speed_m_per_s"),
+             height = table.Column("initial_height_m"), time = table.Column("convergence_time_s");
+  for (std::size_t i = 0; i < speed.size(); ++i)
+    data.starts.push_back({speed[i], height[i], damping, time[i]});
+}
+
 }  // namespace
 
+std::string_view NameOf(StudyTableId table) {
+  static constexpr std::array<std::string_view, kStudyTableCount> kNames = {"6.1", "6.2", "6.3",
+                                                                            "6.4", "6.5"};
+  return kNames[static_cast<std::size_t>(table)];
+}
+
+StudyTableId TableOf(const StartCell& cell) {
+  return cell.damping_N_s_per_m > 0.0 ? StudyTableId::k62 : StudyTableId::k61;
+}
+StudyTableId TableOf(const ModulusRow& row) {
+  return row.damping_N_s_per_m > 0.0 ? StudyTableId::k64 : StudyTableId::k63;
+}
+
 StudyData PublishedStudyData() {
-  constexpr double kDamped = 6.0;  // N s/m
   StudyData data;
   const PublishedTable& energy = FindPublishedTable("table_6_5_energy_percent");
   const auto angle = energy.Column("touchdown_angle_deg"), d = energy.Column("d_Ns_per_m"),
@@ -28,12 +53,33 @@ StudyData PublishedStudyData() {
     data.energy.push_back({DegToRad(angle[i]), d[i], percent[i]});
   AddModulusTable("table_6_3_modulus_d0", 0.0, data);
   AddModulusTable("table_6_4_modulus_d6", kDamped, data);
-  const PublishedTable& starts = FindPublishedTable("table_6_2_convergence_d6");
-  const auto speed = starts.Column("initial_speed_m_per_s"),
-             height = starts.Column("initial_height_m"), time = starts.Column("convergence_time_s");
-  for (std::size_t i = 0; i < speed.size(); ++i)
-    data.starts.push_back({speed[i], height[i], kDamped, time[i]});
+  AddStartTable("table_6_1_convergence_d0", 0.0, data);
+  AddStartTable("table_6_2_convergence_d6", kDamped, data);
   return data;
+}
+
+StudyData OnlyTables(const StudyData& data, const std::vector<StudyTableId>& tables) {
+  const auto has = [&](StudyTableId table) {
+    return std::find(tables.begin(), tables.end(), table) != tables.end();
+  };
+  StudyData kept;
+  if (has(StudyTableId::k65)) kept.energy = data.energy;
+  const auto is_kept = [&](const auto& row) { return has(TableOf(row)); };
+  std::copy_if(data.modulus.begin(), data.modulus.end(), std::back_inserter(kept.modulus), is_kept);
+  std::copy_if(data.starts.begin(), data.starts.end(), std::back_inserter(kept.starts), is_kept);
+  return kept;
+}
+
+std::vector<ModulusRow> RowsForRanges(const std::vector<ModulusRow>& rows) {
+  std::vector<ModulusRow> chosen;
+  for (const ModulusRow& row : rows) {
+    const bool is_greatest = std::none_of(rows.begin(), rows.end(), [&](const ModulusRow& other) {
+      return other.damping_N_s_per_m == row.damping_N_s_per_m && !std::isnan(other.k_min_N_per_m) &&
+             other.modulus_Pa > row.modulus_Pa;
+    });
+    if (is_greatest && !std::isnan(row.k_min_N_per_m)) chosen.push_back(row);
+  }
+  return chosen;
 }
 
 }  // namespace hoplab

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 namespace hoplab {
@@ -30,8 +31,23 @@ struct StudyData {
   std::vector<StartCell> starts;
 };
 
-/// The numbers of `experiments/published`: tables 6.5, 6.3, 6.4 and, of the two grids of starts,
-/// the damped one, 6.2 (undamped, convergence takes as long as the runs and has no pattern).
+/// The tables: 6.1 (starts, undamped), 6.2 (damped), 6.3 (moduli, undamped), 6.4 (damped), 6.5.
+enum class StudyTableId { k61, k62, k63, k64, k65 };
+inline constexpr int kStudyTableCount = 5;
+/// "6.1" to "6.5".
+std::string_view NameOf(StudyTableId table);
+
+StudyTableId TableOf(const StartCell& cell);
+StudyTableId TableOf(const ModulusRow& row);
+
+/// The numbers of `experiments/published`.
 StudyData PublishedStudyData();
+
+/// The cells of some tables alone.
+StudyData OnlyTables(const StudyData& data, const std::vector<StudyTableId>& tables);
+
+/// Rows of `modulus` whose stiffness ranges stand for all, which grow with E: of each damping the
+/// one with the greatest E that has a range.
+std::vector<ModulusRow> RowsForRanges(const std::vector<ModulusRow>& rows);
 
 }  // namespace hoplab

@@ -1,220 +1,271 @@
 #include "experiments/identification/study_misfit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "experiments/study/agreement.h"
+#include "base/units.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kRunTime = 15.0;  // s, of a controlled run
+constexpr double kFallen = 10.0;  // percentage points
+// s: what a run without convergence is off by, and the most that one with it is.
+constexpr double kMissingDamped = 6.0, kMissingUndamped = 12.0;
 
 double Square(double x) { return x * x; }
+std::size_t Index(StudyPart part) { return static_cast<std::size_t>(part); }
+bool IsDamped(StudyTableId table) {
+  return table == StudyTableId::k62 || table == StudyTableId::k64;
+}
 
-// The rows whose stiffness ranges stand for all: per damping, the one with the greatest E.
-std::vector<ModulusRow> StandingForAll(const std::vector<ModulusRow>& rows) {
-  std::vector<ModulusRow> chosen;
-  for (const ModulusRow& row : rows) {
-    const bool is_greatest = std::none_of(rows.begin(), rows.end(), [&](const ModulusRow& other) {
-      return other.damping_N_s_per_m == row.damping_N_s_per_m && !std::isnan(other.k_min_N_per_m) &&
-             other.modulus_Pa > row.modulus_Pa;
-    });
-    if (is_greatest && !std::isnan(row.k_min_N_per_m)) chosen.push_back(row);
+// Differences in units, clamped; from these squares and residuals are made.
+double EnergyDifference(double printed, double ours) {
+  if (std::isnan(ours)) return kFallen / kEnergyUnit;
+  return std::clamp(ours - printed, -kFallen, kFallen) / kEnergyUnit;
+}
+
+// From 1, for a run that lasts, to 2: how much what is missing counts.
+double Earliness(const ControlledRun& run) {
+  return IsComplete(run.outcome) ? 1.0 : 2.0 - run.end_time_s / kControlledTime;
+}
+
+double StiffnessDifference(const ControlledRun& run, double printed, double ours) {
+  constexpr double kWorst = 1.0;  // a factor of e
+  if (std::isnan(ours)) return kWorst / kStiffnessUnit * std::sqrt(Earliness(run));
+  return std::clamp(std::log(ours / printed), -kWorst, kWorst) / kStiffnessUnit;
+}
+
+double TimeDifference(const ControlledRun& run, StudyTableId table, double printed,
+                      const ConvergenceTime& ours) {
+  const double missing = IsDamped(table) ? kMissingDamped : kMissingUndamped;
+  const double unit = IsDamped(table) ? kDampedTimeUnit : kUndampedTimeUnit;
+  if (!ours.converged()) return missing / unit * std::sqrt(Earliness(run));
+  return std::clamp(ours.time - printed, -missing, missing) / unit;
+}
+
+// The timed cells of the tables, of whatever kind.
+struct TimedCell {
+  StudyTableId table;
+  const ControlledRun* run;
+  double printed;
+};
+std::vector<TimedCell> TimedCells(const StudyRuns& runs, const StudyData& data) {
+  std::vector<TimedCell> cells;
+  for (std::size_t i = 0; i < data.modulus.size(); ++i) {
+    const ModulusRow& row = data.modulus[i];
+    if (!std::isnan(row.convergence_time_s))
+      cells.push_back({TableOf(row), &runs.modulus[i], row.convergence_time_s});
   }
-  return chosen;
+  for (std::size_t i = 0; i < data.starts.size(); ++i) {
+    const StartCell& cell = data.starts[i];
+    cells.push_back({TableOf(cell), &runs.starts[i], cell.convergence_time_s});
+  }
+  return cells;
 }
 
-ControlledSettings SettingsOf(const ModulusRow& row) {
-  return {.modulus_Pa = row.modulus_Pa, .damping_N_s_per_m = row.damping_N_s_per_m};
-}
-ControlledSettings SettingsOf(const StartCell& cell) {
-  return {.damping_N_s_per_m = cell.damping_N_s_per_m,
-          .speed_m_per_s = cell.speed_m_per_s,
-          .height_m = cell.height_m,
-          .with_stiffness = false};
+// A part's times are the mean over its tables, in each of which every cell counts alike.
+class TableCounts {
+ public:
+  explicit TableCounts(const std::vector<TimedCell>& cells) {
+    for (const TimedCell& cell : cells) counts_[static_cast<std::size_t>(cell.table)] += 1.0;
+  }
+  /// By how much the square of one of its cells is divided.
+  double Share(StudyTableId table) const {
+    double tables = 0.0;
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      const bool is_sister = IsDamped(static_cast<StudyTableId>(i)) == IsDamped(table);
+      tables += is_sister && counts_[i] > 0.0 ? 1.0 : 0.0;
+    }
+    return tables * counts_[static_cast<std::size_t>(table)];
+  }
+
+ private:
+  std::array<double, kStudyTableCount> counts_{};
+};
+
+// Mean squares of the damped and of the undamped times by one reading.
+struct TimeSquares {
+  double damped = 0.0, undamped = 0.0;
+};
+TimeSquares TimeSquaresBy(const ConvergenceReading& reading, const std::vector<TimedCell>& cells,
+                          const TableCounts& counts) {
+  TimeSquares squares;
+  for (const TimedCell& cell : cells) {
+    const double square =
+        Square(TimeDifference(*cell.run, cell.table, cell.printed, cell.run->TimeBy(reading)));
+    (IsDamped(cell.table) ? squares.damped : squares.undamped) += square / counts.Share(cell.table);
+  }
+  return squares;
 }
 
-double StiffnessMisfit(const ControlledRun& run, const ModulusRow& row) {
-  // Off by a factor of e, and further the earlier the run ends: a slope towards runs that last.
-  if (std::isnan(run.k_min_N_per_m))
-    return Square(1.0 / kStiffnessUnit) * (2.0 - run.end_time_s / kRunTime);
-  const double worst = Square(1.0 / kStiffnessUnit);
-  const auto square = [&](double ours, double printed) {
-    return std::min(Square(std::log(ours / printed) / kStiffnessUnit), worst);
-  };
-  return 0.5 * (square(run.k_min_N_per_m, row.k_min_N_per_m) +
-                square(run.k_max_N_per_m, row.k_max_N_per_m));
+double StiffnessMisfit(const StudyRuns& runs, const StudyData& data) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < data.modulus.size(); ++i) {
+    const ModulusRow& row = data.modulus[i];
+    if (std::isnan(row.k_min_N_per_m)) continue;
+    const ControlledRun& run = runs.modulus[i];
+    sum += Square(StiffnessDifference(run, row.k_min_N_per_m, run.k_min_N_per_m)) +
+           Square(StiffnessDifference(run, row.k_max_N_per_m, run.k_max_N_per_m));
+    count += 2.0;
+  }
+  return count == 0.0 ? 0.0 : sum / count;
 }
 
-double ConvergenceMisfit(const ControlledRun& run, double printed) {
-  constexpr double kMissing = 8.0;  // s
-  const double off = run.convergence.converged() ? run.convergence.time - printed : kMissing;
-  return Square(std::min(std::abs(off), kMissing) / kConvergenceUnit);
-}
-
-double RootMeanSquare(const std::vector<double>& values) {
-  if (values.empty()) return kNaN;
+// Each part's shares add up to 1.
+void Normalise(std::vector<PullingCell>& cells, std::size_t from) {
   double sum = 0.0;
-  for (double v : values) sum += v * v;
-  return std::sqrt(sum / static_cast<double>(values.size()));
+  for (std::size_t i = from; i < cells.size(); ++i) sum += cells[i].share;
+  for (std::size_t i = from; i < cells.size() && sum > 0.0; ++i) cells[i].share /= sum;
 }
 
-double Worst(const std::vector<double>& values) {
-  if (values.empty()) return kNaN;
-  double worst = 0.0;
-  for (double v : values) worst = std::isnan(v) ? v : std::max(worst, std::abs(v));
-  return worst;
+void AddEnergyCells(const StudyRuns& runs, const StudyData& data, std::vector<PullingCell>& cells) {
+  const std::size_t from = cells.size();
+  for (std::size_t i = 0; i < data.energy.size(); ++i) {
+    const EnergyCell& cell = data.energy[i];
+    cells.push_back({StudyTableId::k65,
+                     fmt::format("{:.4g} deg, d = {:g}", RadToDeg(cell.touchdown_angle_rad),
+                                 cell.damping_N_s_per_m),
+                     "energy", "%", cell.percent, runs.energy[i],
+                     Square(EnergyDifference(cell.percent, runs.energy[i]))});
+  }
+  Normalise(cells, from);
 }
 
-bool IsTimed(const ModulusRow& row) {
-  return row.damping_N_s_per_m > 0.0 && !std::isnan(row.convergence_time_s);
+void AddStiffnessCells(const StudyRuns& runs, const StudyData& data,
+                       std::vector<PullingCell>& cells) {
+  const std::size_t from = cells.size();
+  for (std::size_t i = 0; i < data.modulus.size(); ++i) {
+    const ModulusRow& row = data.modulus[i];
+    if (std::isnan(row.k_min_N_per_m)) continue;
+    const std::string at = fmt::format("{:.4g} GPa", row.modulus_Pa * 1e-9);
+    const ControlledRun& run = runs.modulus[i];
+    const auto add = [&](const char* quantity, double printed, double ours) {
+      cells.push_back({TableOf(row), at, quantity, "N/m", printed, ours,
+                       Square(StiffnessDifference(run, printed, ours))});
+    };
+    add("k_min", row.k_min_N_per_m, run.k_min_N_per_m);
+    add("k_max", row.k_max_N_per_m, run.k_max_N_per_m);
+  }
+  Normalise(cells, from);
+}
+
+void AddTimes(bool damped, const StudyRuns& runs, const StudyData& data,
+              const ConvergenceReading& reading, std::vector<PullingCell>& cells) {
+  const std::size_t from = cells.size();
+  const auto add = [&](StudyTableId table, std::string at, const ControlledRun& run,
+                       double printed) {
+    if (IsDamped(table) != damped || std::isnan(printed)) return;
+    const ConvergenceTime time = run.TimeBy(reading);
+    cells.push_back({table, std::move(at), "convergence_time", "s", printed, time.time,
+                     Square(TimeDifference(run, table, printed, time))});
+  };
+  for (std::size_t i = 0; i < data.modulus.size(); ++i)
+    add(TableOf(data.modulus[i]), fmt::format("{:.4g} GPa", data.modulus[i].modulus_Pa * 1e-9),
+        runs.modulus[i], data.modulus[i].convergence_time_s);
+  for (std::size_t i = 0; i < data.starts.size(); ++i) {
+    const StartCell& cell = data.starts[i];
+    add(TableOf(cell), fmt::format("{:g} m/s, {:g} m", cell.speed_m_per_s, cell.height_m),
+        runs.starts[i], cell.convergence_time_s);
+  }
+  Normalise(cells, from);
 }
 
 }  // namespace
 
-StudyPredictions PredictionsOf(const StudyHopper& hopper, const StudyData& data,
-                               const StudyTables& tables) {
-  StudyPredictions out;
-  if (tables.energy) {
-    for (const EnergyCell& cell : data.energy)
-      out.energy.push_back(EnergyPercent(hopper, cell).value_or(kNaN));
-  }
-  if (tables.stiffness || tables.convergence) {
-    for (const ModulusRow& row : data.modulus)
-      out.modulus.push_back(RunControlled(hopper, SettingsOf(row)));
-  }
-  if (tables.convergence) {
-    for (const StartCell& cell : data.starts)
-      out.starts.push_back(RunControlled(hopper, SettingsOf(cell)));
-  }
-  return out;
+std::string_view NameOf(StudyPart part) {
+  static constexpr std::array<std::string_view, kStudyPartCount> kNames = {
+      "energy", "stiffness", "damped_times", "undamped_times"};
+  return kNames[Index(part)];
 }
 
-StudyScores ScoresOf(const StudyHopper& hopper, const StudyData& data) {
-  const StudyPredictions ours = PredictionsOf(hopper, data, {true, true, true});
-  StudyScores s{};
-  std::vector<double> energy, stiffness, times_off;
+double StudyMisfit::Total(const StudyWeights& weights) const {
+  double total = 0.0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (weights[i] > 0.0) total += weights[i] * parts[i];
+  }
+  return total;
+}
+
+double EnergyMisfit(const std::vector<double>& percent, const StudyData& data) {
+  double sum = 0.0;
   for (std::size_t i = 0; i < data.energy.size(); ++i)
-    energy.push_back(ours.energy[i] - data.energy[i].percent);
-  s.energy_rms = RootMeanSquare(energy);
-  s.energy_worst = Worst(energy);
-  std::vector<double> moduli, modulus_times;
-  for (std::size_t i = 0; i < data.modulus.size(); ++i) {
-    const ModulusRow& row = data.modulus[i];
-    const ControlledRun& run = ours.modulus[i];
-    if (!std::isnan(row.k_min_N_per_m)) {
-      stiffness.push_back(run.k_min_N_per_m / row.k_min_N_per_m - 1.0);
-      stiffness.push_back(run.k_max_N_per_m / row.k_max_N_per_m - 1.0);
-    }
-    if (!IsTimed(row)) continue;
-    moduli.push_back(row.modulus_Pa);
-    modulus_times.push_back(run.convergence.time);
-    if (!run.convergence.converged()) continue;
-    ++s.converged_moduli;
-    times_off.push_back(run.convergence.time - row.convergence_time_s);
-  }
-  s.stiffness_rms = RootMeanSquare(stiffness);
-  s.stiffness_worst = Worst(stiffness);
-  s.modulus_trend = TrendOf(moduli, modulus_times).tau;
-  std::vector<double> printed, found;
-  for (std::size_t i = 0; i < data.starts.size(); ++i) {
-    const ConvergenceTime& time = ours.starts[i].convergence;
-    printed.push_back(data.starts[i].convergence_time_s);
-    found.push_back(time.time);
-    if (!time.converged()) continue;
-    ++s.converged_starts;
-    times_off.push_back(time.time - data.starts[i].convergence_time_s);
-  }
-  s.start_rank_correlation = RankCorrelation(printed, found);
-  s.convergence_rms = RootMeanSquare(times_off);
-  return s;
+    sum += Square(EnergyDifference(data.energy[i].percent, percent[i]));
+  return data.energy.empty() ? 0.0 : sum / static_cast<double>(data.energy.size());
 }
 
-double MisfitOf(const StudyHopper& hopper, const StudyData& data, const StudyTables& tables) {
-  constexpr double kFallen = 10.0;  // percentage points
-  double misfit = 0.0;
-  if (tables.energy && !data.energy.empty()) {
-    double sum = 0.0;
-    for (const EnergyCell& cell : data.energy) {
-      const std::optional<double> percent = EnergyPercent(hopper, cell);
-      const double off = percent ? std::abs(*percent - cell.percent) : kFallen;
-      sum += Square(std::min(off, kFallen) / kEnergyUnit);
-    }
-    misfit += sum / static_cast<double>(data.energy.size());
-  }
-  if (tables.stiffness) {
-    const std::vector<ModulusRow> rows = StandingForAll(data.modulus);
-    for (const ModulusRow& row : rows)
-      misfit += StiffnessMisfit(RunControlled(hopper, SettingsOf(row)), row) /
-                static_cast<double>(rows.size());
-  }
-  if (tables.convergence) {
-    double sum = 0.0, count = 0.0;
-    for (const StartCell& cell : data.starts) {
-      sum += ConvergenceMisfit(RunControlled(hopper, SettingsOf(cell)), cell.convergence_time_s);
-      count += 1.0;
-    }
-    for (const ModulusRow& row : data.modulus) {
-      if (!IsTimed(row)) continue;
-      ControlledSettings settings = SettingsOf(row);
-      settings.with_stiffness = false;
-      sum += ConvergenceMisfit(RunControlled(hopper, settings), row.convergence_time_s);
-      count += 1.0;
-    }
-    if (count > 0.0) misfit += sum / count;
+StudyMisfit MisfitOf(const StudyRuns& runs, const StudyData& data,
+                     const std::vector<ConvergenceReading>& readings, const StudyWeights& weights) {
+  StudyMisfit misfit;
+  misfit.parts[Index(StudyPart::kEnergy)] = EnergyMisfit(runs.energy, data);
+  misfit.parts[Index(StudyPart::kStiffness)] = StiffnessMisfit(runs, data);
+  const std::vector<TimedCell> cells = TimedCells(runs, data);
+  const TableCounts counts(cells);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const TimeSquares squares = TimeSquaresBy(readings[i], cells, counts);
+    const double sum = weights[Index(StudyPart::kDampedTimes)] * squares.damped +
+                       weights[Index(StudyPart::kUndampedTimes)] * squares.undamped;
+    if (!(sum < least)) continue;
+    least = sum;
+    misfit.reading = static_cast<int>(i);
+    misfit.parts[Index(StudyPart::kDampedTimes)] = squares.damped;
+    misfit.parts[Index(StudyPart::kUndampedTimes)] = squares.undamped;
   }
   return misfit;
 }
 
-int ResidualCount(const StudyData& data, const StudyTables& tables) {
-  std::size_t count = tables.energy ? data.energy.size() : 0;
-  if (tables.stiffness) count += 2 * StandingForAll(data.modulus).size();
-  return static_cast<int>(count);
+std::vector<double> ResidualsOf(const StudyRuns& runs, const StudyData& data,
+                                const ConvergenceReading& reading, const StudyWeights& weights) {
+  std::vector<double> residuals;
+  const auto weight_of = [&](StudyPart part, double count) {
+    return std::sqrt(weights[Index(part)] / std::max(count, 1.0));
+  };
+  const double energy = weight_of(StudyPart::kEnergy, static_cast<double>(data.energy.size()));
+  for (std::size_t i = 0; i < data.energy.size(); ++i)
+    residuals.push_back(energy * EnergyDifference(data.energy[i].percent, runs.energy[i]));
+  double ranges = 0.0;
+  for (const ModulusRow& row : data.modulus) ranges += std::isnan(row.k_min_N_per_m) ? 0.0 : 2.0;
+  const double stiffness = weight_of(StudyPart::kStiffness, ranges);
+  for (std::size_t i = 0; i < data.modulus.size(); ++i) {
+    const ModulusRow& row = data.modulus[i];
+    if (std::isnan(row.k_min_N_per_m)) continue;
+    const ControlledRun& run = runs.modulus[i];
+    for (const auto& [printed, ours] : {std::pair(row.k_min_N_per_m, run.k_min_N_per_m),
+                                        std::pair(row.k_max_N_per_m, run.k_max_N_per_m)})
+      residuals.push_back(stiffness * StiffnessDifference(run, printed, ours));
+  }
+  const std::vector<TimedCell> cells = TimedCells(runs, data);
+  const TableCounts counts(cells);
+  for (const TimedCell& cell : cells) {
+    const StudyPart part =
+        IsDamped(cell.table) ? StudyPart::kDampedTimes : StudyPart::kUndampedTimes;
+    residuals.push_back(
+        weight_of(part, counts.Share(cell.table)) *
+        TimeDifference(*cell.run, cell.table, cell.printed, cell.run->TimeBy(reading)));
+  }
+  return residuals;
 }
 
-bool ResidualsOf(const StudyHopper& hopper, const StudyData& data, const StudyTables& tables,
-                 const std::vector<StudyConstant>& free, Eigen::VectorXd& residuals,
-                 Eigen::MatrixXd* jacobian) {
-  Eigen::Index row = 0;
-  if (tables.energy) {
-    const double scale = 1.0 / (kEnergyUnit * std::sqrt(static_cast<double>(data.energy.size())));
-    for (const EnergyCell& cell : data.energy) {
-      StudySlopes slopes;
-      const auto percent = EnergyPercent(hopper, cell, jacobian ? &slopes : nullptr);
-      if (!percent) return false;
-      residuals[row] = scale * (*percent - cell.percent);
-      for (std::size_t i = 0; jacobian && i < free.size(); ++i)
-        (*jacobian)(row, static_cast<Eigen::Index>(i)) =
-            scale * slopes[static_cast<std::size_t>(free[i])];
-      ++row;
-    }
+RunWants WantsOf(const std::vector<ConvergenceReading>& readings) {
+  RunWants wants;
+  for (const ConvergenceReading& reading : readings) {
+    wants.instants |= reading.speed == ConvergenceReading::Speed::kInstant;
+    wants.fixed_speed |= reading.steady == ConvergenceReading::Steady::kFixedPoint;
   }
-  if (!tables.stiffness) return true;
-  constexpr double kStep = 1e-4;  // of the logarithm
-  const std::vector<ModulusRow> rows = StandingForAll(data.modulus);
-  const double scale = 1.0 / (kStiffnessUnit * std::sqrt(2.0 * static_cast<double>(rows.size())));
-  for (const ModulusRow& printed : rows) {
-    const auto logs = [&](const StudyHopper& at) {
-      const ControlledRun run = RunControlled(at, SettingsOf(printed));
-      return Eigen::Vector2d(scale * std::log(run.k_min_N_per_m / printed.k_min_N_per_m),
-                             scale * std::log(run.k_max_N_per_m / printed.k_max_N_per_m));
-    };
-    residuals.segment<2>(row) = logs(hopper);
-    for (std::size_t i = 0; jacobian && i < free.size(); ++i) {
-      StudyHopper above = hopper, below = hopper;
-      At(above.constants, free[i]) *= std::exp(kStep);
-      At(below.constants, free[i]) *= std::exp(-kStep);
-      const Eigen::Vector2d slope = (logs(above) - logs(below)) / (2.0 * kStep);
-      // Beside a point where a run fails the range has no slope that a step could follow.
-      jacobian->block<2, 1>(row, static_cast<Eigen::Index>(i)) =
-          slope.allFinite() ? slope : Eigen::Vector2d(0.0, 0.0);
-    }
-    row += 2;
-  }
-  return residuals.allFinite();
+  return wants;
+}
+
+std::vector<PullingCell> PullingCells(const StudyRuns& runs, const StudyData& data,
+                                      const ConvergenceReading& reading) {
+  std::vector<PullingCell> cells;
+  AddEnergyCells(runs, data, cells);
+  AddStiffnessCells(runs, data, cells);
+  for (const bool damped : {true, false}) AddTimes(damped, runs, data, reading, cells);
+  std::stable_sort(cells.begin(), cells.end(),
+                   [](const PullingCell& a, const PullingCell& b) { return a.share > b.share; });
+  return cells;
 }
 
 }  // namespace hoplab

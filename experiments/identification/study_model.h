@@ -1,12 +1,11 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string_view>
+#include <vector>
 
-#include "experiments/identification/study_data.h"
+#include "experiments/study/convergence_reading.h"
 #include "model/simulate.h"
-#include "optimize/convergence_time.h"
 
 namespace hoplab {
 
@@ -26,14 +25,19 @@ enum class StudyConstant {
   kStartSpeed,
   kDampingScale,
   kRollingBlend,
-  kToeMass
+  kToeMass,
+  kPlacementRate,
+  kPlacementDamping,
+  kPlacedShare,
+  kDesiredSpeed
 };
-inline constexpr int kStudyConstantCount = 8;
+inline constexpr int kStudyConstantCount = 12;
 using StudyConstants = std::array<double, kStudyConstantCount>;
 
 struct StudyConstantInfo {
   std::string_view name, unit, sentence;
-  double low, high;  // where it is searched
+  double low, high;   // where it is searched
+  double if_printed;  // value where it is not searched
 };
 const StudyConstantInfo& InfoOf(StudyConstant constant);
 
@@ -43,6 +47,14 @@ inline double& At(StudyConstants& constants, StudyConstant which) {
 inline double At(const StudyConstants& constants, StudyConstant which) {
   return constants[static_cast<std::size_t>(which)];
 }
+/// All at `if_printed`.
+StudyConstants ConstantsAsPrinted();
+
+/// Whether a constant has a say in the jumps of table 6.5 of a massless leg, where no torque acts
+/// in stance and no second landing comes.
+bool IsInEnergy(StudyConstant constant);
+/// Whether it says something only with a mass at the toe.
+bool NeedsToeMass(StudyConstant constant);
 
 /// The strip the bending stiffness stands for: with its width taken as 30 mm, thickness [m], second
 /// moment [m^4] and area [m^2] at the study's modulus of 22 GPa. G is taken as 4 GPa; axial and
@@ -52,13 +64,12 @@ struct StudySection {
 };
 StudySection SectionOf(double bending_stiffness_N_m2);
 
-/// Flight placement of a leg with a toe mass, which the study describes without numbers: torque
-/// coefficients [N m/rad, N m s/rad] that bring the leg to its angle like a damped oscillator of
-/// 60 rad/s, well within a flight of 0.3 s.
+/// Flight placement of a leg with a toe mass, as a torque [N m/rad, N m s/rad]: the leg is brought
+/// to its angle like a damped oscillator of a rate and a share of critical damping.
 struct StudyPlacement {
   double kp_N_m_per_rad, kd_N_m_s_per_rad;
 };
-StudyPlacement PlacementOf(double toe_mass_kg, double rest_radius_m);
+StudyPlacement PlacementOf(const StudyConstants& constants);
 
 /// The study's hopper: what a run of it needs.
 struct StudyHopper {
@@ -66,28 +77,21 @@ struct StudyHopper {
   StudyConstants constants{};
   IntegratorOptions integrator;
 };
+/// Whether its leg has a mass at the toe.
+inline bool HasToeMass(const StudyHopper& hopper) {
+  return At(hopper.constants, StudyConstant::kToeMass) > 0.0;
+}
 
-/// Derivatives with respect to the logarithms of the constants.
-using StudySlopes = std::array<double, kStudyConstantCount>;
+/// The study's modulus where nothing else is printed [Pa].
+inline constexpr double kStudyModulus = 22e9;
+/// Height its runs start from where nothing else is printed [m].
+inline constexpr double kStudyHeight = 0.3;
 
-/// Energy left after the jump of a cell of table 6.5, in percent; its slopes from the simulator's
-/// sensitivities where `slopes` is given. Nothing where the jump ends in a fall.
-std::optional<double> EnergyPercent(const StudyHopper& hopper, const EnergyCell& cell,
-                                    StudySlopes* slopes = nullptr);
-
-/// 15 s of controlled hopping (40 deg, v_des 1.8 m/s).
-struct ControlledRun {
-  Outcome outcome = Outcome::kCompleted;
-  double end_time_s = 0.0;
-  ConvergenceTime convergence;  // none where the run ended early
-  /// Least and greatest chord stiffness over the last five hops [N/m]; NaN without them.
-  double k_min_N_per_m, k_max_N_per_m;
-};
-struct ControlledSettings {
-  double modulus_Pa = 22e9, damping_N_s_per_m = 0.0;
-  double speed_m_per_s = 1.0, height_m = 0.3;  // of the start
-  bool with_stiffness = true;
-};
-ControlledRun RunControlled(const StudyHopper& hopper, const ControlledSettings& settings);
+/// A run of the hopper without start, stop and torque, its leg set to `leg_angle_rad` and placed
+/// from the first lift-off on at the placed share of that (M47).
+SimulationRequest RequestOf(const StudyHopper& hopper, double modulus_Pa, double damping_N_s_per_m,
+                            double leg_angle_rad);
+/// The effect by which it rolls between M7 and M8; none where the blend is 0.
+std::vector<EffectSetting> EffectsOf(const StudyHopper& hopper);
 
 }  // namespace hoplab

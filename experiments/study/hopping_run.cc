@@ -25,6 +25,12 @@ MechanismSpec BodyOf(const MechanismSpec& full, MechanismType type) {
   return body;
 }
 
+// The leg begins at the angle of a caption and is placed at its share of that.
+void PutDown(const Study& study, double angle_rad, Scenario& scenario) {
+  scenario.touchdown_angle_rad = study.PlacedShare() * angle_rad;
+  scenario.start_angle_rad = study.places_first_landing ? scenario.touchdown_angle_rad : angle_rad;
+}
+
 Scenario StraightScenario(const Study& study, const CaptionSettings& settings) {
   Scenario scenario = study.constants;
   scenario.law = NameOf(Law::kStraightLeg);
@@ -33,8 +39,9 @@ Scenario StraightScenario(const Study& study, const CaptionSettings& settings) {
                                      settings.straight->stiffness_N_per_m,
                                      settings.damping_N_s_per_m};
   scenario.mechanism.variant.torque_sign = study.constants.mechanism.variant.torque_sign;
-  scenario.touchdown_angle_rad =
-      settings.straight->touchdown_angle_rad.value_or(0.5 * settings.touchdown_angle_rad);
+  PutDown(study,
+          settings.straight->touchdown_angle_rad.value_or(0.5 * settings.touchdown_angle_rad),
+          scenario);
   scenario.effects.clear();
   return scenario;
 }
@@ -43,11 +50,16 @@ Scenario CLegScenario(const Study& study, const CaptionSettings& settings) {
   Scenario scenario = study.constants;
   scenario.mechanism.c_leg.E_Pa = settings.modulus_Pa;
   scenario.mechanism.c_leg.damping_N_s_per_m = settings.damping_N_s_per_m;
-  scenario.touchdown_angle_rad = settings.touchdown_angle_rad;
+  PutDown(study, settings.touchdown_angle_rad, scenario);
   return scenario;
 }
 
 }  // namespace
+
+double Study::PlacedShare() const {
+  return constants.start_angle_rad ? constants.touchdown_angle_rad / *constants.start_angle_rad
+                                   : 1.0;
+}
 
 Study StudyOfScenario(const Scenario& scenario, const IntegratorOptions& integrator) {
   const std::string& place = scenario.origin.place;
@@ -59,6 +71,11 @@ Study StudyOfScenario(const Scenario& scenario, const IntegratorOptions& integra
                       "Add controller: {kp_N_s: 3, v_des_m_per_s: 1.8}; runs without torque leave "
                       "it out by themselves."});
   RequireInitial(scenario);
+  if (scenario.start_angle_rad == 0.0)
+    throw InputError({place, "start_angle_deg = 0",
+                      "says no share that later landings are placed at: that is "
+                      "touchdown_angle_deg over it",
+                      "Give the angle of a caption, as 40, or leave it out."});
   Study study{scenario, integrator};
   // Laws and effects that do not exist are told now; a law that is not named is the default one.
   study.constants.law = NameOf(HopperOfScenario(scenario, integrator).request.law);
@@ -117,6 +134,7 @@ HoppingRun RunHopping(const Hopper& hopper, double sample_step_s) {
   result.end_time_s = run.end_time;
   result.hops = run.hops;
   if (run.final_state.size() >= 4) result.final_speed_m_per_s = run.final_state[2];
+  result.speeds = SpeedHistoryOf(run, request.initial[0], {}, {});
   const auto& s = request.initial;
   result.apexes.push_back({0.0, s[0], s[1], s[2], energy(s[1], s[2], s[3])});
   for (const Event& e : run.events) {
@@ -137,11 +155,8 @@ HoppingRun RunHopping(const Hopper& hopper, double sample_step_s) {
 }
 
 ConvergenceTime ConvergenceOf(const HoppingRun& run) {
-  if (!IsComplete(run.outcome)) return {};
-  std::vector<ApexSpeed> speeds;
-  for (std::size_t i = 1; i < run.apexes.size(); ++i)
-    speeds.push_back({run.apexes[i].time_s, run.apexes[i].speed_m_per_s});
-  return ConvergenceTimeOf(speeds);
+  return IsComplete(run.outcome) ? ConvergenceTimeOf(run.speeds, ConvergenceReading())
+                                 : ConvergenceTime{};
 }
 
 StiffnessRange SteadyStiffness(const HoppingRun& run) {

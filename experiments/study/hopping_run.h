@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/scenario_hopper.h"
-#include "optimize/convergence_time.h"
+#include "experiments/study/convergence_reading.h"
 
 namespace hoplab {
 
@@ -15,6 +15,12 @@ namespace hoplab {
 struct Study {
   Scenario constants;
   IntegratorOptions integrator;
+  /// Whether a run's first landing is placed as well, and not at the caption's angle.
+  bool places_first_landing = false;
+
+  /// Leg angle of a landing the leg is placed for, over the one of the caption: that of
+  /// `touchdown_angle_deg` over `start_angle_deg` of the constants (M47); 1 without the latter.
+  double PlacedShare() const;
 };
 
 /// Throws InputError for a scenario that cannot stand for the study: no half-circular leg, no
@@ -73,6 +79,7 @@ struct HoppingRun {
   double final_speed_m_per_s = std::numeric_limits<double>::quiet_NaN();
   int hops = 0;
   std::vector<ApexPoint> apexes;  // the start, an apex at no vertical speed, is the first
+  SpeedHistory speeds;
   std::vector<HoppingSample> samples;
 
   bool fell() const;
@@ -81,7 +88,8 @@ struct HoppingRun {
 /// Samples every `sample_step_s`; none if that is 0.
 HoppingRun RunHopping(const Hopper& hopper, double sample_step_s);
 
-/// M23 of the run; none where it did not reach its time limit.
+/// Convergence time of the run as the study's tables are read (M48); none where it did not reach
+/// its time limit.
 ConvergenceTime ConvergenceOf(const HoppingRun& run);
 
 /// Least and greatest stiffness over the last five hops [N/m]: the steady state of M23. NaN without

@@ -100,6 +100,14 @@ std::vector<std::pair<std::string, Study>> OtherSettings(const Study& study) {
   other.constants.mechanism.liftoff = by_force ? LiftoffSpec::kRestLength : LiftoffSpec::kZeroForce;
   others.emplace_back(by_force ? "lift-off at rest length" : "lift-off at zero force",
                       std::move(other));
+  if (study.PlacedShare() != 1.0) {
+    other = study;
+    other.constants.start_angle_rad.reset();
+    others.emplace_back("every landing at the printed angle", other);
+    other = study;
+    other.places_first_landing = true;
+    others.emplace_back("the first landing placed like the later ones", std::move(other));
+  }
   return others;
 }
 

@@ -11,13 +11,33 @@ namespace {
 const Effect& Applicable(const FitProblem& problem, const std::string& name,
                          const std::string& place) {
   const Effect& effect = ResolveEffect(name, place);
-  CheckApplies(effect, problem.law, problem.leg_mass(), place);
+  CheckApplies(effect, problem.law, problem.leg_mass(), place, problem.inputs());
   return effect;
 }
 
 bool Simulates(const FitProblem& problem, const Effect& effect) {
   return std::any_of(problem.effects.begin(), problem.effects.end(),
                      [&](const EffectSetting& e) { return e.effect == &effect; });
+}
+
+// Whether a delay or scale that the effect would change is fitted by its own name already.
+bool IsFitted(const FitProblem& problem, const Effect& effect) {
+  const std::string_view name = effect.info.name;
+  const bool gain = name == "torque_gain";  // the scale of a logged torque by another name
+  const bool delays = name.ends_with("_input_delay");
+  const InputSet of = gain ? BitOf(InputKind::kHipTorque) : effect.info.needs_inputs;
+  return std::any_of(problem.shared.begin(), problem.shared.end(), [&](const SharedParameter& s) {
+    return s.direction.of == SensitivityDirection::Of::kInput &&
+           (BitOf(static_cast<InputKind>(s.direction.index)) & of) != 0 &&
+           (s.direction.component == 0) == delays;
+  });
+}
+
+// A ball that falls free rubs on no guide.
+bool HasNoGuide(const FitProblem& problem, const Effect& effect) {
+  return problem.law == Law::kBall && effect.info.name.starts_with("guide_") &&
+         std::none_of(problem.trials.begin(), problem.trials.end(),
+                      [](const TrialProblem& t) { return t.parameters.on_guide; });
 }
 
 }  // namespace
@@ -31,17 +51,21 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
   std::vector<const Effect*> without, only;
   for (const std::string& name : options.without)
     without.push_back(&Applicable(problem, name, "--without"));
-  for (const std::string& name : options.only)
+  for (const std::string& name : options.only) {
     only.push_back(&Applicable(problem, name, "--effects"));
+    problem.known.CheckOpen(*only.back(), "--effects");
+  }
   const auto holds = [](const std::vector<const Effect*>& list, const Effect* effect) {
     return std::find(list.begin(), list.end(), effect) != list.end();
   };
   std::vector<Candidate> candidates;
   for (const Effect* effect : AllEffects()) {
-    if (!AppliesTo(*effect, problem.law, problem.leg_mass()) || Simulates(problem, *effect))
+    if (!AppliesTo(*effect, problem.law, problem.leg_mass(), problem.inputs()) ||
+        IsFitted(problem, *effect) || Simulates(problem, *effect))
       continue;
+    if (only.empty() && HasNoGuide(problem, *effect)) continue;
     if (holds(without, effect) || (!only.empty() && !holds(only, effect))) continue;
-    candidates.push_back({effect});
+    if (!problem.known.RulesOut(*effect)) candidates.push_back({effect, "", problem.known});
   }
   return candidates;
 }
@@ -53,11 +77,12 @@ FitProblem Extend(const FitProblem& problem, std::span<const Candidate> candidat
     extended.effects.push_back(EffectSetting::Null(*c.effect));
     const std::string suffix = c.only_recording.empty() ? "" : "@" + c.only_recording;
     for (int i = 0; i < c.parameter_count(); ++i) {
-      const EffectParameter& p = c.effect->info.parameters[i];
+      const EffectParameter& p = c.Parameter(i);
+      const int place = c.parameters[static_cast<std::size_t>(i)].place;
       extended.shared.push_back(
           {std::string(c.effect->info.name) + "." + std::string(p.name) + suffix,
-           std::string(p.unit), SensitivityDirection::EffectParameter(index, i), p.lower, p.upper,
-           p.null, p.typical, c.only_recording});
+           std::string(p.unit), SensitivityDirection::EffectParameter(index, place), p.lower,
+           p.upper, p.null, p.typical, c.only_recording});
     }
   }
   return extended;
@@ -67,7 +92,7 @@ Eigen::VectorXd NullValues(std::span<const Candidate> candidates) {
   Eigen::VectorXd values(ParameterCount(candidates));
   int next = 0;
   for (const Candidate& c : candidates) {
-    for (const EffectParameter& p : c.effect->info.parameters) values[next++] = p.null;
+    for (const OpenParameter& p : c.parameters) values[next++] = p.info.null;
   }
   return values;
 }

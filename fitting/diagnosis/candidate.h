@@ -12,10 +12,19 @@ namespace hoplab {
 /// trial or in one only.
 struct Candidate {
   const Effect* effect = nullptr;
-  std::string only_recording = {};  // file of the one trial it acts in; empty: all
+  std::string only_recording = {};             // file of the one trial it acts in; empty: all
+  std::vector<OpenParameter> parameters = {};  // that may be off their null, with their bounds
 
-  bool operator==(const Candidate&) const = default;
-  int parameter_count() const { return static_cast<int>(effect->info.parameters.size()); }
+  Candidate() = default;
+  Candidate(const Effect* of, std::string recording = {}, const KnownCauses& known = {})
+      : effect(of), only_recording(std::move(recording)), parameters(known.OpenParameters(*of)) {}
+  bool operator==(const Candidate& other) const {
+    return effect == other.effect && only_recording == other.only_recording;
+  }
+  int parameter_count() const { return static_cast<int>(parameters.size()); }
+  const EffectParameter& Parameter(int i) const {
+    return parameters[static_cast<std::size_t>(i)].info;
+  }
   /// "air_drag", or "air_drag in train-2.csv".
   std::string Name() const;
 };
@@ -26,9 +35,9 @@ struct CandidateOptions {
   std::vector<std::string> without;  // left out
 };
 
-/// The effects to try on `problem`, in the order of the catalogue; those it simulates already are
-/// not among them. Throws InputError (place: the option) for names that are not effects or do not
-/// apply to the law.
+/// The effects to try on `problem`, in the order of the catalogue; those it simulates already and
+/// those that are known not to be there are not among them. Throws InputError (place: the option)
+/// for names that are not effects, do not apply to the law, or are known not to be there.
 std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOptions& options);
 
 /// `problem` with the candidates' parameters as further shared values, at their null.

@@ -6,6 +6,11 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "datasets/suspect_things.h"
+#include "fitting/diagnosis/believe.h"
+#include "fitting/diagnosis/heterogeneity.h"
+#include "fitting/diagnosis/linearise_at.h"
+#include "fitting/diagnosis/verdict.h"
 
 namespace hoplab {
 namespace {
@@ -40,25 +45,6 @@ Detection Detect(const Linearisation& at, std::span<const Candidate> candidates,
   return out;
 }
 
-// The columns of the candidates alone, out of a linearisation that has the probes' too.
-Linearisation CandidatesOnly(Linearisation at, int columns) {
-  at.columns.conservativeResize(Eigen::NoChange, columns);
-  at.along_fitted.conservativeResize(Eigen::NoChange, columns);
-  at.length.conservativeResize(columns);
-  return at;
-}
-
-// Whether some free force gains more than it must: the chi-square its dimensions reach once in
-// twenty searches over all groups.
-bool FreeForcePays(const Detection& detection) {
-  const std::size_t groups = detection.tests.size() - detection.candidates;
-  for (std::size_t i = detection.candidates; i < detection.tests.size(); ++i) {
-    if (detection.tests[i].p_value < 0.05 / static_cast<double>(std::max<std::size_t>(groups, 1)))
-      return true;
-  }
-  return false;
-}
-
 std::vector<Movement> MovementsOf(const Extension& null, const Uncertainty& uncertainty,
                                   const Extension& best) {
   std::vector<Movement> movements;
@@ -77,12 +63,6 @@ bool Has(const Extension& e, const Candidate& c) {
                      [&](const Candidate& m) { return m.effect == c.effect; });
 }
 
-std::string NamesOf(const Extension& e) {
-  std::string names;
-  for (const Candidate& c : e.members) names += (names.empty() ? "" : " + ") + c.Name();
-  return names;
-}
-
 class Pipeline {
  public:
   Pipeline(const Dataset& dataset, const DiagnosisOptions& options)
@@ -91,6 +71,11 @@ class Pipeline {
   Diagnosis Run() {
     FitProblem problem = MakeProblem(dataset_, options_.problem);
     const std::vector<Candidate> candidates = CandidatesOf(problem, options_.candidates);
+    d_.refusal = UnreadableTimes(dataset_);
+    if (!d_.refusal.empty()) {
+      d_.problem = std::move(problem);
+      return Finish();
+    }
     FitNull(std::move(problem));
     if (!d_.refusal.empty() || Stopped()) return Finish();
     Look(candidates);
@@ -101,7 +86,8 @@ class Pipeline {
     d_.before = MeasureHeldOut(d_.null, options_.fit.jobs);
     if (!d_.naming.best.members.empty()) Extended(candidates);
     if (Stopped()) return Finish();
-    Judge();
+    Judge(d_, options_.material);
+    DescribeWhatIsMissing();
     return Finish();
   }
 
@@ -120,26 +106,48 @@ class Pipeline {
   void FitNull(FitProblem problem) {
     d_.notes = CorrectNoise(problem);
     Stage("fitting the model as it is");
-    DatasetFit fit = FitTraces(std::move(problem), options_.fit, options_.span);
+    FitOptions white = options_.fit;
+    white.discrepancy = Discrepancy::kNone;
+    DatasetFit fit = FitTraces(std::move(problem), white, options_.span);
     d_.by_hop = fit.by_hop;
     d_.fit = std::move(fit.result);
     d_.problem = std::move(fit.problem);
     d_.notes.insert(d_.notes.begin(), d_.problem.notes.begin(), d_.problem.notes.end());
     if (!fit.note.empty()) d_.notes.push_back(fit.note);
+    for (const std::string& file : fit.left_out)
+      d_.notes.push_back(file + ": left out, since no values found let it be simulated");
     if (Stopped()) return;
     if (!d_.fit.ok) {
       d_.refusal = "the model without further effects cannot be fitted: " + d_.fit.message;
       return;
     }
     train_ = TrialsOf(d_.problem, TrialRole::kTrain);
-    d_.null.problem = d_.problem;
-    d_.null.shared = d_.fit.shared;
-    d_.null.starts = d_.fit.starts;
-    d_.null.cost = d_.fit.cost;
-    d_.null.status = d_.fit.records[static_cast<std::size_t>(d_.fit.best_start)].status;
+    d_.plain.problem = d_.problem;
+    d_.plain.shared = d_.fit.shared;
+    d_.plain.starts = d_.fit.starts;
+    d_.plain.cost = d_.fit.cost;
+    d_.plain.status = d_.fit.records[static_cast<std::size_t>(d_.fit.best_start)].status;
+    d_.plain.complete = d_.fit.stop.complete;
+    Stage("looking for the noise that suits it");
+    RefitSettings settle = Settings();
+    settle.discrepancy = Discrepancy::kNone;
+    Settle(d_.plain, settle);
+    d_.null = d_.plain;
+    settle.discrepancy = options_.fit.discrepancy;
+    if (settle.discrepancy != Discrepancy::kNone) Settle(d_.null, settle);
+    d_.problem.noise = d_.null.problem.noise;
     Stage("checking that a diagnosis can be trusted");
-    d_.gate = CheckGate(d_.null, train_, options_.fit.jobs);
+    d_.gate = CheckGate(d_.plain, train_, options_.fit.jobs);
     d_.refusal = d_.gate.Refusal();
+  }
+
+  RefitSettings Settings() const {
+    RefitSettings settings;
+    settings.train = &train_;
+    settings.jobs = options_.fit.jobs;
+    settings.stop = options_.fit.stop;
+    settings.discrepancy = options_.fit.discrepancy;
+    return settings;
   }
 
   // ---- detect, localise
@@ -148,19 +156,23 @@ class Pipeline {
     basis_ = ProbesOf(d_.problem.law);
     std::vector<Candidate> all = candidates;
     all.insert(all.end(), basis_.probes.begin(), basis_.probes.end());
-    const Linearisation at = LineariseAt(d_.null, all, train_, options_.fit.jobs);
+    // Whether anything is there is asked of white noise: a discrepancy is one of the answers.
+    const Linearisation at = LineariseAt(d_.plain, all, train_, options_.fit.jobs);
     NoteFailed(at);
     d_.detection = Detect(at, candidates, basis_, Seed(kDetectionStream));
-    d_.localisation = Localise(at);
-    d_.null_at = CandidatesOnly(at, ParameterCount(candidates));
+    d_.localisation = Localise(Linearise(d_.plain.problem, d_.plain.problem.shared_count(), train_,
+                                         d_.plain.shared, d_.plain.starts, options_.fit.jobs));
     d_.uncertainty = AssessUncertainty(d_.problem, train_, d_.null.shared, d_.null.starts,
                                        options_.fit.loss, options_.fit.jobs);
     if (d_.detection.p_value > kDetectionLevel) {
       // Nothing to name; what each candidate could have shown is still told.
       NamingOptions none;
       none.max_effects = 0;
-      d_.naming = NameCauses(d_.null, candidates, d_.null_at, train_, none);
+      d_.naming = NameCauses({&d_.plain, &d_.null}, candidates, NullAt(candidates), train_, none);
     }
+  }
+  Linearisation NullAt(const std::vector<Candidate>& candidates) const {
+    return LineariseAt(d_.null, candidates, train_, options_.fit.jobs);
   }
 
   void NoteFailed(const Linearisation& at) {
@@ -175,6 +187,7 @@ class Pipeline {
     Stage("refitting with every candidate cause");
     NamingOptions naming;
     naming.max_effects = options_.max_effects;
+    naming.discrepancy = options_.fit.discrepancy;
     naming.jobs = options_.fit.jobs;
     naming.stop = options_.fit.stop;
     if (options_.step) {
@@ -184,7 +197,7 @@ class Pipeline {
                       refits, of);
       };
     }
-    d_.naming = NameCauses(d_.null, candidates, d_.null_at, train_, naming);
+    d_.naming = NameCauses({&d_.plain, &d_.null}, candidates, NullAt(candidates), train_, naming);
   }
 
   // ---- extend, measure
@@ -205,9 +218,18 @@ class Pipeline {
     all.insert(all.end(), basis_.probes.begin(), basis_.probes.end());
     const Linearisation at = LineariseAt(best, all, train_, options_.fit.jobs);
     report.remainder = Detect(at, others, basis_, Seed(kRemainderStream));
-    const double excess = d_.detection.chi2 - d_.detection.degrees_of_freedom;
-    const double left = report.remainder.chi2 - report.remainder.degrees_of_freedom;
-    report.explained = excess > 0.0 ? std::clamp(1.0 - left / excess, 0.0, 1.0) : 1.0;
+    RefitSettings settings = Settings();
+    const Extension white = UnderWhiteNoise(best, settings);
+    report.white_square = white.ok() ? white.white_square : best.white_square;
+    report.explained = 1.0 - LeftShare(d_.detection, report.white_square, best.parameter_count());
+    report.causes = TakeApart(d_.naming,
+                              {.plain_square = d_.plain.white_square,
+                               .extended_square = report.white_square,
+                               .after = &report.after,
+                               .material = options_.material,
+                               .seed = Seed(kBootstrapStream)},
+                              settings);
+    Believe(report, d_, HeterogeneityOf(best, train_, options_.fit.jobs));
     for (std::size_t i = 0; i < best.members.size(); ++i)
       report.at_bound = report.at_bound || best.AtPhysicalBound(static_cast<int>(i));
     d_.extension = std::move(report);
@@ -218,7 +240,7 @@ class Pipeline {
       // What gained nothing on the fitted trials has nothing to show on the others.
       if (!c.alone.ok() || c.gain < 1.0 || Stopped()) return;
       d_.candidate_gains[static_cast<std::size_t>(i)] = CompareHeldOut(
-          d_.null, d_.before, MeasureHeldOut(c.alone, 1), Seed(kBootstrapStream), nullptr);
+          d_.null, d_.before, MeasureHeldOut(c.alone, 1, true), Seed(kBootstrapStream), nullptr);
     });
     for (const std::vector<Extension>& rivals : d_.naming.rivals) {
       if (rivals.size() < 2 || d_.experiment) continue;
@@ -227,50 +249,11 @@ class Pipeline {
     }
   }
 
-  // ---- verdict
-  void Judge() {
-    const Detection& seen = d_.detection;
-    if (seen.p_value > kDetectionLevel) {
-      d_.verdict = Verdict::kAdequate;
-      d_.reason = "no test stands out of what noise alone gives";
-      return;
-    }
-    if (!d_.extension) {
-      if (FreeForcePays(seen)) {
-        d_.verdict = Verdict::kUnexplained;
-        d_.reason =
-            "a free force or reading is needed, and no effect of the catalogue pays for "
-            "its parameters";
-        DescribeFreely(d_.null);
-      } else {
-        d_.verdict = Verdict::kAdequate;
-        d_.reason = "a test stands out, but no effect gains what it must";
-      }
-      return;
-    }
-    const ExtensionReport& e = *d_.extension;
-    const bool remains = e.SomeRemains();
-    if (e.at_bound) {
-      d_.verdict = Verdict::kUnexplained;
-      d_.reason = "the best extension, " + NamesOf(d_.naming.best) +
-                  ", needs a size beyond what is physical";
-    } else if (remains && e.explained < kExplained) {
-      d_.verdict = Verdict::kUnexplained;
-      char text[96];
-      std::snprintf(text, sizeof text, " explains only %.0f %% of the misfit", 100.0 * e.explained);
-      d_.reason = "the best extension, " + NamesOf(d_.naming.best) + "," + text;
-    } else {
-      bool alone = true;
-      for (const std::vector<int>& group : d_.naming.groups) alone = alone && group.size() == 1;
-      d_.verdict = alone ? Verdict::kNamed : Verdict::kConfounded;
-      d_.reason = alone ? "nothing else in the catalogue does as well"
-                        : "several effects do as well within the noise";
-      if (e.InDoubt()) d_.reason += remains ? "; some misfit remains" : "; some misfit may remain";
-    }
-    if (d_.verdict == Verdict::kUnexplained || remains) DescribeFreely(d_.naming.best);
-  }
-
-  void DescribeFreely(const Extension& model) {
+  // As free forces, what no cause explains.
+  void DescribeWhatIsMissing() {
+    const bool left = d_.extension && d_.left.material;
+    if (d_.verdict != Verdict::kUnexplained && !left) return;
+    const Extension& model = d_.extension ? d_.naming.best : d_.plain;
     const Linearisation at = LineariseAt(model, basis_.probes, train_, options_.fit.jobs);
     d_.free_forces = Reconstruct(at, basis_, Seed(kForcesStream));
   }
@@ -283,34 +266,6 @@ class Pipeline {
 };
 
 }  // namespace
-
-std::string_view NameOf(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kAdequate:
-      return "adequate";
-    case Verdict::kNamed:
-      return "named";
-    case Verdict::kConfounded:
-      return "confounded";
-    case Verdict::kUnexplained:
-      return "unexplained";
-  }
-  return "";
-}
-
-std::optional<int> Diagnosis::Cause() const {
-  std::optional<int> cause;
-  double most = -std::numeric_limits<double>::infinity();
-  for (const std::vector<int>& group : naming.groups) {
-    const int member = group.front();
-    const double gain = naming.candidates[static_cast<std::size_t>(member)].gain;
-    if (gain > most) {
-      most = gain;
-      cause = member;
-    }
-  }
-  return cause;
-}
 
 Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
   return Pipeline(dataset, options).Run();

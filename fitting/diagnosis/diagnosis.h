@@ -15,6 +15,7 @@
 #include "fitting/diagnosis/name.h"
 #include "fitting/diagnosis/probes.h"
 #include "fitting/diagnosis/separate.h"
+#include "fitting/diagnosis/shares.h"
 #include "fitting/fit_dataset.h"
 #include "fitting/uncertainty.h"
 
@@ -33,6 +34,9 @@ inline constexpr double kDetectionLevel = 0.01;
 /// Level of the same test beside an extension, from which its names are given with a doubt: there
 /// an idle doubt costs less than a wrong name.
 inline constexpr double kDoubtLevel = 0.05;
+/// Probability from which a cause is named without a doubt, and below which something that is not
+/// in the catalogue is the more likely cause.
+inline constexpr double kSure = 0.95, kLikely = 0.5;
 /// Share of the misfit's excess over noise an extension must explain to name a cause while some
 /// misfit remains: then what remains is seen, but of no consequence. With 0.9 one in five wrong
 /// names of an effect outside the catalogue passed in spite of what it left.
@@ -44,6 +48,7 @@ struct DiagnosisOptions {
   FitSpan span = FitSpan::kWholeElseHops;
   CandidateOptions candidates;
   int max_effects = 5;
+  double material = kMaterial;
   /// Called where a stage begins, and how far it is (may come from several threads, one at a time).
   std::function<void(std::string_view stage)> stage = nullptr;
   /// `of` is what is planned so far: more may follow from what is found.
@@ -74,6 +79,17 @@ struct Movement {
   std::optional<double> std_errors;  // (after - before) over the standard error before
 };
 
+/// What the accepted extension, or the plain model if there is none, leaves.
+struct Leftover {
+  /// Of the plain model's squared misfit beyond noise, 0..1.
+  double share = 0.0;
+  /// That a discrepancy is there beside white noise.
+  double probability = 0.0;
+  NoiseModel noise;
+  /// There, and more than is of no consequence.
+  bool material = false;
+};
+
 /// What the accepted extension is worth.
 struct ExtensionReport {
   Uncertainty uncertainty;  // of the extended model
@@ -81,13 +97,24 @@ struct ExtensionReport {
   HeldOutGain gain;
   std::vector<std::string> left_out;  // held-out trials that could not be compared
   std::vector<Movement> movements;
-  Detection remainder;     // the other candidates and the probes at the extension
-  double explained = 0.0;  // share of the excess chi-square, 0..1
-  bool at_bound = false;   // a member's size lies on a physical bound
+  Detection remainder;        // the other candidates and the probes at the extension
+  double explained = 0.0;     // share of the excess chi-square, 0..1
+  double white_square = 0.0;  // squares left when fitted under white noise
+  bool at_bound = false;      // a member's size lies on a physical bound
+
+  std::vector<CauseReport> causes;  // the members, the largest share first
 
   /// Some misfit is left for certain, or may be: one of the members may stand in for another cause.
   bool SomeRemains() const { return remainder.p_value <= kDetectionLevel; }
   bool InDoubt() const { return remainder.p_value <= kDoubtLevel; }
+  std::vector<const CauseReport*> MainCauses() const;
+  /// The main causes; all of them where none is main.
+  std::vector<const CauseReport*> ToldCauses() const;
+  /// That every told cause is right, or a name that does as well: the least of them, since what
+  /// spoils one spoils all.
+  double Probability() const;
+  /// Nothing does as well in the place of a told cause.
+  bool Alone(const Naming& naming) const;
 };
 
 /// A diagnosis from the gate to the proposed experiment. What was not reached is empty.
@@ -101,22 +128,26 @@ struct Diagnosis {
   std::string refusal;
   bool interrupted = false;
 
-  Extension null;
+  Extension plain;          // the null fit under white noise
+  Extension null;           // the same under the noise that suits it
   Uncertainty uncertainty;  // of the null fit
-  Linearisation null_at;    // with the candidates' columns
   Detection detection;
   Localisation localisation;
   Naming naming;
   std::vector<std::optional<HeldOutGain>> candidate_gains;  // of each candidate added alone
   HeldOutErrors before;
   std::optional<ExtensionReport> extension;
+  Leftover left;
   std::optional<SeparatingExperiment> experiment;
   std::optional<FreeForces> free_forces;  // where the catalogue does not explain the misfit
   Verdict verdict = Verdict::kAdequate;
   std::string reason;  // why the verdict is what it is
 
-  /// Place in naming.candidates of the member that gains most; absent without an extension.
+  /// Place in naming.candidates of the largest cause; absent without an extension.
   std::optional<int> Cause() const;
+  /// That something acts that the catalogue does not hold: by cases that looked like this one where
+  /// there is an extension, else by the evidence for a discrepancy.
+  double UnlistedProbability() const;
 };
 
 /// Diagnoses a dataset. Throws InputError for options that do not suit it.

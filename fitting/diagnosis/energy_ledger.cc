@@ -19,7 +19,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFlightShare = 0.8;
 constexpr int kFewestRows = 6;
 
-using State = std::array<double, 4>;
+using State = Eigen::Vector4d;
 
 // Energy in flight by the mass and the gravity of a model in one trial.
 class Scale {
@@ -54,7 +54,7 @@ struct Window {
 // needed.
 State StateShown(const FitProblem& problem, const TrialProblem& trial, const Window& window,
                  double g) {
-  State state = {0.0, kNaN, kNaN, kNaN};
+  State state(0.0, kNaN, kNaN, kNaN);
   const std::size_t width = problem.channels.size();
   for (std::size_t c = 0; c < width; ++c) {
     const Channel channel = problem.channels[c].channel;
@@ -111,7 +111,7 @@ std::vector<HopBalance> BalancesOf(const FitProblem& problem, const TrialProblem
   const std::vector<TrialProblem> pieces = CutAtApexes(problem, trial);
   double begin = scale.EnergyOf(StateShown(problem, trial, first_flight, scale.gravity()));
   for (std::size_t k = 1; k < pieces.size(); ++k) {
-    const double end = scale.EnergyOf(pieces[k].start);
+    const double end = scale.EnergyOf(pieces[k].start.head<4>());
     hops.push_back({begin, end});
     begin = end;
   }
@@ -164,9 +164,10 @@ EnergyLedger LedgerOfHops(const Extension& model, const std::vector<std::size_t>
     };
     const Trajectory& old = before.trials[trials[k]].trajectory;
     const double begin = k > 0
-                             ? scale.EnergyOf(trial.start)
+                             ? scale.EnergyOf(trial.start.head<4>())
                              : (BeginsAndEndsInFlight(old) ? shown(trial, FirstFlight(old)) : kNaN);
-    HopEnergy hop{{begin, scale.EnergyOf(next.start)}, simulated(before.trials[trials[k]]), {}};
+    HopEnergy hop{
+        {begin, scale.EnergyOf(next.start.head<4>())}, simulated(before.trials[trials[k]]), {}};
     if (after) hop.after = simulated(after->trials[trials[k]]);
     ledger.hops.push_back(hop);
   }

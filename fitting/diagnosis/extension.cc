@@ -1,14 +1,11 @@
 #include "fitting/diagnosis/extension.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <string>
 #include <utility>
 
-#include "model/effects/active_effects.h"
+#include "fitting/discrepancy/refine.h"
 
 namespace hoplab {
 namespace {
@@ -31,16 +28,34 @@ double Inside(const SharedParameter& s, double value) {
   return std::clamp(value, s.lower + room, s.upper - room);
 }
 
-void Run(Extension& e, const Eigen::VectorXd& null_values, const RefitSettings& settings,
-         double base_cost) {
-  SolveRequest request;
-  request.problem = &e.problem;
+// A search (Solve, Refine) from where a model is.
+template <class Request>
+Request RequestFrom(const Extension& e, const RefitSettings& settings) {
+  Request request;
   request.trials = settings.train;
+  request.shared = e.shared;
   request.starts = e.starts;
   request.max_iterations = settings.max_iterations;
   request.function_tolerance = kCostTolerance;
   request.jobs = settings.jobs;
   request.stop = settings.stop;
+  return request;
+}
+
+// `result` is that of Solve, or the solution Refine ends with.
+template <class Result>
+void Take(Extension& e, const Result& result) {
+  e.shared = result.shared;
+  e.starts = result.starts;
+  e.cost = result.cost;
+  e.status = result.status;
+  e.complete = result.complete;
+}
+
+void Run(Extension& e, const Eigen::VectorXd& null_values, const RefitSettings& settings,
+         double base_cost) {
+  auto request = RequestFrom<SolveRequest>(e, settings);
+  request.problem = &e.problem;
   request.give_up_above = std::min(settings.give_up_above, base_cost);
   request.start_below = kFarOff * base_cost;
   const Eigen::Index added = null_values.size(), kept = e.shared.size() - added;
@@ -58,10 +73,7 @@ void Run(Extension& e, const Eigen::VectorXd& null_values, const RefitSettings& 
     result = Solve(request);
     if (result.status != SolveStatus::kNoStart) break;
   }
-  e.shared = result.shared;
-  e.starts = result.starts;
-  e.cost = result.cost;
-  e.status = result.status;
+  Take(e, result);
 }
 
 }  // namespace
@@ -76,7 +88,7 @@ bool Extension::AtPhysicalBound(int i) const {
   for (int k = 0; k < member.parameter_count(); ++k) {
     const int place = first + k;
     const SharedParameter& s = problem.shared[static_cast<std::size_t>(place)];
-    const double null = member.effect->info.parameters[k].null, near = 1e-6 * s.scale;
+    const double null = member.Parameter(k).null, near = 1e-6 * s.scale;
     const double value = shared[place];
     if (value <= s.lower + near && null > s.lower + near) return true;
     if (value >= s.upper - near && null < s.upper - near) return true;
@@ -117,6 +129,7 @@ Extension RefitWithout(const Extension& base, int i, const FitProblem& null_prob
   e.members = base.members;
   e.members.erase(e.members.begin() + i);
   e.problem = Extend(null_problem, e.members);
+  e.problem.noise = base.problem.noise;
   e.shared.resize(base.shared.size() - count);
   e.shared << base.shared.head(place), base.shared.tail(base.shared.size() - place - count);
   e.starts = base.starts;
@@ -124,121 +137,40 @@ Extension RefitWithout(const Extension& base, int i, const FitProblem& null_prob
   return e;
 }
 
-namespace {
-
-// What a run with this effect costs decides which effects are differentiated together: one that
-// changes the leg's law, or is sharp, slows every column of its run.
-int CostClass(const Candidate& candidate) {
-  const Effect& effect = *candidate.effect;
-  if (effect.info.sharp) return 2;
-  if (!effect.hooks0.change_parameters) return 0;
-  Parameters<double> p;
-  const EffectSetting at_null = EffectSetting::Null(effect);
-  effect.hooks0.change_parameters(at_null.values.data(), p);
-  return p.law_terms.active ? 1 : 0;
+void Settle(Extension& model, const RefitSettings& settings) {
+  if (!model.ok()) return;
+  if (settings.discrepancy == Discrepancy::kMatern) {
+    auto request = RequestFrom<RefineRequest>(model, settings);
+    request.noise_is_near = !model.problem.noise.IsWhite();
+    FitProblem problem = model.problem;
+    RefinedFit refined = Refine(problem, request);
+    model.complete = refined.at.complete;
+    if (!IsUsable(refined.at.status) || !model.complete) return;
+    model.problem = std::move(problem);
+    Take(model, refined.at);
+    model.discrepancy = std::move(refined.discrepancy);
+  }
+  LikelihoodDetail detail;
+  detail.prior_widths = PriorWidths(model.problem, model.shared);
+  const RestrictedLikelihood likelihood(model.problem, *settings.train, model.shared, model.starts,
+                                        settings.jobs, detail);
+  const RestrictedLikelihood coarse(model.problem, *settings.train, model.shared, model.starts,
+                                    settings.jobs, LikelihoodDetail::Coarse());
+  model.evidence = EvidenceOf(model.problem, model.shared, likelihood, coarse, model.problem.noise);
+  model.white_square = likelihood.white_square();
+  model.settled = true;
 }
 
-// Collects columns of one linearisation that come from several runs.
-class Columns {
- public:
-  Columns(const Extension& model, std::span<const Candidate> tested,
-          const std::vector<TrialProblem>& train, int jobs)
-      : model_(model), tested_(tested), train_(train), jobs_(jobs) {
-    for (const Candidate& c : tested) {
-      column_of_.push_back(count_);
-      count_ += c.parameter_count();
-    }
-  }
-
-  /// Those of the candidates at `places`, differentiated together. Where that fails, as it may for
-  /// one that asks for too many steps, in halves; one that fails alone keeps columns of zeros.
-  void Add(std::span<const int> places) {
-    std::vector<Candidate> part;
-    for (const int place : places) part.push_back(tested_[static_cast<std::size_t>(place)]);
-    Linearisation at = LineariseWith(part);
-    if (IsSound(at)) return Take(places, std::move(at));
-    if (places.size() > 1) {
-      Add(places.first(places.size() / 2));
-      Add(places.subspan(places.size() / 2));
-    } else {
-      failed_.push_back(part.front().Name());
-    }
-  }
-
-  Linearisation Done() {
-    if (!begun_) Begin(Linearisation(Bare()));
-    all_.failed = std::move(failed_);
-    return std::move(all_);
-  }
-
- private:
-  Linearisation LineariseWith(std::span<const Candidate> part) const {
-    const FitProblem problem = Extend(model_.problem, part);
-    Eigen::VectorXd shared(problem.shared_count());
-    shared << model_.shared, NullValues(part);
-    return Linearise(problem, model_.problem.shared_count(), train_, shared, model_.starts, jobs_);
-  }
-  const Linearisation& Bare() {
-    if (!bare_) bare_ = LineariseWith({});
-    return *bare_;
-  }
-  // Differentiating by more must not lose a trial that the model by itself gets through.
-  bool IsSound(const Linearisation& at) {
-    if (!at.columns.allFinite()) return false;
-    if (at.trials_left_out > 0 && at.trials_left_out != Bare().trials_left_out) return false;
-    return !begun_ ||
-           (at.rows() == all_.rows() && at.fitted_basis.cols() == all_.fitted_basis.cols());
-  }
-  void Begin(Linearisation at) {
-    all_ = std::move(at);
-    all_.columns = Eigen::MatrixXd::Zero(all_.rows(), count_);
-    all_.along_fitted = Eigen::MatrixXd::Zero(all_.fitted_basis.cols(), count_);
-    all_.length = Eigen::VectorXd::Zero(count_);
-    begun_ = true;
-  }
-  void Take(std::span<const int> places, Linearisation at) {
-    const Eigen::MatrixXd found = std::move(at.columns);
-    const Eigen::MatrixXd along = std::move(at.along_fitted);
-    const Eigen::VectorXd length = std::move(at.length);
-    if (!begun_) Begin(std::move(at));
-    int next = 0;
-    for (const int place : places) {
-      const auto i = static_cast<std::size_t>(place);
-      for (int k = 0; k < tested_[i].parameter_count(); ++k, ++next) {
-        all_.columns.col(column_of_[i] + k) = found.col(next);
-        all_.along_fitted.col(column_of_[i] + k) = along.col(next);
-        all_.length[column_of_[i] + k] = length[next];
-      }
-    }
-  }
-
-  const Extension& model_;
-  std::span<const Candidate> tested_;
-  const std::vector<TrialProblem>& train_;
-  int jobs_;
-  std::vector<int> column_of_;  // first column of each tested candidate
-  int count_ = 0;
-  bool begun_ = false;
-  Linearisation all_;
-  std::optional<Linearisation> bare_;
-  std::vector<std::string> failed_;
-};
-
-}  // namespace
-
-Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tested,
-                          const std::vector<TrialProblem>& train, int jobs) {
-  std::array<std::vector<int>, 3> classes;  // places in `tested`
-  for (std::size_t i = 0; i < tested.size(); ++i)
-    classes[static_cast<std::size_t>(CostClass(tested[i]))].push_back(static_cast<int>(i));
-  // What one run can hold beside the effects the model has.
-  const std::size_t room = ActiveEffects<double>::kMax - model.problem.effects.size();
-  Columns columns(model, tested, train, jobs);
-  for (const std::vector<int>& places : classes) {
-    for (std::size_t first = 0; first < places.size(); first += room)
-      columns.Add(std::span(places).subspan(first, std::min(room, places.size() - first)));
-  }
-  return columns.Done();
+Extension UnderWhiteNoise(const Extension& model, const RefitSettings& settings) {
+  if (model.problem.noise.IsWhite() || !model.ok()) return model;
+  Extension white = model;
+  white.problem.noise = {};
+  white.settled = false;
+  auto request = RequestFrom<SolveRequest>(white, settings);
+  request.problem = &white.problem;
+  Take(white, Solve(request));
+  white.white_square = 2.0 * white.cost;
+  return white;
 }
 
 }  // namespace hoplab

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fitting/diagnosis/candidate.h"
-#include "fitting/diagnosis/linearisation.h"
-#include "fitting/solve.h"
+#include "fitting/diagnosis/evidence.h"
+#include "fitting/fit.h"
 
 namespace hoplab {
 
@@ -15,13 +15,21 @@ namespace hoplab {
 /// null fit.
 struct Extension {
   std::vector<Candidate> members;
-  FitProblem problem;      // the null problem extended by the members
-  Eigen::VectorXd shared;  // fitted: those of the null problem, then the members'
-  std::vector<std::array<double, 4>> starts;  // of the train trials
-  double cost = 0.0;  // half the sum of squares; its difference is a log-likelihood ratio
+  FitProblem problem;             // the null problem extended by the members
+  Eigen::VectorXd shared;         // fitted: those of the null problem, then the members'
+  std::vector<OwnValues> starts;  // of the train trials
+  /// Half the sum of squares under the problem's noise; under one noise its difference is a
+  /// log-likelihood ratio.
+  double cost = 0.0;
   SolveStatus status = SolveStatus::kFailed;
+  bool complete = false;  // every train trial is simulated to the end of its data
+  /// Its own noise was sought (Settle); what follows is known only then.
+  bool settled = false;
+  DiscrepancyEstimate discrepancy;
+  Evidence evidence;
+  double white_square = 0.0;  // of the data over sigma, and of priors
 
-  bool ok() const { return IsUsable(status); }
+  bool ok() const { return IsUsable(status) && complete; }
   /// Fitted values of member `i`.
   Eigen::VectorXd ValuesOf(int i) const;
   /// A member's value lies on a bound other than its null: physics would have to give more.
@@ -37,6 +45,7 @@ struct RefitSettings {
   int max_iterations = 40;  // in all
   /// A refit that would not get below this cost at its present pace ends.
   double give_up_above = std::numeric_limits<double>::infinity();
+  Discrepancy discrepancy = Discrepancy::kMatern;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
 };
@@ -50,9 +59,11 @@ Extension Refit(const Extension& base, std::span<const Candidate> added,
 Extension RefitWithout(const Extension& base, int i, const FitProblem& null_problem,
                        const RefitSettings& settings);
 
-/// The model linearised with the columns of candidates it does not have, at their null; any number
-/// of them.
-Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tested,
-                          const std::vector<TrialProblem>& train, int jobs);
+/// Seeks the noise that suits the model's residuals and fits it under that, from where it is; then
+/// its evidence. With `settings.discrepancy` kNone the noise stays white.
+void Settle(Extension& model, const RefitSettings& settings);
+
+/// The model fitted under white noise, from where it is.
+Extension UnderWhiteNoise(const Extension& model, const RefitSettings& settings);
 
 }  // namespace hoplab

@@ -67,14 +67,21 @@ std::vector<std::string> CorrectNoise(FitProblem& problem) {
 
 Gate CheckGate(const Extension& null, const std::vector<TrialProblem>& train, int jobs) {
   Gate gate;
-  gate.checks.push_back({"fit", null.status == SolveStatus::kConverged,
-                         null.status == SolveStatus::kConverged
+  if (!null.ok()) {
+    gate.checks.push_back({"fit", false,
+                           "the fit without further effects ended as " +
+                               std::string(NameOf(null.status)) +
+                               "; try --starts 8 or another law with `hoplab fit`"});
+    return gate;
+  }
+  const StopCheck stop = CheckStop(null.problem, train, null.shared, null.starts, {}, jobs);
+  gate.at_minimum = stop.IsMinimum();
+  std::string fault;
+  for (const std::string& f : stop.faults) fault += (fault.empty() ? "" : "; ") + f;
+  gate.checks.push_back({"fit", true,
+                         stop.IsMinimum()
                              ? "the model without further effects is at its optimum"
-                             : "the fit without further effects ended as " +
-                                   std::string(NameOf(null.status)) +
-                                   "; try --starts 8 or another law with `hoplab fit`"});
-  if (!null.ok()) return gate;
-
+                             : "the fit without further effects is no minimum: " + fault});
   std::string incomplete;
   for (std::size_t i = 0; i < train.size(); ++i) {
     const TrialEvaluator evaluator(null.problem, train[i]);

@@ -6,6 +6,7 @@
 
 #include "fitting/diagnosis/extension.h"
 #include "fitting/gradient_certificate.h"
+#include "fitting/stop_check.h"
 
 namespace hoplab {
 
@@ -19,6 +20,7 @@ struct GateCheck {
 struct Gate {
   std::vector<GateCheck> checks;
   GradientCertificate certificate;
+  bool at_minimum = false;  // the fit without further effects is
   bool passed() const;
   /// The first condition that failed, in words; empty if none did.
   std::string Refusal() const;
@@ -27,8 +29,9 @@ struct Gate {
 /// Sensitivities must agree with differences this well to be trusted with a diagnosis.
 inline constexpr double kGradientBound = 1e-4;
 
-/// Whether the null fit may be diagnosed: it converged, every train trial is simulated through all
-/// its data, the noise is known and white enough, the gradients hold.
+/// Whether the null fit may be diagnosed: every train trial is simulated through all its data, the
+/// noise is known, the gradients hold. Where the fit is no minimum that is told; an extension of it
+/// may be one.
 Gate CheckGate(const Extension& null, const std::vector<TrialProblem>& train, int jobs);
 
 /// Replaces stated noise that the flights contradict (estimated more than a quarter above it) by

@@ -5,23 +5,12 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "fitting/eliminated_trial.h"
 
 namespace hoplab {
 namespace {
 
 constexpr double kRankTolerance = 1e-8;
-
-// One trial's part.
-struct Part {
-  Eigen::VectorXd raw, r;         // residuals; orthogonal to the start's columns
-  Eigen::MatrixXd fitted;         // columns of the fitted shared values, likewise
-  Eigen::MatrixXd tested;         // likewise
-  Eigen::VectorXd tested_square;  // squared length of the raw tested columns
-  Eigen::VectorXd leverage;       // of the start
-  std::vector<RowLabel> labels;
-  int start_rank = 0;
-  int samples = 0;
-};
 
 // Orthonormal basis of the span of `columns`, their lengths set aside first.
 Eigen::MatrixXd BasisOf(Eigen::MatrixXd columns) {
@@ -82,43 +71,38 @@ std::vector<RowLabel> LabelsOf(const FitProblem& problem, const TrialProblem& tr
   return labels;
 }
 
-Part LineariseTrial(const FitProblem& problem, const std::vector<int>& fitted, int first_tested,
-                    const TrialProblem& trial, int index, const Eigen::VectorXd& shared,
-                    const std::array<double, 4>& start) {
-  Part part;
+LinearisedTrial LineariseTrial(const FitProblem& problem, const std::vector<int>& fitted,
+                               int first_tested, const TrialProblem& trial, int index,
+                               const Eigen::VectorXd& shared, const OwnValues& start) {
+  LinearisedTrial out;
   const TrialEvaluator evaluator(problem, trial);
   TrialEvaluation e;
   evaluator.Evaluate({shared, start, true}, e);
-  if (!e.complete) return part;
-  const int n = problem.shared_count(), tested = n - first_tested;
-  part.samples = e.data_residuals;
-  part.raw = e.residuals;
-  part.labels = LabelsOf(problem, trial, index, e);
-  part.fitted.resize(e.residuals.size(), static_cast<Eigen::Index>(fitted.size()));
+  if (!e.complete) return out;
+  const int n = problem.shared_count();
+  out.samples = e.data_residuals;
+  out.row_count = e.residuals.size();
+  out.raw = e.residuals;
+  out.labels = LabelsOf(problem, trial, index, e);
+  out.fitted.resize(e.residuals.size(), static_cast<Eigen::Index>(fitted.size()));
   for (std::size_t k = 0; k < fitted.size(); ++k)
-    part.fitted.col(static_cast<Eigen::Index>(k)) =
-        e.jacobian.col(fitted[k]) * problem.shared[fitted[k]].scale;
-  part.tested = e.jacobian.middleCols(first_tested, tested);
-  part.tested_square = part.tested.colwise().squaredNorm().transpose();
-  Eigen::MatrixXd starts(e.residuals.size(), 4);
-  int free = 0;
-  for (int k = 0; k < 4; ++k) {
-    if (trial.start_free[k]) starts.col(free++) = e.jacobian.col(n + k);
-  }
-  starts.conservativeResize(Eigen::NoChange, free);
-  part.r = part.raw;
-  part.leverage = Eigen::VectorXd::Zero(part.r.size());
-  if (free == 0) return part;
-  const Eigen::MatrixXd Q = BasisOf(starts);
-  part.start_rank = static_cast<int>(Q.cols());
-  part.leverage = Q.rowwise().squaredNorm();
-  part.r -= Q * (Q.transpose() * part.r);
+    out.fitted.col(static_cast<Eigen::Index>(k)) =
+        e.jacobian.col(fitted[k]) * problem.shared[static_cast<std::size_t>(fitted[k])].scale;
+  out.tested = e.jacobian.middleCols(first_tested, n - first_tested);
+  out.tested_square = out.tested.colwise().squaredNorm().transpose();
+  out.r = out.raw;
+  const Eigen::MatrixXd Q = OwnBasis(trial, e, n);
+  out.own_rank = static_cast<int>(Q.cols());
+  out.leverage = Q.cols() > 0 ? Eigen::VectorXd(Q.rowwise().squaredNorm())
+                              : Eigen::VectorXd::Zero(out.r.size());
+  if (Q.cols() == 0) return out;
+  out.r -= Q * (Q.transpose() * out.r);
   // Twice is enough: what rounding of the first pass leaves along Q is taken by the second.
   for (int pass = 0; pass < 2; ++pass) {
-    part.fitted -= Q * (Q.transpose() * part.fitted);
-    part.tested -= Q * (Q.transpose() * part.tested);
+    out.fitted -= Q * (Q.transpose() * out.fitted);
+    out.tested -= Q * (Q.transpose() * out.tested);
   }
-  return part;
+  return out;
 }
 
 bool OnBound(const SharedParameter& s, double value) {
@@ -128,51 +112,61 @@ bool OnBound(const SharedParameter& s, double value) {
 
 }  // namespace
 
+std::vector<int> FreeShared(const FitProblem& problem, const Eigen::VectorXd& shared) {
+  std::vector<int> free;
+  for (int k = 0; k < static_cast<int>(shared.size()); ++k) {
+    if (!OnBound(problem.shared[static_cast<std::size_t>(k)], shared[k])) free.push_back(k);
+  }
+  return free;
+}
+
 Linearisation Linearise(const FitProblem& problem, int first_tested,
                         const std::vector<TrialProblem>& trials, const Eigen::VectorXd& shared,
-                        const std::vector<std::array<double, 4>>& starts, int jobs) {
-  std::vector<int> fitted;
-  for (int k = 0; k < first_tested; ++k) {
-    if (!OnBound(problem.shared[k], shared[k])) fitted.push_back(k);
-  }
-  std::vector<Part> parts(trials.size());
+                        const std::vector<OwnValues>& starts, int jobs) {
+  const std::vector<int> fitted = FreeShared(problem, shared.head(first_tested));
+  std::vector<LinearisedTrial> parts(trials.size());
   ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
     parts[i] = LineariseTrial(problem, fitted, first_tested, trials[i], i, shared, starts[i]);
   });
+  return Assemble(parts, static_cast<int>(fitted.size()), problem.shared_count() - first_tested);
+}
 
+Linearisation Assemble(const std::vector<LinearisedTrial>& trials, int fitted, int tested) {
   Eigen::Index rows = 0;
-  for (const Part& p : parts) rows += p.r.size();
-  const Eigen::Index tested = problem.shared_count() - first_tested;
+  for (const LinearisedTrial& t : trials) rows += t.r.size();
   Linearisation out;
   out.r.resize(rows);
   out.raw.resize(rows);
-  out.leverage.resize(rows);
+  out.leverage = Eigen::VectorXd::Zero(rows);
   out.columns.resize(rows, tested);
   out.length = Eigen::VectorXd::Zero(tested);
-  Eigen::MatrixXd S(rows, static_cast<Eigen::Index>(fitted.size()));
+  Eigen::MatrixXd S(rows, fitted);
   Eigen::Index at = 0;
-  for (const Part& p : parts) {
-    const Eigen::Index n = p.r.size();
-    if (n == 0) {
+  bool every_row = true;
+  for (const LinearisedTrial& t : trials) {
+    const Eigen::Index n = t.r.size();
+    if (t.row_count == 0) {
       ++out.trials_left_out;
       continue;
     }
-    out.r.segment(at, n) = p.r;
-    out.raw.segment(at, n) = p.raw;
-    out.leverage.segment(at, n) = p.leverage;
+    out.r.segment(at, n) = t.r;
+    every_row = every_row && t.raw.size() == n;
+    if (t.raw.size() == n) out.raw.segment(at, n) = t.raw;
+    if (t.leverage.size() == n) out.leverage.segment(at, n) = t.leverage;
     // Rows of a matrix without columns lie nowhere.
-    if (tested > 0) out.columns.middleRows(at, n) = p.tested;
-    if (S.cols() > 0) S.middleRows(at, n) = p.fitted;
-    out.length += p.tested_square;
-    out.labels.insert(out.labels.end(), p.labels.begin(), p.labels.end());
-    out.fitted_rank += p.start_rank;
-    out.samples += p.samples;
+    if (tested > 0) out.columns.middleRows(at, n) = t.tested;
+    if (fitted > 0) S.middleRows(at, n) = t.fitted;
+    out.length += t.tested_square;
+    out.labels.insert(out.labels.end(), t.labels.begin(), t.labels.end());
+    out.fitted_rank += t.own_rank;
+    out.row_count += static_cast<int>(t.row_count);
+    out.samples += t.samples;
     at += n;
   }
   out.length = out.length.cwiseSqrt();
   out.fitted_basis.resize(rows, 0);
   out.along_fitted.resize(0, tested);
-  if (!fitted.empty() && rows > 0) {
+  if (fitted > 0 && rows > 0) {
     out.fitted_basis = BasisOf(S);
     const Eigen::MatrixXd& Q = out.fitted_basis;
     out.fitted_rank += static_cast<int>(Q.cols());
@@ -184,6 +178,10 @@ Linearisation Linearise(const FitProblem& problem, int first_tested,
       out.columns -= Q * along;
       out.along_fitted += along;
     }
+  }
+  if (!every_row) {
+    out.raw.resize(0);
+    out.leverage.resize(0);
   }
   return out;
 }

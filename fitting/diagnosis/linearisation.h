@@ -38,22 +38,42 @@ struct Linearisation {
   Eigen::MatrixXd along_fitted;
   Eigen::VectorXd leverage;  // share of each row the fitted values can explain, 0..1
   int fitted_rank = 0;       // dimensions projected out
-  int samples = 0;           // rows that come from data
+  int row_count = 0;         // rows before they were compressed, if they were
+  int samples = 0;           // of them from data
   int trials_left_out = 0;   // their simulation ends before their data
   /// Tested candidates whose columns are zeros because no run could be differentiated by them.
   std::vector<std::string> failed;
 
   int rows() const { return static_cast<int>(r.size()); }
   double chi2() const { return r.squaredNorm(); }
-  int degrees_of_freedom() const { return rows() - fitted_rank; }
+  int degrees_of_freedom() const { return row_count - fitted_rank; }
 };
+
+/// One trial's rows, own values projected out; what a linearisation is assembled from.
+struct LinearisedTrial {
+  Eigen::VectorXd raw, r;         // residuals; orthogonal to the own values' columns
+  Eigen::MatrixXd fitted;         // columns of the fitted shared values, per scale
+  Eigen::MatrixXd tested;         // of the tested ones, per own unit
+  Eigen::VectorXd tested_square;  // squared length of the tested columns before the projection
+  Eigen::VectorXd leverage;       // of the own values
+  std::vector<RowLabel> labels;
+  int own_rank = 0;
+  Eigen::Index row_count = 0;  // 0: it could not be simulated
+  int samples = 0;
+};
+
+/// Lays trials one below the other and projects the fitted columns out.
+Linearisation Assemble(const std::vector<LinearisedTrial>& trials, int fitted, int tested);
+
+/// Places of shared values that do not lie on a bound.
+std::vector<int> FreeShared(const FitProblem& problem, const Eigen::VectorXd& shared);
 
 /// Linearises `trials` of `problem` at `shared` and `starts`. Shared values from place
 /// `first_tested` on are tested, those before it are fitted; a fitted value on a bound is taken as
-/// given. Trials whose simulation ends before their data are left out.
+/// given. Trials whose simulation ends before their data are left out. Every row is kept.
 Linearisation Linearise(const FitProblem& problem, int first_tested,
                         const std::vector<TrialProblem>& trials, const Eigen::VectorXd& shared,
-                        const std::vector<std::array<double, 4>>& starts, int jobs);
+                        const std::vector<OwnValues>& starts, int jobs);
 
 /// Part of a column's length (squared) that the projection must leave for it to be told from the
 /// fitted values: sensitivities are good to about 1e-7 of their column.

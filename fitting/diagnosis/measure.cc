@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kDraws = 2000;
-constexpr int kFewestHops = 4;
+constexpr int kFewestBlocks = 4;
+constexpr int kFewestRows = 10;  // of a block
 
 struct MeanSquare {
   double sum = 0.0;
@@ -39,7 +40,7 @@ std::vector<ShownApex> ApexesOf(const FitProblem& problem, const TrialProblem& t
   std::vector<ShownApex> apexes;
   const std::vector<TrialProblem> pieces = CutAtApexes(problem, trial);
   for (std::size_t k = 1; k < pieces.size(); ++k) {
-    const std::array<double, 4>& at = pieces[k].start;
+    const OwnValues& at = pieces[k].start;
     const double g = trial.parameters.g;
     apexes.push_back(
         {pieces[k].begin_s - trial.begin_s + at[3] / g, at[1] + 0.5 * at[3] * at[3] / g});
@@ -76,25 +77,39 @@ FeatureErrors Features(const FitProblem& problem, const std::vector<TrialErrors>
   return {height.Root(), time.Root(), touchdown.Root(), stance.Root()};
 }
 
-// Chi-square of the rows of [begin, end) of a trial.
-double ChiSquared(const FitProblem& problem, const TrialProblem& trial,
-                  const Trajectory& trajectory, double begin, double end, long& samples) {
-  const std::size_t channels = problem.channels.size();
-  double sum = 0.0;
-  for (std::size_t cell = 0; cell < trial.data.size(); ++cell) {
-    const double t = trial.row_times[cell / channels];
-    if (std::isnan(trial.data[cell]) || t < begin || t >= end) continue;
-    const double r =
-        (trajectory.samples[cell] - trial.data[cell]) / problem.channels[cell % channels].sigma;
-    sum += r * r;
-    ++samples;
+// What one stretch of a held-out trial gains.
+struct Block {
+  double gain = 0.0;
+  long samples = 0;
+};
+
+// A trial cut at the hops of the extended model, and these into stretches of about `length`.
+void AddBlocks(const TrialErrors& before, const TrialErrors& after, double length,
+               std::vector<Block>& blocks) {
+  std::vector<double> cuts;
+  for (std::size_t h = 0; h < after.hops.size(); ++h) {
+    const double begin = after.hops[h].begin, end = after.hops[h].end;
+    const int parts = std::max(1, static_cast<int>(std::floor((end - begin) / length)));
+    for (int p = 0; p < parts; ++p) cuts.push_back(begin + (end - begin) * p / parts);
   }
-  return sum;
+  std::vector<Block> found(cuts.size());
+  for (std::size_t i = 0; i < after.sample_nll.size(); ++i) {
+    const auto next = std::upper_bound(cuts.begin(), cuts.end(), after.sample_times[i]);
+    if (next == cuts.begin()) continue;
+    Block& block = found[static_cast<std::size_t>(next - cuts.begin()) - 1];
+    block.gain += before.sample_nll[i] - after.sample_nll[i];
+    ++block.samples;
+  }
+  // What the start has to be moved from where it was stated counts like what it moves.
+  if (!found.empty()) found.front().gain += before.prior_nll - after.prior_nll;
+  for (const Block& b : found) {
+    if (b.samples > 0) blocks.push_back(b);
+  }
 }
 
 }  // namespace
 
-HeldOutErrors MeasureHeldOut(const Extension& model, int jobs) {
+HeldOutErrors MeasureHeldOut(const Extension& model, int jobs, bool test_only) {
   FitResult fit;
   fit.ok = model.ok();
   fit.shared = model.shared;
@@ -103,7 +118,7 @@ HeldOutErrors MeasureHeldOut(const Extension& model, int jobs) {
   FitOptions options;
   options.jobs = jobs;
   HeldOutErrors out;
-  out.trials = AssessTrials(model.problem, fit, options);
+  out.trials = AssessTrials(model.problem, fit, options, test_only);
   out.test = Summarise(model.problem, out.trials, TrialRole::kTest);
   out.features = Features(model.problem, out.trials);
   return out;
@@ -112,11 +127,9 @@ HeldOutErrors MeasureHeldOut(const Extension& model, int jobs) {
 HeldOutGain CompareHeldOut(const Extension& before, const HeldOutErrors& errors_before,
                            const HeldOutErrors& errors_after, std::uint64_t seed,
                            std::vector<std::string>* left_out) {
-  struct Hop {
-    double gain;
-    long samples;
-  };
-  std::vector<Hop> hops;
+  const double together = before.problem.noise.IsWhite() ? 0.0 : before.problem.noise.time_scale;
+  std::vector<Block> blocks;
+  HeldOutGain out;
   for (std::size_t i = 0; i < before.problem.trials.size(); ++i) {
     const TrialProblem& trial = before.problem.trials[i];
     if (trial.role != TrialRole::kTest) continue;
@@ -125,36 +138,27 @@ HeldOutGain CompareHeldOut(const Extension& before, const HeldOutErrors& errors_
       if (left_out) left_out->push_back(trial.file);
       continue;
     }
-    // Hops as the extended model cuts them.
-    for (std::size_t h = 0; h < a.hops.size(); ++h) {
-      const double begin = a.hops[h].begin;
-      const double end =
-          h + 1 < a.hops.size() ? a.hops[h + 1].begin : std::numeric_limits<double>::infinity();
-      long samples = 0, again = 0;
-      const double gain =
-          0.5 * (ChiSquared(before.problem, trial, b.trajectory, begin, end, samples) -
-                 ChiSquared(before.problem, trial, a.trajectory, begin, end, again));
-      if (samples > 0) hops.push_back({gain, samples});
-    }
+    const double step = trial.row_times.back() / static_cast<double>(trial.row_times.size());
+    AddBlocks(b, a, std::max(together, kFewestRows * step), blocks);
+    out.hops += static_cast<int>(a.hops.size());
   }
-  HeldOutGain out;
   double gain = 0.0;
-  for (const Hop& h : hops) {
-    gain += h.gain;
-    out.samples += h.samples;
+  for (const Block& b : blocks) {
+    gain += b.gain;
+    out.samples += b.samples;
   }
-  out.hops = static_cast<int>(hops.size());
+  out.blocks = static_cast<int>(blocks.size());
   out.nats_per_sample = out.samples > 0 ? gain / static_cast<double>(out.samples) : kNaN;
-  if (out.hops < kFewestHops) return out;
+  if (out.blocks < kFewestBlocks) return out;
   RandomStream random(seed, 1);
   std::vector<double> draws(kDraws);
   for (double& draw : draws) {
     double g = 0.0, n = 0.0;
-    for (std::size_t k = 0; k < hops.size(); ++k) {
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
       const auto pick =
-          static_cast<std::size_t>(random.Uniform(0.0, 1.0) * static_cast<double>(hops.size()));
-      g += hops[pick].gain;
-      n += static_cast<double>(hops[pick].samples);
+          static_cast<std::size_t>(random.Uniform(0.0, 1.0) * static_cast<double>(blocks.size()));
+      g += blocks[pick].gain;
+      n += static_cast<double>(blocks[pick].samples);
     }
     draw = g / n;
   }

@@ -25,20 +25,24 @@ struct HeldOutErrors {
   FeatureErrors features;
 };
 
-/// Log-likelihood gained a sample on trials that were not fitted [nats], paired hop by hop.
+/// Log-likelihood gained a sample on trials that were not fitted [nats], each model under its own
+/// noise, paired block by block.
 struct HeldOutGain {
   double nats_per_sample = 0.0;                   // NaN if there is nothing to compare
-  std::optional<std::pair<double, double>> ci95;  // bootstrap over hops; absent with fewer than 4
+  std::optional<std::pair<double, double>> ci95;  // bootstrap over blocks; absent with fewer than 4
   long samples = 0;
   int hops = 0;
+  int blocks = 0;
   /// Whether the gain may be claimed: the whole interval lies above zero.
   bool IsClaim() const { return ci95 && ci95->first > 0.0; }
 };
 
-HeldOutErrors MeasureHeldOut(const Extension& model, int jobs);
+/// With `test_only` the errors of train trials are left out.
+HeldOutErrors MeasureHeldOut(const Extension& model, int jobs, bool test_only = false);
 
 /// Gain of `after` over `before`; trials one of the two cannot simulate to their end are left out
-/// and named in `left_out`.
+/// and named in `left_out`. Rows are whitened, so blocks may be shorter than a hop: as long as the
+/// time over which the errors of `before` hang together, and no longer than a hop.
 HeldOutGain CompareHeldOut(const Extension& before, const HeldOutErrors& errors_before,
                            const HeldOutErrors& errors_after, std::uint64_t seed,
                            std::vector<std::string>* left_out);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/pool.h"
 #include "fitting/diagnosis/refits.h"
 
@@ -13,45 +14,56 @@ namespace hoplab {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-// Models tried at each step of the search beyond the single ones.
-constexpr int kForwardWidth = 5;
-constexpr int kPairWidth = 8;
+// Models settled at each step of the search.
+constexpr int kSingleWidth = 4, kForwardWidth = 3, kPairWidth = 6, kPairsSettled = 2;
+constexpr std::size_t kScoreWidth = 4;
+// Nats a further cause must promise by the linear model to be tried.
+constexpr double kWorthATry = 4.0;
+// Weights below this share of the best are not told.
+constexpr double kLeastWeight = 1e-4;
 
 class Search {
  public:
-  Search(const Extension& null, std::span<const Candidate> candidates, const Linearisation& null_at,
+  Search(const NullFits& null, std::span<const Candidate> candidates, const Linearisation& null_at,
          const std::vector<TrialProblem>& train, const NamingOptions& options)
-      : null_(null),
+      : null_(*null.settled),
         null_at_(null_at),
         train_(train),
         options_(options),
-        refits_(null, train, options, naming_) {
+        refits_(*null.plain, *null.settled, train, options, naming_) {
     FillPool(naming_, candidates, null_at, train);
   }
 
   Naming Run() {
     if (options_.max_effects < 1) {
       naming_.best = null_;
+      naming_.unlisted_probability = null_.evidence.discrepancy_probability();
       Judge({});
       return std::move(naming_);
     }
-    Model current = refits_.Better({}, Singles(), Effort::kWhileInContention);
-    current = refits_.Better(current, PairsFromNull(), Effort::kWhileInContention);
+    CandidateSet current = refits_.Better({}, Singles(), kSingleWidth, BestScored());
+    current = refits_.Better(current, PairsFromNull(), kPairsSettled);
     while (!current.empty() && static_cast<int>(current.size()) < options_.max_effects &&
            !Stopped()) {
-      Model grown = refits_.Better(current, Forward(current), Effort::kWhileInContention);
+      const std::vector<CandidateSet> further = Forward(current);
+      CandidateSet grown = refits_.Better(current, further, kForwardWidth, further);
       if (grown == current) break;
       current = Tidy(grown);
     }
     if (!current.empty()) current = Tidy(current);
     naming_.best = refits_.At(current);
+    naming_.best_set = current;
+    for (const CandidateSet& less : Eliminations(current))
+      naming_.without.push_back(refits_.Usable(less) ? refits_.At(less) : Extension());
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
       CandidateResult& c = naming_.candidates[i];
-      if (!c.separable) continue;
-      c.alone = refits_.At({static_cast<int>(i)});
-      c.gain = c.alone.ok() ? c.alone.GainOver(null_) : 0.0;
+      const CandidateSet alone = {static_cast<int>(i)};
+      if (!c.separable || !refits_.Has(alone)) continue;
+      c.alone = refits_.At(alone);
+      c.gain = c.alone.ok() ? refits_.Gain(alone) : 0.0;
     }
     FindGroups(current);
+    Weigh();
     Judge(current);
     naming_.interrupted = Stopped();
     return std::move(naming_);
@@ -65,16 +77,31 @@ class Search {
     return naming_.candidates[i].candidate.effect == naming_.candidates[j].candidate.effect;
   }
   // ---- steps
-  std::vector<Model> Singles() const {
-    std::vector<Model> models;
+  std::vector<CandidateSet> Singles() const {
+    std::vector<CandidateSet> sets;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
-      if (naming_.candidates[i].separable) models.push_back({static_cast<int>(i)});
+      if (naming_.candidates[i].separable) sets.push_back({static_cast<int>(i)});
     }
-    return models;
+    return sets;
+  }
+
+  // The candidates of the best scores under the null fit's own noise.
+  std::vector<CandidateSet> BestScored() const {
+    std::vector<std::pair<double, int>> ranked;
+    for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
+      if (naming_.candidates[i].separable)
+        ranked.emplace_back(-naming_.candidates[i].score.predicted_gain, static_cast<int>(i));
+    }
+    std::stable_sort(ranked.begin(), ranked.end());
+    if (ranked.size() > kScoreWidth) ranked.resize(kScoreWidth);
+    std::vector<CandidateSet> sets;
+    for (const auto& [gain, i] : ranked) sets.push_back({i});
+    return sets;
   }
 
   // Pool members not in `model`, the best expected gain beside it first.
-  std::vector<std::pair<double, int>> Ranked(const Model& model) const {
+  std::vector<std::pair<double, int>> Ranked(const CandidateSet& model,
+                                             const Extension& fitted) const {
     std::vector<int> rest;
     std::vector<Candidate> tested;
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
@@ -84,7 +111,7 @@ class Search {
       rest.push_back(i);
       tested.push_back(naming_.candidates[i].candidate);
     }
-    const Linearisation at = LineariseAt(refits_.At(model), tested, train_, options_.jobs);
+    const Linearisation at = LineariseAt(fitted, tested, train_, options_.jobs);
     const std::vector<Hypothesis> hypotheses = HypothesesOf(tested);
     std::vector<std::pair<double, int>> ranked;
     for (std::size_t i = 0; i < rest.size(); ++i)
@@ -94,28 +121,35 @@ class Search {
     return ranked;
   }
 
-  static Model With(Model model, int i) {
-    model.insert(std::upper_bound(model.begin(), model.end(), i), i);
-    return model;
+  static CandidateSet With(CandidateSet set, int i) {
+    set.insert(std::upper_bound(set.begin(), set.end(), i), i);
+    return set;
   }
 
-  std::vector<Model> Forward(const Model& model) const {
-    std::vector<Model> models;
-    for (const auto& [gain, i] : Ranked(model)) {
-      if (static_cast<int>(models.size()) >= kForwardWidth || gain < 0.5 * naming_.penalty) break;
-      models.push_back(With(model, i));
+  // By what gains most beside the set under its own noise, and under white noise.
+  std::vector<CandidateSet> Forward(const CandidateSet& set) const {
+    std::vector<CandidateSet> sets;
+    for (const Extension* fitted : {&refits_.At(set), &refits_.White(set)}) {
+      int taken = 0;
+      for (const auto& [gain, i] : Ranked(set, *fitted)) {
+        if (taken >= kForwardWidth || gain < kWorthATry) break;
+        ++taken;
+        const CandidateSet grown = With(set, i);
+        if (std::find(sets.begin(), sets.end(), grown) == sets.end()) sets.push_back(grown);
+      }
+      if (refits_.At(set).problem.noise.IsWhite()) break;
     }
-    return models;
+    return sets;
   }
 
   // The pairs that promise most by the linear model at the null fit.
-  std::vector<Model> PairsFromNull() const {
+  std::vector<CandidateSet> PairsFromNull() const {
     if (options_.max_effects < 2) return {};
     const Eigen::MatrixXd gram = null_at_.columns.transpose() * null_at_.columns;
     const Eigen::VectorXd b = -(null_at_.columns.transpose() * null_at_.r);
     struct Pair {
       double gain;
-      Model model;
+      CandidateSet set;
     };
     std::vector<Pair> pairs;
     std::vector<int> first;
@@ -141,43 +175,44 @@ class Search {
     }
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Pair& p, const Pair& q) { return p.gain > q.gain; });
-    std::vector<Model> models;
+    std::vector<CandidateSet> sets;
     for (const Pair& p : pairs) {
-      if (static_cast<int>(models.size()) >= kPairWidth || p.gain < 1.5 * naming_.penalty) break;
-      models.push_back(p.model);
+      if (static_cast<int>(sets.size()) >= kPairWidth || p.gain < 3.0 * kWorthATry) break;
+      sets.push_back(p.set);
     }
-    return models;
+    return sets;
   }
   static bool Allowed(const CandidateResult& c, double size) {
-    const EffectParameter& p = c.candidate.effect->info.parameters[0];
+    const EffectParameter& p = c.candidate.Parameter(0);
     return size > 0.0 ? p.upper > p.null : p.lower < p.null;
   }
 
   // Backward elimination and swaps, until neither helps.
-  Model Tidy(Model model) {
+  CandidateSet Tidy(CandidateSet set) {
     for (int round = 0; round < 3 && !Stopped(); ++round) {
-      refits_.RefineParts(model);
-      Model best = refits_.Better(model, Eliminations(model), Effort::kToTheEnd);
-      best = refits_.Better(best, Swaps(best, kForwardWidth), Effort::kWhileInContention);
-      if (best == model) break;
-      model = best;
+      CandidateSet best = set;
+      for (const CandidateSet& less : refits_.SettleParts(set)) {
+        if (refits_.Settled(less) && refits_.Worth(less) > refits_.Worth(best)) best = less;
+      }
+      best = refits_.Better(best, Swaps(best), 2 * kForwardWidth);
+      if (best == set) break;
+      set = best;
+      if (set.empty()) break;
     }
-    return model;
+    return set;
   }
-  // Models in which one member gives its place to another candidate that promises, by the linear
-  // model, at least half of what that member gains.
-  std::vector<Model> Swaps(const Model& model, int width) {
-    if (model.size() < 2) return {};
-    std::vector<Model> swaps;
-    refits_.RefitAll(Eliminations(model), Effort::kToTheEnd);
-    for (const Model& less : Eliminations(model)) {
-      if (!refits_.Usable(less)) continue;
+  // Sets in which one member gives its place to another candidate that promises, by the linear
+  // model, nearly what that member gains.
+  std::vector<CandidateSet> Swaps(const CandidateSet& set) {
+    std::vector<CandidateSet> swaps;
+    if (set.size() < 2) return swaps;
+    for (const CandidateSet& less : refits_.SettleParts(set)) {
+      if (!refits_.Settled(less)) continue;
+      const double needed = refits_.Worth(set) - refits_.Worth(less) - kIndistinguishable;
       int taken = 0;
-      const double needed =
-          0.5 * std::max(refits_.At(less).cost - refits_.At(model).cost, naming_.penalty);
-      for (const auto& [gain, i] : Ranked(less)) {
-        if (taken >= width || gain < needed) break;
-        if (std::find(model.begin(), model.end(), i) != model.end()) continue;
+      for (const auto& [gain, i] : Ranked(less, refits_.At(less))) {
+        if (taken >= kForwardWidth || gain < std::max(needed, kWorthATry)) break;
+        if (std::find(set.begin(), set.end(), i) != set.end()) continue;
         swaps.push_back(With(less, i));
         ++taken;
       }
@@ -185,40 +220,67 @@ class Search {
     return swaps;
   }
 
-  // ---- what can take a member's place
-  void FindGroups(const Model& model) {
-    const auto close = [&](const Model& other) {
-      double extra = 0.0;  // a trial picked out of many must pay for the picking, a member too
-      for (int i : other) extra += IsLocal(i) ? naming_.local_penalty - naming_.penalty : 0.0;
-      for (int i : model) extra -= IsLocal(i) ? naming_.local_penalty - naming_.penalty : 0.0;
-      return refits_.Usable(other) &&
-             refits_.At(other).cost + extra <= refits_.At(model).cost + kIndistinguishable;
-    };
-    if (model.size() > 1)
-      refits_.RefitAll(Swaps(model, 3 * kForwardWidth), Effort::kWhileInContention);
-    for (int member : model) {
-      std::vector<int> group = {member};
-      Model less = model;
+  // ---- what can take a member's place: the fewest that hold 95 % of the weight of that place
+  void FindGroups(const CandidateSet& set) {
+    constexpr double kHeld = 0.95;
+    for (const int member : set) {
+      CandidateSet less = set;
       less.erase(std::find(less.begin(), less.end(), member));
-      std::vector<std::pair<double, int>> others;
+      std::vector<std::pair<double, int>> place = {{refits_.Worth(set), member}};
       for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
-        if (std::find(model.begin(), model.end(), i) != model.end()) continue;
-        const Model swapped = With(less, i);
-        if (refits_.Has(swapped) && close(swapped))
-          others.emplace_back(refits_.At(swapped).cost, i);
+        if (std::find(set.begin(), set.end(), i) != set.end()) continue;
+        const CandidateSet swapped = With(less, i);
+        if (refits_.Settled(swapped)) place.emplace_back(refits_.Worth(swapped), i);
       }
-      std::stable_sort(others.begin(), others.end());
-      std::vector<Extension> rivals = {refits_.At(model)};
-      for (const auto& [cost, i] : others) {
+      std::stable_sort(place.begin() + 1, place.end(),
+                       [](const auto& a, const auto& b) { return a.first > b.first; });
+      double whole = 0.0, held = 0.0;
+      for (const auto& [worth, i] : place) whole += std::exp(worth - refits_.Worth(set));
+      std::vector<int> group;
+      std::vector<double> weights;
+      std::vector<Extension> rivals;
+      for (const auto& [worth, i] : place) {
+        if (held >= kHeld * whole) break;
         group.push_back(i);
+        weights.push_back(std::exp(worth - refits_.Worth(set)));
         rivals.push_back(refits_.At(With(less, i)));
+        held += weights.back();
       }
+      for (double& w : weights) w /= held;
+      naming_.gaps.push_back(GapOf(set, group));
       naming_.groups.push_back(std::move(group));
       naming_.rivals.push_back(std::move(rivals));
+      naming_.group_weights.push_back(std::move(weights));
+    }
+  }
+  double GapOf(const CandidateSet& set, const std::vector<int>& group) const {
+    double gap = std::numeric_limits<double>::infinity();
+    for (const auto& [other, worth] : refits_.Visited()) {
+      const bool has = std::any_of(other.begin(), other.end(), [&](int i) {
+        return std::any_of(group.begin(), group.end(), [&](int g) { return SameEffect(i, g); });
+      });
+      if (!has) gap = std::min(gap, refits_.Worth(set) - worth);
+    }
+    return gap;
+  }
+
+  // Probabilities of candidates and of something not listed, over all models visited.
+  void Weigh() {
+    std::vector<std::pair<CandidateSet, double>> visited = refits_.Visited();
+    std::stable_sort(visited.begin(), visited.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    const double best = visited.front().second;
+    double sum = 0.0;
+    for (auto& [set, worth] : visited) sum += worth = std::exp(worth - best);
+    for (auto& [set, weight] : visited) {
+      const double share = weight / sum;
+      for (const int i : set) naming_.candidates[static_cast<std::size_t>(i)].probability += share;
+      naming_.unlisted_probability += share * refits_.At(set).evidence.discrepancy_probability();
+      if (weight >= kLeastWeight) naming_.posterior.emplace_back(set, share);
     }
   }
 
-  void Judge(const Model& model) {
+  void Judge(const CandidateSet& model) {
     std::set<int> doubtful, members(model.begin(), model.end());
     for (const std::vector<int>& group : naming_.groups) {
       if (group.size() > 1) doubtful.insert(group.begin(), group.end());
@@ -238,7 +300,7 @@ class Search {
     }
   }
   // What is left of a candidate once the accepted effects are in.
-  void Bound(const Model& model, CandidateResult& c) const {
+  void Bound(const CandidateSet& model, CandidateResult& c) const {
     const std::array one = {c.candidate};
     const Linearisation at = LineariseAt(refits_.At(model), one, train_, options_.jobs);
     const Score score = ScoreOf(at, HypothesesOf(one).front());
@@ -255,7 +317,7 @@ class Search {
     }
   }
 
-  const Extension& null_;
+  const Extension& null_;  // settled
   const Linearisation& null_at_;
   const std::vector<TrialProblem>& train_;
   const NamingOptions& options_;
@@ -273,13 +335,20 @@ std::string_view NameOf(CandidateStatus status) {
       return "indistinguishable";
     case CandidateStatus::kExcluded:
       return "excluded";
+    case CandidateStatus::kNotNeeded:
+      return "not_needed";
     case CandidateStatus::kNotTested:
       return "not_tested";
   }
   return "";
 }
 
-Naming NameCauses(const Extension& null, std::span<const Candidate> candidates,
+std::size_t Naming::MemberOf(int candidate) const {
+  return static_cast<std::size_t>(std::find(best_set.begin(), best_set.end(), candidate) -
+                                  best_set.begin());
+}
+
+Naming NameCauses(const NullFits& null, std::span<const Candidate> candidates,
                   const Linearisation& null_at, const std::vector<TrialProblem>& train,
                   const NamingOptions& options) {
   return Search(null, candidates, null_at, train, options).Run();

@@ -14,8 +14,12 @@ inline constexpr double kIndistinguishable = 3.0;  // nats
 /// A candidate is tested if a typical size of it has this noncentrality: 80 % power at 5 %.
 inline constexpr double kTestable = 7.85;
 
+/// Places of a model's causes among the candidates, ascending; empty: the null fit.
+using CandidateSet = std::vector<int>;
+
 struct NamingOptions {
   int max_effects = 5;
+  Discrepancy discrepancy = Discrepancy::kMatern;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
   /// How far the search is: refits done, how many are planned so far, and what the last one was.
@@ -26,7 +30,8 @@ struct NamingOptions {
 enum class CandidateStatus {
   kSupported,          // in the accepted extension, and nothing takes its place
   kIndistinguishable,  // in the accepted extension or as good in a member's place
-  kExcluded,           // tested, and not needed
+  kExcluded,           // tested, not needed, and bounded where nothing material is left
+  kNotNeeded,          // tested and not needed beside the causes found; what is left may hide it
   kNotTested           // an effect of typical size could not have shown
 };
 std::string_view NameOf(CandidateStatus status);
@@ -38,7 +43,8 @@ struct CandidateResult {
   bool separable = false;  // some of it can be told from the fitted values
   /// Added alone to the null model and refitted; status kFailed if it was not.
   Extension alone;
-  double gain = 0.0;  // nats over the null fit, of `alone`
+  double gain = 0.0;         // nats over the null fit, of `alone`, under white noise
+  double probability = 0.0;  // that it acts, by the evidence of the models visited
   CandidateStatus status = CandidateStatus::kNotTested;
   /// 95 % bound of |value| per parameter if added to the accepted extension, own units (linear);
   /// NaN where it cannot be told or is a member.
@@ -48,20 +54,41 @@ struct CandidateResult {
 /// The search for the effects a model lacks.
 struct Naming {
   std::vector<CandidateResult> candidates;  // the given ones, then those of single trials
-  double penalty = 0.0;                     // nats a parameter must gain, ln(n/0.05)
-  double local_penalty = 0.0;               // of an effect in one trial only
+  double log_odds = 0.0;                    // prior, against one cause: one is expected in all
+  double local_log_odds = 0.0;              // against one in one trial only
   Extension best;                           // without members if none pays
+  CandidateSet best_set;
+  double unlisted_probability = 0.0;  // that something acts that no list holds
   /// One a member of `best`: places in `candidates` of what does as well there, itself first.
   std::vector<std::vector<int>> groups;
   std::vector<std::vector<Extension>> rivals;  // the models behind `groups`, in the same order
+  /// The posterior weights within each group, which add to one, and how far each group is from the
+  /// best model without any of it [nats].
+  std::vector<std::vector<double>> group_weights;
+  std::vector<double> gaps;
+  /// One a member of `best`: the model without it, settled.
+  std::vector<Extension> without;
+  /// Settled models with their posterior weight, the best first, down to 1e-4 of it.
+  std::vector<std::pair<CandidateSet, double>> posterior;
   int refits = 0;
   bool interrupted = false;
+
+  /// The group of a member of `best`, by its place in `candidates`.
+  const std::vector<int>& GroupOf(int candidate) const { return groups[MemberOf(candidate)]; }
+  /// Its place among the members of `best`.
+  std::size_t MemberOf(int candidate) const;
+};
+
+/// The model without causes: under white noise, and under the noise that suits it.
+struct NullFits {
+  const Extension* plain = nullptr;
+  const Extension* settled = nullptr;
 };
 
 /// Refits every candidate alone, then looks for a second and third by forward steps, pairs,
-/// backward elimination and swaps. `null_at` is the linearisation at the null fit with the
-/// candidates' columns, in their order.
-Naming NameCauses(const Extension& null, std::span<const Candidate> candidates,
+/// backward elimination and swaps; models are compared by their evidence. `null_at`
+/// is the linearisation at the settled null fit with the candidates' columns in their order.
+Naming NameCauses(const NullFits& null, std::span<const Candidate> candidates,
                   const Linearisation& null_at, const std::vector<TrialProblem>& train,
                   const NamingOptions& options);
 

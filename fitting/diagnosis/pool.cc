@@ -9,9 +9,11 @@
 namespace hoplab {
 namespace {
 
-constexpr double kAlpha = 0.05;
 constexpr int kLocalWidth = 4, kMostLocal = 12;
 constexpr double kLocalSlack = 2.0;  // nats a refit may change of an expected gain
+
+// Nats an effect in one trial must promise to be among the candidates.
+double LocalPrice(const Naming& naming) { return naming.local_log_odds + kLocalSlack; }
 
 // A candidate's column cut to one trial, what the fitted values take of it projected out again.
 void AddLocal(Naming& naming, const Linearisation& null_at, const std::vector<TrialProblem>& train,
@@ -54,7 +56,7 @@ void AddLocal(Naming& naming, const Linearisation& null_at, const std::vector<Tr
     const bool close = l.gain >= best - kIndistinguishable - kLocalSlack;
     if (taken >= kMostLocal || (taken >= kLocalWidth && !close)) break;
     // In one trial only is worth a thought if it says nearly as much as in all.
-    if (l.gain < naming.local_penalty ||
+    if (l.gain < LocalPrice(naming) ||
         l.gain < 0.8 * naming.candidates[l.candidate].score.predicted_gain)
       continue;
     CandidateResult c = naming.candidates[l.candidate];
@@ -80,7 +82,7 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
     c.separable = c.score.rank > 0;
     c.power = std::numeric_limits<double>::infinity();
     for (int k = 0; k < hypotheses[i].count; ++k) {
-      const double typical = candidates[i].effect->info.parameters[k].typical;
+      const double typical = candidates[i].Parameter(k).typical;
       c.power =
           std::min(c.power, typical * typical * Information(null_at, hypotheses[i].first + k));
     }
@@ -89,9 +91,10 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
   }
   std::set<std::string> recordings;
   for (const TrialProblem& t : train) recordings.insert(t.recording);
-  naming.penalty = std::log(std::max(tested, 1) / kAlpha);
-  naming.local_penalty =
-      naming.penalty + std::log(static_cast<double>(std::max<std::size_t>(recordings.size(), 1)));
+  // One cause is expected among all: odds of one to the number of others.
+  naming.log_odds = std::log(static_cast<double>(std::max(tested - 1, 1)));
+  naming.local_log_odds =
+      naming.log_odds + std::log(static_cast<double>(std::max<std::size_t>(recordings.size(), 1)));
   if (recordings.size() > 1) AddLocal(naming, null_at, train, candidates, hypotheses, recordings);
 }
 

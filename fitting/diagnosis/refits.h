@@ -9,64 +9,80 @@
 
 namespace hoplab {
 
-/// Places of an extension's members among the candidates, ascending; empty: the null fit.
-using Model = std::vector<int>;
-
-/// Whether a refit goes on that, by its pace, will not come near the best model known.
-enum class Effort { kToTheEnd, kWhileInContention };
-
 /// The models a search has fitted so far, each once. What it holds does not depend on the number
 /// of jobs.
+///
+/// A model is first tried: refitted under white noise from its best known part. (Under the noise of
+/// a part that lacks a cause, that cause is part of the noise, and a search for it goes astray.)
+/// Those that promise are settled: their own noise is sought, and their evidence.
 class Refits {
  public:
-  /// All arguments have to outlive this. `naming` gives the candidates and penalties, and counts
-  /// the refits.
-  Refits(const Extension& null, const std::vector<TrialProblem>& train,
+  /// All arguments have to outlive this. `plain` is the null fit under white noise, `null` settled.
+  /// `naming` gives the candidates and counts the refits.
+  Refits(const Extension& plain, const Extension& null, const std::vector<TrialProblem>& train,
          const NamingOptions& options, Naming& naming);
 
-  /// A fitted model.
-  const Extension& At(const Model& model) const {
-    return model.empty() ? null_ : models_.at(model);
+  /// A model under the noise that suits it, or, if it is not settled, under white noise.
+  const Extension& At(const CandidateSet& set) const {
+    if (set.empty()) return null_;
+    const Entry& entry = models_.at(set);
+    return entry.settled.settled ? entry.settled : entry.white;
   }
-  bool Has(const Model& model) const { return models_.count(model) > 0; }
-  bool Usable(const Model& model) const {
-    return model.empty() || (models_.count(model) && models_.at(model).ok());
+  /// A model under white noise.
+  const Extension& White(const CandidateSet& set) const {
+    return set.empty() ? plain_ : models_.at(set).white;
   }
-  /// Log-likelihood over the null fit less what its parameters must pay [nats].
-  double Worth(const Model& model) const { return At(model).GainOver(null_) - PenaltyOf(model); }
-  /// The best of `current` and the given models by worth, after refitting those.
-  Model Better(Model current, const std::vector<Model>& models, Effort effort);
-  /// Refits the models not refitted yet, in parallel, each from its best known part; those near the
-  /// best to their end.
-  void RefitAll(const std::vector<Model>& models, Effort effort);
-  /// A part of a model cannot be worse than the whole with one value at its null: where the whole
-  /// has found a better valley, its parts are refitted from there.
-  void RefineParts(const Model& model);
+  bool Has(const CandidateSet& set) const { return set.empty() || models_.count(set) > 0; }
+  bool Usable(const CandidateSet& set) const { return Has(set) && White(set).ok(); }
+  bool Settled(const CandidateSet& set) const {
+    return Has(set) && At(set).ok() && At(set).settled;
+  }
+  /// Logarithm of the posterior weight of a settled model [nats], of all models' common constant.
+  double Worth(const CandidateSet& set) const { return At(set).evidence.log_z() + LogPrior(set); }
+  /// Log-likelihood a model gains over the null fit, both under white noise [nats].
+  double Gain(const CandidateSet& set) const { return plain_.cost - White(set).cost; }
+
+  /// Tries the models, settles the `width` that gain most under white noise and those in `anyway`,
+  /// and gives the best of them and `current`.
+  CandidateSet Better(CandidateSet current, const std::vector<CandidateSet>& sets, int width,
+                      const std::vector<CandidateSet>& anyway = {});
+  /// Refits the models not tried yet, in parallel.
+  void Try(const std::vector<CandidateSet>& sets);
+  void SettleAll(const std::vector<CandidateSet>& sets);
+  /// The parts of a model with one member less, from the whole and from what is known of them.
+  std::vector<CandidateSet> SettleParts(const CandidateSet& set);
+
+  /// Every settled model with its worth.
+  std::vector<std::pair<CandidateSet, double>> Visited() const;
 
  private:
+  struct Entry {
+    Extension white, settled;
+  };
   bool Stopped() const { return options_.stop && *options_.stop; }
-  double PenaltyOf(const Model& model) const;
-  void Finish(const std::vector<Model>& models, Effort effort);
-  std::string NamesOf(const Model& model) const;
-  double BestCost() const;
-  Extension RefitModel(const Model& model, const RefitSettings& settings) const;
-  std::vector<double> LinearWorth(const Extension& e) const;
-  Extension Ordered(Extension e, const Model& part, const std::vector<int>& added,
-                    const Model& model) const;
+  double LogPrior(const CandidateSet& set) const;
+  std::string NamesOf(const CandidateSet& set) const;
+  Extension Refitted(const CandidateSet& set) const;
+  CandidateSet BestPart(const CandidateSet& set) const;
+  Extension SettledFrom(const Extension& white, const CandidateSet& set) const;
+  Extension Ordered(Extension e, const CandidateSet& order, const CandidateSet& set) const;
+  void Report(const CandidateSet& set, std::string_view what);
   const Candidate& CandidateAt(int i) const {
     return naming_.candidates[static_cast<std::size_t>(i)].candidate;
   }
 
+  const Extension& plain_;
   const Extension& null_;
   const std::vector<TrialProblem>& train_;
   const NamingOptions& options_;
   Naming& naming_;
   RefitSettings refit_;
-  std::map<Model, Extension> models_;
+  std::map<CandidateSet, Entry> models_;
   std::mutex mutex_;
+  int planned_ = 0;
 };
 
-/// The models with one member less; none for a model of one.
-std::vector<Model> Eliminations(const Model& model);
+/// The sets with one member less.
+std::vector<CandidateSet> Eliminations(const CandidateSet& set);
 
 }  // namespace hoplab

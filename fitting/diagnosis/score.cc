@@ -97,7 +97,7 @@ std::vector<Hypothesis> HypothesesOf(std::span<const Candidate> candidates) {
     Hypothesis h{next, c.parameter_count(), Eigen::VectorXd(c.parameter_count()),
                  Eigen::VectorXd(c.parameter_count())};
     for (int i = 0; i < h.count; ++i) {
-      const EffectParameter& p = c.effect->info.parameters[i];
+      const EffectParameter& p = c.Parameter(i);
       h.lower[i] = p.lower - p.null;
       h.upper[i] = p.upper - p.null;
     }

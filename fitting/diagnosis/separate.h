@@ -5,18 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "fitting/design/trial_design.h"
 #include "fitting/diagnosis/extension.h"
 
 namespace hoplab {
-
-/// A trial somebody could record: one of the train trials with some settings changed.
-struct TrialDesign {
-  std::string like;              // file of the train trial it is modelled on
-  double touchdown_angle = 0.0;  // rad
-  double height = 0.0;           // of the start [m]
-  double speed = 0.0;            // vx of the start [m/s]
-  std::optional<double> kp;      // N s; absent without a controller
-};
 
 /// The trial that tells rival models apart best, with what it is expected to bring.
 struct SeparatingExperiment {
@@ -30,14 +22,11 @@ struct SeparatingExperiment {
   bool Separates() const;
 };
 
-/// Looks over a grid of designs around the train trials by a linear forecast and settles the most
-/// promising by refits. `rivals[0]` is taken for the truth. Absent
-/// if there is no rival or no design can be simulated under all of them.
+/// Searches what another drop like the train trials could be (PlainSpace) for the one that leaves
+/// the least doubt between the rivals, taken as equally likely. Absent if there is no rival or no
+/// design can be simulated under all of them.
 std::optional<SeparatingExperiment> ProposeExperiment(std::span<const Extension> rivals,
                                                       const std::vector<TrialProblem>& train,
                                                       int jobs);
-
-/// "drop from 0.35 m at 1.2 m/s, touch-down angle 40 deg": a design in words.
-std::string Describe(const TrialDesign& design);
 
 }  // namespace hoplab

@@ -59,6 +59,13 @@ class ActiveEffects {
       if (e.hooks->add_hip_torque) e.hooks->add_hip_torque(e.values.data(), hip, torque);
     }
   }
+  T JointTorque(const JointMotion<T>& joint) const {
+    T torque(0.0);
+    for (const Entry& e : entries_) {
+      if (e.hooks->add_joint_torque) e.hooks->add_joint_torque(e.values.data(), joint, torque);
+    }
+    return torque;
+  }
   void ChangeLandingVelocity(const Landing<T>& landing, Vector2<T>& velocity) const {
     for (const Entry& e : entries_) {
       if (e.hooks->change_landing_velocity)
@@ -111,6 +118,9 @@ class ActiveEffects {
   }
   bool HasHipTorque() const {
     return Any([](const EffectHooks<T>& hooks) { return hooks.add_hip_torque != nullptr; });
+  }
+  bool HasJointTorque() const {
+    return Any([](const EffectHooks<T>& hooks) { return hooks.add_joint_torque != nullptr; });
   }
   bool HasLiftoffVelocity() const {
     return Any(

@@ -25,8 +25,9 @@ std::optional<int> Effect::FindParameter(std::string_view name) const {
   return std::nullopt;
 }
 
-bool AppliesTo(const Effect& effect, Law law, LegMass mass) {
+bool AppliesTo(const Effect& effect, Law law, LegMass mass, InputSet inputs) {
   const EffectInfo& info = effect.info;
+  if (info.needs_inputs != 0 && (info.needs_inputs & inputs) == 0) return false;
   if (mass == LegMass::kAtToe && info.massless_leg_only) return false;
   if (!(MechanismOf(law) == MechanismKind::kBall ? info.for_ball : info.for_legs)) return false;
   return info.only_laws.empty() ||

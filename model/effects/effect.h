@@ -11,11 +11,6 @@
 
 namespace hoplab {
 
-/// Widths of the dual numbers the simulator is built for; a run with more directions is cut into
-/// chunks. Measured in docs/decisions/0002-sensitivities.md.
-inline constexpr int kNarrowJet = 4;
-inline constexpr int kWideJet = 8;
-
 /// Where an effect acts.
 enum class EffectKind { kForce, kParameter, kGuard, kObservation };
 std::string_view NameOf(EffectKind kind);
@@ -39,10 +34,13 @@ struct EffectInfo {
   /// Its term turns over within a narrow band of speed. At null the state's steps do not see it, so
   /// the sensitivities must steer the step too.
   bool sharp = false;
+  /// It has a threshold: small values change nothing, and neither does the derivative at null.
+  bool has_threshold = false;
   /// Means nothing, or is not modelled, on a leg with a mass at its toe.
   bool massless_leg_only = false;
   std::span<const EffectParameter> parameters;
   std::span<const Law> only_laws = {};  // of those mechanisms' laws; empty: all of them
+  InputSet needs_inputs = 0;  // means nothing unless one of these drives the run; 0: always does
 };
 
 /// Motion of the body at one instant, for forces on it. Frame W.
@@ -67,13 +65,15 @@ struct ChordMotion {
 template <class T>
 struct HipMotion {
   T motor_torque;  // what the motor gives: M15, clipped and lagged [N m]
-  /// dtheta/dt of the leg [rad/s], the rate the hip torque does work on: -v_hip . n/l. Forward
-  /// motion turns the leg with falling theta. Exact on the toe, on a straight leg and for an
-  /// unloaded rolling leg; the power of a torque T on the body is -T rate under every law.
-  T rate;
-  T t;     // time since the first row [s]
-  T vx;    // [m/s]
-  T lead;  // sine of the chord angle, u/l [-]
+  T t;             // time since the first row [s]
+  T vx;            // [m/s]
+  T lead;          // sine of the chord angle, u/l [-]
+};
+
+/// The hip joint at one instant, for its friction.
+template <class T>
+struct JointMotion {
+  T rate;  // dtheta/dt of the leg angle (M38) [rad/s]; a leg that rolls forward has it negative
 };
 
 /// A touch-down or lift-off, for what it does to the body's velocity.
@@ -95,6 +95,10 @@ struct EffectHooks {
   void (*add_chord_force)(const T* p, const ChordMotion<T>& chord, T& force) = nullptr;
   /// Adds a torque on the hip in stance [N m], positive pushes it forward (M13).
   void (*add_hip_torque)(const T* p, const HipMotion<T>& hip, T& torque) = nullptr;
+  /// Adds a torque that the joint of the hip answers with to its rate [N m], positive against a
+  /// growing leg angle: the joint's power is -torque rate. It does not bend the leg. The effect
+  /// also sets LawTerms::slopes_active.
+  void (*add_joint_torque)(const T* p, const JointMotion<T>& joint, T& torque) = nullptr;
   /// Changes the velocity with which stance begins [m/s].
   void (*change_landing_velocity)(const T* p, const Landing<T>& landing,
                                   Vector2<T>& velocity) = nullptr;
@@ -141,7 +145,7 @@ struct Effect {
 enum class LegMass { kNone, kAtToe };
 
 /// Whether an effect means anything under a law, on such a leg.
-bool AppliesTo(const Effect& effect, Law law, LegMass mass = LegMass::kNone);
+bool AppliesTo(const Effect& effect, Law law, LegMass mass = LegMass::kNone, InputSet inputs = 0);
 
 /// Every effect there is, by name. One entry per file in model/effects (cmake writes the list).
 std::span<const Effect* const> AllEffects();
@@ -174,6 +178,10 @@ constexpr EffectHooks<T> HooksOf() {
                   Physics::AddHipTorque(p, h, t);
                 })
     hooks.add_hip_torque = &Physics::template AddHipTorque<T>;
+  if constexpr (requires(const T* p, const JointMotion<T>& j, T& t) {
+                  Physics::AddJointTorque(p, j, t);
+                })
+    hooks.add_joint_torque = &Physics::template AddJointTorque<T>;
   if constexpr (requires(const T* p, const Landing<T>& l, Vector2<T>& v) {
                   Physics::ChangeLandingVelocity(p, l, v);
                 })

@@ -6,7 +6,7 @@ namespace hoplab {
 namespace {
 
 struct GravityScale {
-  static constexpr std::array kParameters = {EffectParameter{"gamma", "-", 0.0, -0.9, 1.0, 0.02}};
+  static constexpr std::array kParameters = {EffectParameter{"gamma", "-", 0.0, -0.9, 1.0, 0.005}};
   static constexpr EffectInfo kInfo = {
       .name = "gravity_scale",
       .kind = EffectKind::kParameter,

@@ -13,7 +13,7 @@ struct GuideCoulombFriction {
       .equation = "F_y = -f_c tanh(vy/(0.02 m/s)) on the body",
       .sentence = "the vertical guide rubs with a force that only asks which way the body moves",
       .for_legs = true,
-      .for_ball = false,
+      .for_ball = true,
       .dissipative = true,
       .sharp = true,
       .parameters = kParameters};

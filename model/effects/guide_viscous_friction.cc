@@ -14,7 +14,7 @@ struct GuideViscousFriction {
       .equation = "F_y = -b_g vy on the body",
       .sentence = "grease in the vertical guide resists in proportion to speed",
       .for_legs = true,
-      .for_ball = false,
+      .for_ball = true,
       .dissipative = true,
       .parameters = kParameters};
 

@@ -11,20 +11,24 @@ struct HipCoulombFriction {
   static constexpr EffectInfo kInfo = {
       .name = "hip_coulomb_friction",
       .kind = EffectKind::kForce,
-      .equation = "T + tau_c tanh((dtheta/dt)/(0.5 rad/s)) in stance",
+      .equation = "T + tau_c tanh((dtheta/dt)/(0.5 rad/s)) in stance, theta the leg angle (M38)",
       .sentence =
           "the hip bearing or gear rubs with a torque that only asks which way the leg turns",
       .for_legs = true,
       .for_ball = false,
-      .dissipative = true,
+      .dissipative = false,  // of the hop: the joint only takes (M38)
       .sharp = true,
       .parameters = kParameters};
   static constexpr double kWidth = 0.5;  // rad/s
 
   template <class T>
-  static void AddHipTorque(const T* p, const HipMotion<T>& hip, T& torque) {
+  static void ChangeParameters(const T*, Parameters<T>& parameters) {
+    parameters.law_terms.active = parameters.law_terms.slopes_active = true;
+  }
+  template <class T>
+  static void AddJointTorque(const T* p, const JointMotion<T>& joint, T& torque) {
     using std::tanh;
-    torque += p[0] * tanh(hip.rate / kWidth);  // forward is falling theta
+    torque += p[0] * tanh(joint.rate / kWidth);
   }
 };
 

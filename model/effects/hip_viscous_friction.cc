@@ -11,16 +11,20 @@ struct HipViscousFriction {
   static constexpr EffectInfo kInfo = {
       .name = "hip_viscous_friction",
       .kind = EffectKind::kForce,
-      .equation = "T + b_h dtheta/dt in stance",
+      .equation = "T + b_h dtheta/dt in stance, theta the leg angle (M38)",
       .sentence = "the hip bearing resists turning in proportion to its speed",
       .for_legs = true,
       .for_ball = false,
-      .dissipative = true,
+      .dissipative = false,  // of the hop: the joint only takes (M38)
       .parameters = kParameters};
 
   template <class T>
-  static void AddHipTorque(const T* p, const HipMotion<T>& hip, T& torque) {
-    torque += p[0] * hip.rate;  // forward is falling theta
+  static void ChangeParameters(const T*, Parameters<T>& parameters) {
+    parameters.law_terms.active = parameters.law_terms.slopes_active = true;
+  }
+  template <class T>
+  static void AddJointTorque(const T* p, const JointMotion<T>& joint, T& torque) {
+    torque += p[0] * joint.rate;
   }
 };
 

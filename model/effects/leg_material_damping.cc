@@ -10,7 +10,9 @@ struct LegMaterialDamping {
   static constexpr EffectInfo kInfo = {
       .name = "leg_material_damping",
       .kind = EffectKind::kForce,
-      .equation = "F_chord - tau k w, k the chord stiffness at that arc (M3)",
+      .equation =
+          "F_chord - tau k w, k the chord stiffness at that arc (M3); elastica: "
+          "bending moment + tau E I dkappa/dt all along the arc (M63)",
       .sentence =
           "the leg's material itself is viscous (Kelvin-Voigt), so a stiffer, shorter arc "
           "damps more",
@@ -20,8 +22,9 @@ struct LegMaterialDamping {
       .parameters = kParameters};
 
   template <class T>
-  static void AddChordForce(const T* p, const ChordMotion<T>& chord, T& force) {
-    force -= p[0] * chord.stiffness * chord.rate;
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    parameters.law_terms.material_damping_active = true;
+    parameters.law_terms.material_damping += p[0];
   }
 };
 

@@ -8,7 +8,7 @@ namespace {
 struct RestRadiusScale {
   static constexpr std::array kParameters = {EffectParameter{"rho_r", "-", 0.0, -0.5, 1.0, 0.01}};
   static constexpr std::array kLaws = {Law::kThesis, Law::kNoSlip, Law::kConsistent,
-                                       Law::kLargeDeflection};
+                                       Law::kLargeDeflection, Law::kElastica};
   static constexpr EffectInfo kInfo = {
       .name = "rest_radius_scale",
       .kind = EffectKind::kParameter,

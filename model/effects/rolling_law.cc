@@ -8,7 +8,7 @@ namespace {
 struct RollingLaw {
   static constexpr std::array kParameters = {EffectParameter{"blend", "-", 0.0, -1.0, 2.0, 1.0}};
   static constexpr std::array kLaws = {Law::kThesis, Law::kNoSlip, Law::kConsistent,
-                                       Law::kLargeDeflection};
+                                       Law::kLargeDeflection, Law::kElastica};
   static constexpr EffectInfo kInfo = {
       .name = "rolling_law",
       .kind = EffectKind::kParameter,

@@ -8,7 +8,7 @@ namespace {
 struct TorqueBending {
   static constexpr std::array kParameters = {EffectParameter{"blend", "-", 0.0, -1.0, 2.0, 1.0}};
   static constexpr std::array kLaws = {Law::kThesis, Law::kNoSlip, Law::kConsistent,
-                                       Law::kLargeDeflection};
+                                       Law::kLargeDeflection, Law::kElastica};
   static constexpr EffectInfo kInfo = {
       .name = "torque_bending",
       .kind = EffectKind::kParameter,

@@ -1,5 +1,7 @@
 #include "model/hybrid/automaton.h"
 
+#include <iterator>
+
 namespace hoplab {
 
 std::string_view NameOf(Mode mode) {
@@ -16,35 +18,27 @@ std::string_view NameOf(Mode mode) {
   return "";
 }
 
-std::string_view NameOf(EventKind kind) {
-  switch (kind) {
-    case EventKind::kTouchdown:
-      return "touchdown";
-    case EventKind::kLiftoff:
-      return "liftoff";
-    case EventKind::kRollingToToe:
-      return "rolling_to_toe";
-    case EventKind::kToeToRolling:
-      return "toe_to_rolling";
-    case EventKind::kApex:
-      return "apex";
-    case EventKind::kBounce:
-      return "bounce";
-    case EventKind::kMaxCompression:
-      return "max_compression";
-    case EventKind::kTorqueLimit:
-      return "torque_limit";
-    case EventKind::kFallHeight:
-      return "fall_height";
-    case EventKind::kFallAngle:
-      return "fall_angle";
-    case EventKind::kFallArc:
-      return "fall_arc";
-    case EventKind::kSwitch:
-      return "switch";
-  }
-  return "";
-}
+namespace {
+// In the order of EventKind.
+constexpr EventTraits kEvents[] = {
+    {.name = "touchdown", .begins_stance = true, .meets_ground = true},
+    {.name = "liftoff", .ends_stance = true, .begins_hop = true},
+    {.name = "rolling_to_toe"},
+    {.name = "toe_to_rolling"},
+    {.name = "apex", .is_section = true, .ends_hop = true},
+    {.name = "bounce", .is_hop = true, .meets_ground = true},
+    {.name = "max_compression"},
+    {.name = "torque_limit"},
+    {.name = "fall_height"},
+    {.name = "fall_angle"},
+    {.name = "fall_arc"},
+    {.name = "switch"},
+};
+static_assert(std::size(kEvents) == static_cast<std::size_t>(EventKind::kSwitch) + 1);
+}  // namespace
+
+const EventTraits& TraitsOf(EventKind kind) { return kEvents[static_cast<std::size_t>(kind)]; }
+std::string_view NameOf(EventKind kind) { return TraitsOf(kind).name; }
 
 std::string_view NameOf(Outcome outcome) {
   switch (outcome) {
@@ -93,7 +87,8 @@ std::string_view SentenceOf(Outcome outcome) {
     case Outcome::kFellArc:
       return "fell: the leg rolled up to the hip";
     case Outcome::kFellNoReturn:
-      return "fell: after lift-off it never rose to touch-down height again";
+      return "fell: after a lift-off it never rose to touch-down height again, and sank to the "
+             "ground";
     case Outcome::kNoSupport:
       return "touched down without the leg pushing back";
     case Outcome::kStartsInGround:

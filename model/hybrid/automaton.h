@@ -26,6 +26,22 @@ enum class EventKind {
 };
 std::string_view NameOf(EventKind kind);
 
+/// What the engine does about an event beside applying its reset.
+struct EventTraits {
+  std::string_view name;
+  /// Marks a place on the flow (a Poincare section) and changes nothing there: neither fires where
+  /// a mode begins nor counts as simultaneous with another event.
+  bool is_section = false;
+  bool begins_stance = false;  // a guard found closed after it was never open
+  /// A guard found closed after an event that did not begin the stance fires together with it.
+  bool ends_stance = false;
+  bool begins_hop = false;    // a hop is on its way from here
+  bool ends_hop = false;      // ... and complete here, unless the reset says no
+  bool is_hop = false;        // each one counts as a hop
+  bool meets_ground = false;  // a run cannot start beyond it
+};
+const EventTraits& TraitsOf(EventKind kind);
+
 /// How a simulation ended. Only the first two let it speak for the whole horizon.
 enum class Outcome {
   kCompleted,         // reached the horizon
@@ -33,7 +49,7 @@ enum class Outcome {
   kFellHeight,        // hip below y_min; later samples are missing, here and below
   kFellAngle,         // chord more than 80 deg from the vertical
   kFellArc,           // contact arc below 0.2 rad
-  kFellNoReturn,      // lifted off, but never again as high as touch-down needs
+  kFellNoReturn,      // lifted off, never again as high as touch-down needs, down to y_min
   kNoSupport,         // touched down without pushing (chord not shortening)
   kStartsInGround,    // the start lies below touch-down height
   kGrazing,           // an event is met without crossing it: no derivative exists there
@@ -56,7 +72,8 @@ struct GuardSpec {
   EventKind event;
   double scale;
   /// How the run ends if the guard is found closed (negative, or at zero and not opening) where its
-  /// mode is entered. A lift-off guard closed by a change of stance fires at once instead.
+  /// mode is entered. One that ends a stance and is closed by a change of stance fires at once
+  /// instead.
   std::optional<Outcome> if_closed = std::nullopt;
 };
 
@@ -64,8 +81,20 @@ struct GuardSpec {
 struct ResetResult {
   Mode next;
   std::optional<Outcome> end = std::nullopt;
+  bool is_hop = true;  // an apex from which the leg will touch down again
 };
 
-inline constexpr int kMaxGuards = 6;
+/// Where a guard reached zero; guard -1: none did.
+struct GuardCrossing {
+  int guard = -1;
+  double time = 0.0;
+};
+
+/// |guard|/scale below which a guard counts as at zero: rounding of a state of size one.
+inline constexpr double kAtZero = 1e-11;
+
+inline constexpr int kMaxGuards = 8;
+/// Most states of a mechanism, and of what a stepper integrates: with eight sensitivities of each.
+inline constexpr int kMaxStates = 16;
 
 }  // namespace hoplab

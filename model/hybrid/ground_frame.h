@@ -39,10 +39,23 @@ class GroundFrame {
     Turn(sin_, seen[Channel::kBodyX], seen[Channel::kBodyY]);
     Turn(sin_, seen[Channel::kBodyVx], seen[Channel::kBodyVy]);
   }
-  /// The other channels: forces turned, the leg angle measured from the horizontal.
+  /// Accelerations.
+  void AccelerationsToWorld(Observation<T>& seen) const {
+    if (level_) return;
+    Turn(sin_, seen[Channel::kBodyAx], seen[Channel::kBodyAy]);
+    Turn(sin_, seen[Channel::kImuAx], seen[Channel::kImuAy]);
+  }
+  /// A force in W to the frame of the ground.
+  void ForceFromWorld(T& x, T& y) const {
+    if (!level_) Turn(-sin_, x, y);
+  }
+  /// The coordinate along the ground of a place that lies at `x` in W, and back.
+  T AlongGround(const T& x) const { return level_ ? x : T(x / cos_); }
+  /// The other channels: forces and contact turned, the leg angle measured from the horizontal.
   void LegToWorld(Observation<T>& seen) const {
     if (level_) return;
     Turn(sin_, seen[Channel::kGroundForceX], seen[Channel::kGroundForceY]);
+    Turn(sin_, seen[Channel::kContactX], seen[Channel::kContactY]);
     seen[Channel::kLegAngle] += slope_;
   }
 

@@ -29,7 +29,6 @@ class CvodesSolver {
 };
 
 /// CvodesSolver behind the stepper interface.
-template <int kSize, int kControlled, class Rhs>
-using CvodesStepper = SundialsStepper<CvodesSolver, kSize, kControlled, Rhs>;
+using CvodesStepper = SundialsStepper<CvodesSolver>;
 
 }  // namespace hoplab

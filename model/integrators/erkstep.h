@@ -32,7 +32,6 @@ class ErkStepSolver {
 };
 
 /// ErkStepSolver behind the stepper interface.
-template <int kSize, int kControlled, class Rhs>
-using ErkStepper = SundialsStepper<ErkStepSolver, kSize, kControlled, Rhs>;
+using ErkStepper = SundialsStepper<ErkStepSolver>;
 
 }  // namespace hoplab

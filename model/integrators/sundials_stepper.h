@@ -1,60 +1,50 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
-#include "model/integrators/flat_system.h"
-#include "model/integrators/integrator_options.h"
+#include "model/integrators/stepper.h"
 
 namespace hoplab {
 
-/// A SUNDIALS solver behind the stepper interface of dop853.h. `Solver` has
+/// A SUNDIALS solver behind the stepper interface. `Solver` has
 ///   kReadsInsideStep            At() is as accurate as its steps
 ///   Start(t, y, first_step)     begins (again) at t
 ///   Step(t_limit, &t, y)        one step, never past t_limit
 ///   At(t, y)                    the state inside the last step
 ///   EndAt(t0, y0, t, y)         the state at t to the accuracy of a step that begins at t0; what
 ///                               comes next is a Start
-template <class Solver, int kSize, int kControlled, class Rhs>
-class SundialsStepper {
+template <class Solver>
+class SundialsStepper final : public Stepper {
  public:
-  static constexpr bool kReadsInsideStep = Solver::kReadsInsideStep;
+  SundialsStepper(const IntegratorOptions& options, const FlatSystem& system)
+      : size_(system.size), controlled_(system.controlled), solver_(options, system) {}
 
-  SundialsStepper(const IntegratorOptions& options, Rhs rhs)
-      : rhs_(std::move(rhs)), solver_(options, MakeFlatSystem<kSize, kControlled>(rhs_)) {}
-
-  void Start(double t, const double* y, double first_step) {
+  bool reads_inside_step() const override { return Solver::kReadsInsideStep; }
+  void Start(double t, const double* y, double first_step) override {
     t1_ = t;
-    std::copy(y, y + kSize, y1_.begin());
+    std::copy_n(y, size_, y1_);
     solver_.Start(t, y, first_step);
   }
-  StepStatus Step(double t_limit) {
+  StepStatus Step(double t_limit) override {
     t0_ = t1_;
-    y0_ = y1_;
-    return solver_.Step(t_limit, &t1_, y1_.data());
+    std::copy_n(y1_, size_, y0_);
+    return solver_.Step(t_limit, &t1_, y1_);
   }
-  double t0() const { return t0_; }
-  double t1() const { return t1_; }
-  const double* y1() const { return y1_.data(); }
-
-  void At(double t, double* y) { solver_.At(t, y); }
-  /// The controlled part only.
-  void ValueAt(double t, double* y) {
-    std::array<double, kSize> whole;
-    solver_.At(t, whole.data());
-    std::copy(whole.begin(), whole.begin() + kControlled, y);
+  void At(double t, double* y) override { solver_.At(t, y); }
+  void ValueAt(double t, double* y) override {
+    double whole[kMaxFlatSize];
+    solver_.At(t, whole);
+    std::copy_n(whole, controlled_, y);
   }
-  StepStatus EndAt(double t) {
+  StepStatus EndAt(double t) override {
     t1_ = t;
-    return solver_.EndAt(t0_, y0_.data(), t, y1_.data());
+    return solver_.EndAt(t0_, y0_, t, y1_);
   }
 
  private:
-  Rhs rhs_;
+  int size_, controlled_;
   Solver solver_;
-  double t0_ = 0.0, t1_ = 0.0;
-  std::array<double, kSize> y0_{}, y1_{};
+  double y0_[kMaxFlatSize];
 };
 
 }  // namespace hoplab

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "model/hybrid/discrete_state.h"
 #include "model/laws/leg_load.h"
 #include "model/leg_compliance.h"
 
@@ -14,6 +15,13 @@ namespace hoplab {
 struct ArcRoot {
   double phi = 0.0, u0 = std::numeric_limits<double>::quiet_NaN(), y = 0.0;
   double d_u0 = 0.0, d_y = 0.0;
+
+  void Save(DiscreteState& to) const {
+    for (double value : {phi, u0, y, d_u0, d_y}) to.Put(value);
+  }
+  void Load(DiscreteState& from) {
+    for (double* value : {&phi, &u0, &y, &d_u0, &d_y}) *value = from.Take();
+  }
 };
 
 /// Laws `consistent` (M9-M12) and `large_deflection` (M9b, M10b, M2b): the contact arc is what
@@ -21,8 +29,8 @@ struct ArcRoot {
 template <class T, bool kSecondOrder>
 class ElasticArc {
  public:
-  static constexpr Law kLaw = kSecondOrder ? Law::kLargeDeflection : Law::kConsistent;
   static constexpr bool kIsExpansion = kSecondOrder;
+  static constexpr Law kLaw = kSecondOrder ? Law::kLargeDeflection : Law::kConsistent;
 
   explicit ElasticArc(const Parameters<T>& p) : r_(p.r), compliance_(p) {
     const HalfAngle toe(std::numbers::pi);
@@ -38,10 +46,8 @@ class ElasticArc {
 
   /// Where the root search for phi starts next: the arc at touch-down, or another instance's.
   void StartRootAt(double phi) { root_ = ArcRoot{.phi = phi}; }
-  template <class Other>
-  void CopyRoot(const Other& other) {
-    root_ = other.root();
-  }
+  void SaveRoot(DiscreteState& to) const { root_.Save(to); }
+  void LoadRoot(DiscreteState& from) { root_.Load(from); }
 
   /// Contact coordinate (X0) of a contact at `x_c` with arc `phi`; M11.
   T ContactCoordinate(const T& x_c, const T& phi) const { return x_c - r_ * phi; }
@@ -129,7 +135,7 @@ class ElasticArc {
   }
 
   /// F C/l0: the expansion behind M2b is good to about 0.2; 0 for a law that is not an expansion.
-  double Flexure(const LegLoad<T>& load) const {
+  double DeflectionRatio(const LegLoad<T>& load) const {
     if constexpr (!kSecondOrder) return 0.0;
     const double phi = Value(load.phi);
     const double rest = 2.0 * Value(r_) * std::sin(0.5 * phi);

@@ -164,10 +164,11 @@ Footing FindFooting(const Question& q, double phi, double u) {
   return f;
 }
 
-// dphi/dt = along_u0 du0/dt + rest at an equilibrium, from the slopes of both residuals.
+// dphi/dt = along_u0 du0/dt + rest at an equilibrium, from the slopes of both residuals; along_y is
+// what of `rest` goes with vy.
 template <class T>
 struct ArcRate {
-  T along_u0, rest;
+  T along_u0, along_y, rest;
 };
 template <class T>
 ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const LegConditions<T>& at, const T* z,
@@ -191,7 +192,8 @@ ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const LegConditions<T>& at
   const auto solved = [&](const T& tip, const T& ground) {
     return T((by.by_Y.tip * ground - by.by_Y.ground * tip) / determinant);
   };
-  return {solved(by.by_u.tip, by.by_u.ground), solved(tip_rest, ground_rest)};
+  return {solved(by.by_u.tip, by.by_u.ground), solved(T(0.0), T(-1.0)),
+          solved(tip_rest, ground_rest)};
 }
 
 // What dphi/dt is multiplied by in M7, with r_d = l/(2 sin(phi/2)), or in its readings M32, M33.
@@ -219,7 +221,7 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
       {values_, law_, rolling, Value(u0), Value(z[kY]), Value(at.torque), Value(softer)}, root_);
   if (!solution.found) {
     const T nan(std::numeric_limits<double>::quiet_NaN());
-    return {nan, nan, nan, nan, nan, nan, nan, nan, nan};
+    return {nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
   }
 
   // Implicit function theorem: residuals at the root in duals, the unknowns held.
@@ -248,9 +250,18 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   load.tip_miss = load.u / load.l + leg.tip_turn;
   load.contact_rate = T(0.0);
   load.slip_gain = T(1.0);
+  load.arc_x = load.arc_y = load.place_x = load.place_y = T(0.0);
+  load.viscous_x = load.viscous_y = T(0.0);
   const T w = (Y * z[kVy] - load.u * z[kVx]) / load.l;  // M12
   load.damping_rate = w;
-  if (!rolling || (IsElastic(law_) && !p_.law_terms.rolling_active)) return load;
+  const bool asked = p_.law_terms.slopes_active;
+  if (!rolling) {
+    // M38 of a chord that turns about a contact that stays.
+    if (asked) load.angle_rate = -(Y * z[kVx] + load.u * z[kVy]) / (load.l * load.l);
+    if (DampsAlongArc()) AddViscousForce(at, softer, z, load);
+    return load;
+  }
+  if (IsElastic(law_) && !p_.law_terms.rolling_active && !asked) return load;
 
   // M27: dx_c/dt = rho dphi/dt, the foot's creeping added by the caller.
   const T& blend = p_.law_terms.rolling;
@@ -263,6 +274,16 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   if (variant.rolling == ThesisVariant::Rolling::kImplicit)
     load.slip_gain = 1.0 / (1.0 - beyond * rate.along_u0);
   load.contact_rate = load.slip_gain * beyond * (rate.rest - rate.along_u0 * z[kVx]);
+  if (asked) {
+    // M38: dphi/dt with du0/dt = dX0/dt - vx.
+    load.angle_rate = -(rate.along_u0 * (load.contact_rate - z[kVx]) + rate.rest);
+    const T gain = 1.0 + rate.along_u0 * load.slip_gain * beyond;
+    load.arc_x = -gain * rate.along_u0;
+    load.arc_y = gain * rate.along_y;
+    load.place_x = rho * load.arc_x;
+    load.place_y = rho * load.arc_y;
+  }
+  if (DampsAlongArc()) AddViscousForce(at, softer, z, load);
   if (!IsElastic(law_) && variant.damping_rate != ThesisVariant::DampingRate::kHip) {  // M34
     T seen = w + load.u * load.contact_rate / load.l;
     if (variant.damping_rate == ThesisVariant::DampingRate::kDeflection)
@@ -270,6 +291,32 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
     load.damping_rate = (1.0 - p_.law_terms.tip) * seen + p_.law_terms.tip * w;
   }
   return load;
+}
+
+// M63: Rayleigh's function of the arc, and its force on the hip.
+template <class T>
+void ExtendedLeg<T>::AddViscousForce(const LegConditions<T>& at, const T& softer, const T* z,
+                                     LegLoad<T>& load) const {
+  using S = Tangent<T>;
+  const S phi(load.phi, load.arc_x, load.arc_y);
+  const S l(load.l, load.u * (load.place_x - 1.0) / load.l,
+            (load.u * load.place_y + load.y) / load.l);
+  const S F = StaticsAt<S, T>(p_, law_, at.torque, {phi, l, S(softer)}).F;
+  const T stiffness = p_.E * p_.I / softer, per_N = p_.r * p_.r / stiffness;
+  const T f = per_N * F.value, f_x = per_N * F.rate[0], f_y = per_N * F.rate[1];
+  const double phi0 = Value(load.phi), f0 = Value(f);
+  const elastica::Dissipation table = elastica::DissipationAt(phi0, f0);
+  const auto lift = [&](const elastica::Derivatives<1>& d) {
+    return T(d[0][0] + d[1][0] * (load.phi - phi0) + d[0][1] * (f - f0));
+  };
+  const T ff = lift(table.ff), mixed = lift(table.fphi), phiphi = lift(table.phiphi);
+  const T f_rate = f_x * z[kVx] + f_y * z[kVy];
+  const T phi_rate = load.arc_x * z[kVx] + load.arc_y * z[kVy];
+  const T unit = p_.law_terms.material_damping * stiffness / p_.r;
+  const T by_load = unit * (ff * f_rate + mixed * phi_rate);
+  const T by_arc = unit * (mixed * f_rate + phiphi * phi_rate);
+  load.viscous_x = -(by_load * f_x + by_arc * load.arc_x);
+  load.viscous_y = -(by_load * f_y + by_arc * load.arc_y);
 }
 
 template <class T>
@@ -311,7 +358,8 @@ T ExtendedLeg<T>::StrainEnergy(Mode, const LegLoad<T>& load, const LegConditions
       StaticsAt<T, T>(p_, law_, at.torque, {load.phi, load.l, Softer(p_, at.time)});
   const T lift = leg.F * load.y / load.l;
   const T ground = 0.5 * p_.law_terms.ground_compliance * lift * lift;
-  if (IsElastic(law_)) return leg.F * leg.F * (0.5 * leg.C + 2.0 / 3.0 * leg.F * leg.A2) + ground;
+  if (IsElastic(law_))
+    return leg.F * leg.F * (0.5 * leg.C + 2.0 / 3.0 * leg.F * leg.A2) + leg.beyond + ground;
   const T hardening = p_.law_terms.hardening / (law_ == Law::kStraightLeg ? p_.l0 : p_.r);
   const T& F = leg.soft_F;
   return F * F * (0.5 * leg.C + 2.0 / 3.0 * F * leg.A2) +

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "model/hybrid/automaton.h"
+#include "model/hybrid/discrete_state.h"
 #include "model/laws/leg_load.h"
 #include "model/parameters.h"
 
@@ -15,6 +16,14 @@ struct ExtendedRoot {
   double sink = 0.0;  // of the ground under the foot [m]
   double u0 = std::numeric_limits<double>::quiet_NaN(), y = 0.0;
   double phi_u0 = 0.0, phi_y = 0.0, sink_u0 = 0.0, sink_y = 0.0;
+
+  void Save(DiscreteState& to) const {
+    for (double value : {phi, sink, u0, y, phi_u0, phi_y, sink_u0, sink_y}) to.Put(value);
+  }
+  void Load(DiscreteState& from) {
+    for (double* value : {&phi, &sink, &u0, &y, &phi_u0, &phi_y, &sink_u0, &sink_y})
+      *value = from.Take();
+  }
 };
 
 /// Any leg law with the terms effects bring into it (`LawTerms`; M24-M29 and the table of effects).
@@ -37,10 +46,8 @@ class ExtendedLeg {
   bool active() const { return p_.law_terms.active; }
 
   void StartRootAt(double phi) { root_ = ExtendedRoot{.phi = phi, .sink = root_.sink}; }
-  template <class Other>
-  void CopyRoot(const Other& other) {
-    root_ = other.root();
-  }
+  void SaveRoot(DiscreteState& to) const { root_.Save(to); }
+  void LoadRoot(DiscreteState& from) { root_.Load(from); }
 
   /// What the leg carries. All fields NaN where no equilibrium is found.
   LegLoad<T> Load(Mode mode, const T* z, const LegConditions<T>& at) const;
@@ -64,6 +71,13 @@ class ExtendedLeg {
   const ExtendedRoot& root() const { return root_; }
 
  private:
+  // Whether the strip's viscosity acts on its curvature, not on the chord.
+  bool DampsAlongArc() const {
+    return law_ == Law::kElastica && p_.law_terms.material_damping_active;
+  }
+  void AddViscousForce(const LegConditions<T>& at, const T& softer, const T* z,
+                       LegLoad<T>& load) const;
+
   Parameters<T> p_;
   Parameters<double> values_;
   Law law_;

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "model/effects/effect.h"
+#include "model/laws/elastica/energy.h"
 #include "model/leg_compliance.h"
 #include "model/parameters.h"
 
@@ -105,7 +107,44 @@ SecondOrderAcross<S> SecondOrderAcrossAt(const S& phi, const S& sin, const S& co
               q * cos * (0.375 * (K2 * K2) - 0.625 * K2 + 0.28125 * one) / S2};
 }
 
-inline bool IsElastic(Law law) { return law == Law::kConsistent || law == Law::kLargeDeflection; }
+// The derivative [by x][by y] of a function of two variables, from all of them at their values.
+inline double Lift2(double, double, const elastica::Derivatives<3>& d, int i, int j) {
+  return d[i][j];
+}
+template <int N>
+Jet<N> Lift2(const Jet<N>& x, const Jet<N>& y, const elastica::Derivatives<3>& d, int i, int j) {
+  return Jet<N>(d[i][j], d[i + 1][j] * x.v + d[i][j + 1] * y.v);
+}
+template <class T>
+Tangent<T> Lift2(const Tangent<T>& x, const Tangent<T>& y, const elastica::Derivatives<3>& d, int i,
+                 int j) {
+  const T by_x = Lift2(x.value, y.value, d, i + 1, j), by_y = Lift2(x.value, y.value, d, i, j + 1);
+  return {Lift2(x.value, y.value, d, i, j), by_x * x.rate[0] + by_y * y.rate[0],
+          by_x * x.rate[1] + by_y * y.rate[1]};
+}
+
+inline bool IsElastic(Law law) {
+  return law == Law::kConsistent || law == Law::kLargeDeflection || law == Law::kElastica;
+}
+
+// What the elastica has beyond M2b at an arc and a load f (M65), from its energy there.
+template <class S>
+struct BeyondM2b {
+  S chord;   // less chord, over r
+  S turn;    // of the tip
+  S energy;  // strain energy, over E I/r
+};
+template <class S, class Bending, class Second>
+BeyondM2b<S> BeyondM2bAt(const S& phi, const S& f, const elastica::Derivatives<3>& d,
+                         const Bending& bending, const Second& second) {
+  const auto G = [&](int i, int j) { return Lift2(phi, f, d, i, j); };
+  const auto first = [&](int k) { return Lift(phi, bending.data(), k); };
+  const auto next = [&](int k) { return Lift(phi, second.data(), k); };
+  const S f2 = f * f, G_f = G(0, 1);
+  return {f * (2.0 * G(0, 0) + f * G_f - 0.5 * first(0)) - f2 * next(0),
+          f * (G(1, 0) - 0.25 * first(1)) - (1.0 / 3.0) * (f2 * next(1)),
+          f2 * (G(0, 0) + f * G_f - 0.25 * first(0) - (2.0 / 3.0) * (f * next(0)))};
+}
 
 // What the state says to the leg, in a scalar that may be differentiated.
 template <class S>
@@ -121,6 +160,7 @@ struct Statics {
   S sin, cos, delta, C, A2, F;
   S soft_F;    // F without leg_hardening, where that is a share of a spring's force
   S tip_turn;  // M10 (M10b, M25) is u/l + tip_turn = 0
+  S beyond;    // strain energy that M2b has not (M65) [J]
 };
 
 // P: scalar of the parameters, S of the unknowns.
@@ -137,7 +177,8 @@ template <class S, class P>
                  .A2 = S(P(0.0)),
                  .F = S(P(0.0)),
                  .soft_F = S(P(0.0)),
-                 .tip_turn = S(P(0.0))};
+                 .tip_turn = S(P(0.0)),
+                 .beyond = S(P(0.0))};
   if (law == Law::kStraightLeg) {
     out.delta = p.l0 - l;
     out.C = at.softer / p.k;
@@ -167,8 +208,9 @@ template <class S, class P>
   S turn = N * (at.softer * (0.5 * r * r * flex * lift(shapes.bending, 2)));
   out.delta = 2.0 * (r * out.sin) - l - r * (N * bending1);
   // M2b and its slope at the rest radius, by the law or by the share an effect brings in.
-  const bool second_order = law == Law::kLargeDeflection || terms.second_order_active;
-  const P share = law == Law::kLargeDeflection ? P(1.0) : terms.second_order;
+  const bool is_exact = law == Law::kElastica, has_M2b = is_exact || law == Law::kLargeDeflection;
+  const bool second_order = has_M2b || terms.second_order_active;
+  const P share = has_M2b ? P(1.0) : terms.second_order;
   const P unit = share * (4.0 * r * r * r * r * flex * flex);
   const S softer2 = at.softer * at.softer;
   const S C2s = softer2 * (unit * lift(shapes.second_order, 1));
@@ -193,6 +235,45 @@ template <class S, class P>
     }
     out.F = 2.0 * out.delta / (C + sqrt(C * C + 4.0 * (out.A2 * out.delta)));
     out.tip_turn = out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + turn - out.cos;
+    if (is_exact || terms.higher_order_active) {
+      // M65: F from the chord, by Newton in values; two rounds more, their slope held, bring the
+      // directions in.
+      const P blend = is_exact ? P(1.0 + terms.higher_order) : terms.higher_order;
+      const S unit_f = at.softer * (2.0 * r * r * flex);  // f over F
+      const double phi_now = Value(phi), per_N = Value(unit_f), now = Value(blend) * Value(r);
+      const double least = elastica::kLoadBegin / elastica::LoadScale(phi_now) / per_N;
+      const double most = elastica::kLoadEnd / elastica::LoadScale(phi_now) / per_N;
+      double F = Value(out.F), slope = 1.0;
+      for (int round = 0; round < 30; ++round) {
+        F = F < most ? (F > least ? F : least) : most;  // NaN is most
+        const double f = per_N * F;
+        const elastica::Derivatives<2> G = elastica::EnergyTo2(phi_now, f);
+        const double C0 = Value(C) - 0.5 * now * per_N * shapes.bending[0];
+        const double A0 = Value(out.A2) - now * per_N * per_N * shapes.second_order[0];
+        const double miss =
+            F * (C0 + A0 * F) + now * f * (2.0 * G[0][0] + f * G[0][1]) - Value(out.delta);
+        slope =
+            C0 + 2.0 * A0 * F + now * per_N * (2.0 * G[0][0] + f * (4.0 * G[0][1] + f * G[0][2]));
+        const double step = miss / slope;
+        F -= step;
+        if (!(std::abs(step) > 1e-13 * most)) break;
+      }
+      if (!elastica::InDomain(phi_now, per_N * F)) F = std::numeric_limits<double>::quiet_NaN();
+      out.F = S(P(F));
+      const elastica::Derivatives<3> table = elastica::EnergyTo3(phi_now, per_N * F);
+      const auto at_load = [&](const S& load) {
+        return BeyondM2bAt<S>(phi, unit_f * load, table, shapes.bending, shapes.second_order);
+      };
+      BeyondM2b<S> more = at_load(out.F);
+      for (int round = 0; round < 2; ++round) {
+        const S miss = out.F * (C + out.A2 * out.F) + (blend * r) * more.chord - out.delta;
+        out.F = out.F - P(1.0 / slope) * miss;
+        more = at_load(out.F);
+      }
+      out.tip_turn =
+          out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + blend * more.turn + turn - out.cos;
+      out.beyond = (blend / (2.0 * r * flex)) * (more.energy / at.softer);
+    }
   } else {
     // M5, M6 with the share `tip` of M10.
     const ThesisVariant variant = law == Law::kThesis ? p.variant : ThesisVariant();

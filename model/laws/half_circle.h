@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/hybrid/discrete_state.h"
 #include "model/laws/leg_load.h"
 #include "model/leg_compliance.h"
 
@@ -14,8 +15,8 @@ namespace hoplab {
 template <class T, bool kNoSlip>
 class HalfCircle {
  public:
-  static constexpr Law kLaw = kNoSlip ? Law::kNoSlip : Law::kThesis;
   static constexpr bool kIsExpansion = false;
+  static constexpr Law kLaw = kNoSlip ? Law::kNoSlip : Law::kThesis;
 
   explicit HalfCircle(const Parameters<T>& p)
       : parameters_(p),
@@ -26,8 +27,8 @@ class HalfCircle {
         rate_factor_(variant_.angle_rate == ThesisVariant::AngleRate::kTheta ? 2.0 : 1.0) {}
 
   void StartRootAt(double) {}  // nothing is solved for
-  template <class Other>
-  void CopyRoot(const Other&) {}
+  void SaveRoot(DiscreteState&) const {}
+  void LoadRoot(DiscreteState&) {}
 
   T ContactCoordinate(const T& x_c, const T&) const { return x_c; }
   T ToePosition(const T& coordinate) const { return coordinate; }
@@ -79,7 +80,7 @@ class HalfCircle {
     return 0.5 * load.elastic_force * deflection;
   }
 
-  double Flexure(const LegLoad<T>&) const { return 0.0; }
+  double DeflectionRatio(const LegLoad<T>&) const { return 0.0; }
 
  private:
   T RestChord(const LegLoad<T>& load) const {

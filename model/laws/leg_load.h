@@ -18,6 +18,11 @@ struct LegLoad {
   // Of a leg with active law terms only.
   T slip_gain;  // d contact_rate/d slip, slip being the rate at which the foot creeps [-]
   T tip_miss;   // toe stance: u/l less the right side of M10 at phi = pi [-]
+  // Where LawTerms::slopes_active.
+  T angle_rate;            // dtheta/dt, theta the leg angle (M38) [rad/s]
+  T arc_x, arc_y;          // how the contact arc follows the hip [rad/m]
+  T place_x, place_y;      // how the contact's place x_c follows the hip [-]
+  T viscous_x, viscous_y;  // force on the hip of a strip that damps along its arc (M63) [N]
 };
 
 /// What besides the state decides the load of a leg with active law terms.

@@ -1,14 +1,9 @@
 #pragma once
 
-#include <cmath>
-#include <limits>
-
-#include "model/effects/active_effects.h"
-#include "model/hybrid/automaton.h"
-#include "model/hybrid/ballistic.h"
+#include "model/hybrid/hybrid_system.h"
 #include "model/laws/leg_load.h"
 #include "model/mechanisms/inertia.h"
-#include "model/observation.h"
+#include "model/mechanisms/mechanism_setup.h"
 
 namespace hoplab {
 
@@ -16,42 +11,41 @@ namespace hoplab {
 /// vx+ = (1 - tangential_loss) vx-. State: x, y, vx, vy of its centre, on a slope in the frame of
 /// the ground. One mode.
 template <class T>
-class Ball {
+class Ball final : public HybridSystem<T> {
  public:
-  using Scalar = T;
-  static constexpr int kDim = 4;
   /// Bounces closer than this end the run as `came_to_rest` [s].
   static constexpr double kRestInterval = 1e-6;
 
-  Ball(const Parameters<T>& parameters, const ActiveEffects<T>& effects, LiftoffRule)
-      : p_(parameters), effects_(effects), inertia_(p_), has_body_force_(effects.HasBodyForce()) {}
+  explicit Ball(const MechanismSetup<T>& setup)
+      : p_(setup.parameters),
+        effects_(setup.effects),
+        inertia_(p_),
+        inputs_(setup.inputs),
+        has_body_force_(effects_.HasBodyForce() || inputs_.HasForce()) {}
 
-  template <class Other>
-  void CopyHidden(const Other&) {}
-
-  void StartSearch(Mode, const double*) {}
-
-  void Derivative(Mode, const T& t, const T* z, T* dz) const {
+  int size() const override { return 4; }
+  void Derivative(Mode, const T& t, const T* z, T* dz) const override {
     dz[kX] = z[kVx];
     dz[kY] = z[kVy];
     dz[kVx] = inertia_.gravity_x;
     dz[kVy] = inertia_.gravity_y;
     if (has_body_force_) {
-      const Vector2<T> force = effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy]});
-      dz[kVx] += force.x / inertia_.mx;
+      Vector2<T> force = effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy]});
+      AddInputForce(inputs_, p_.slope, t, force);
+      if (!inertia_.on_guide) dz[kVx] += force.x / inertia_.mx;
       dz[kVy] += force.y / inertia_.my;
     }
   }
 
-  int GuardCount(Mode) const { return 2; }
-  GuardSpec Guard(Mode, int i) const {
+  int GuardCount(Mode) const override { return 2; }
+  GuardSpec Guard(Mode, int i) const override {
     return i == 0 ? GuardSpec{EventKind::kBounce, 0.1} : GuardSpec{EventKind::kApex, 1.0};
   }
-  void Guards(Mode, const T&, const T* z, T* g) const {
+  void Guards(Mode, const T&, const T* z, T* g) const override {
     g[0] = z[kY] - p_.radius;
     g[1] = z[kVy];
   }
-  ResetResult Reset(Mode mode, int i, const T&, T* z) {
+  ResetResult Reset(Mode mode, int i, const T&, T* z) override {
     if (i == 1) return {mode};
     z[kVx] *= 1.0 - p_.tangential_loss;
     z[kVy] *= -effects_.Restitution(-z[kVy], p_.restitution);
@@ -60,15 +54,21 @@ class Ball {
     return {mode};
   }
 
-  bool IsBallistic(Mode) const { return !has_body_force_; }
-  BallisticFlight<T> Ballistic(const T*) const {
+  void SaveDiscreteState(DiscreteState& to) const override { inputs_.Save(to); }
+  void LoadDiscreteState(DiscreteState& from) override { inputs_.Load(from); }
+  double NextKnot(Mode) const override { return inputs_.NextKnot(true); }
+  std::optional<T> PassKnot(Mode, double t, T*) override { return inputs_.Pass(true, t); }
+
+  bool IsBallistic(Mode) const override { return !has_body_force_; }
+  BallisticFlight<T> Ballistic(const T*) const override {
     return {inertia_.gravity_x, inertia_.gravity_y, p_.radius};
   }
-  double FirstStep(Mode, const T*) const { return 0.01; }
+  /// Free flight, for what comes after the end of a run.
+  std::optional<BallisticFlight<T>> FreeFlight() const override { return Ballistic(nullptr); }
+  double FirstStep(Mode, const T*) const override { return 0.01; }
 
-  Observation<T> Observe(Mode, const T&, const T* z) const {
-    Observation<T> seen;
-    for (T& c : seen.channel) c = T(std::numeric_limits<double>::quiet_NaN());
+  Observation<T> Observe(Mode, const T&, const T* z) const override {
+    Observation<T> seen = this->Unseen();
     seen[Channel::kBodyX] = z[kX];
     seen[Channel::kBodyY] = z[kY];
     seen[Channel::kBodyVx] = z[kVx];
@@ -76,13 +76,13 @@ class Ball {
     seen[Channel::kContact] = T(0.0);
     return seen;
   }
-  T Energy(Mode, const T* z) const { return inertia_.Energy(z); }
-  double Flexure(Mode, const T*) const { return 0.0; }
+  T Energy(Mode, const T* z) const override { return inertia_.Energy(z); }
 
  private:
   Parameters<T> p_;
   ActiveEffects<T> effects_;
   Inertia<T> inertia_;
+  InputSignals<T> inputs_;
   bool has_body_force_;
 };
 

@@ -6,40 +6,44 @@
 
 #include "model/laws/extended_leg.h"
 #include "model/leg_compliance.h"
-#include "model/mechanisms/legged_body.h"
+#include "model/mechanisms/leg.h"
 
 namespace hoplab {
 
 /// The half-circular compliant leg with one of its laws. Modes: rolling, toe. A leg that lands at
 /// theta <= 0 lands on its toe.
 template <class T, template <class> class LawT>
-class CLeg {
+class CLeg final : public Leg<T> {
  public:
   static constexpr double kFallArc = 0.2;  // rad
-  static constexpr bool kIsExpansion = LawT<T>::kIsExpansion;
 
   explicit CLeg(const Parameters<T>& p)
       : m_(Value(p.m)), r_(p.r), compliance_(p), law_(p), extended_(p, LawT<T>::kLaw) {}
 
-  template <class Other>
-  void CopyHidden(const Other& other) {
-    law_.CopyRoot(other.law());
-    extended_.CopyRoot(other.extended());
+  void SaveDiscreteState(DiscreteState& to) const override {
+    law_.SaveRoot(to);
+    extended_.SaveRoot(to);
+  }
+  void LoadDiscreteState(DiscreteState& from) override {
+    law_.LoadRoot(from);
+    extended_.LoadRoot(from);
   }
   /// The arc is searched from its unloaded geometry, y = r (1 - cos phi).
-  void StartSearch(Mode mode, const double* z) {
+  void StartSearch(Mode mode, const double* z) override {
     if (mode != Mode::kRolling) return StartRootAt(std::numbers::pi);
     StartRootAt(std::acos(std::clamp(1.0 - z[kY] / Value(r_), -1.0, 1.0)));
   }
 
-  T TouchdownHeight(const T& theta) const {
+  T TouchdownHeight(const T& theta) const override {
     using std::cos;
     return Value(theta) > 0.0 ? T(r_ * (1.0 + cos(theta))) : T(2.0 * r_ * cos(theta));
   }
-  T ChordAngle(const T& theta) const { return Value(theta) > 0.0 ? T(0.5 * theta) : theta; }
+  T ChordAngle(const T& theta) const override {
+    return Value(theta) > 0.0 ? T(0.5 * theta) : theta;
+  }
   /// k(phi) = 1/C(phi) at the rest radius, M3.
-  T Stiffness(const LegLoad<T>& load) const { return 1.0 / compliance_.ChordAt(load.phi); }
-  Mode Land(const T& theta, T* z) {
+  T Stiffness(const LegLoad<T>& load) const override { return 1.0 / compliance_.ChordAt(load.phi); }
+  Mode Land(const T& theta, T* z) override {
     using std::sin;
     if (Value(theta) <= 0.0) {
       z[kContact] = z[kX] + 2.0 * r_ * sin(theta);
@@ -52,28 +56,30 @@ class CLeg {
     return Mode::kRolling;
   }
   /// Touch-down under a hip torque; `mode` as Land gave it.
-  Mode Settle(Mode mode, T* z, const LegConditions<T>& at) { return extended_.Settle(mode, z, at); }
-  LegLoad<T> Load(Mode mode, const T* z) const {
+  Mode Settle(Mode mode, T* z, const LegConditions<T>& at) override {
+    return extended_.Settle(mode, z, at);
+  }
+  LegLoad<T> Load(Mode mode, const T* z) const override {
     return mode == Mode::kRolling ? law_.Rolling(z) : law_.Toe(z);
   }
-  T RestChord(const LegLoad<T>& load) const {
+  T RestChord(const LegLoad<T>& load) const override {
     using std::sin;
     return 2.0 * r_ * sin(0.5 * load.phi);
   }
 
-  int OwnGuardCount(Mode mode) const { return mode == Mode::kRolling ? 2 : 1; }
-  GuardSpec OwnGuard(Mode mode, int i) const {
+  int OwnGuardCount(Mode mode) const override { return mode == Mode::kRolling ? 2 : 1; }
+  GuardSpec OwnGuard(Mode mode, int i) const override {
     if (i == 1) return {EventKind::kFallArc, 1.0, Outcome::kFellArc};
     return {mode == Mode::kRolling ? EventKind::kRollingToToe : EventKind::kToeToRolling, 1.0};
   }
-  void OwnGuards(Mode mode, const LegLoad<T>& load, T* g) const {
+  void OwnGuards(Mode mode, const LegLoad<T>& load, T* g) const override {
     if (mode == Mode::kRolling)
       g[0] = law_.RollingToToe(load);
     else
       g[0] = extended_.active() ? T(-load.tip_miss) : law_.ToeToRolling(load);
     if (mode == Mode::kRolling) g[1] = load.phi - kFallArc;
   }
-  Mode Pass(EventKind event, T* z) {
+  Mode ResetStance(EventKind event, T* z) override {
     if (event == EventKind::kRollingToToe) {
       z[kContact] = law_.ToePosition(z[kContact]);
       StartRootAt(std::numbers::pi);
@@ -84,27 +90,31 @@ class CLeg {
     return Mode::kRolling;
   }
 
-  T ShownAngle(Mode mode, const LegLoad<T>& load) const {
+  T ShownAngle(Mode mode, const LegLoad<T>& load) const override {
     using std::atan2;
     return mode == Mode::kRolling ? T(std::numbers::pi - load.phi) : T(atan2(load.u, load.y));
   }
-  T ShownLength(const T& theta) const {
+  T ShownLength(const T& theta) const override {
     using std::cos;
     return Value(theta) > 0.0 ? T(2.0 * r_ * cos(0.5 * theta)) : T(2.0 * r_);
   }
+  T ShownArc(const LegLoad<T>& load) const override { return load.phi; }
 
-  T StrainEnergy(const LegLoad<T>& load) const { return law_.StrainEnergy(load); }
-  double Flexure(const LegLoad<T>& load) const { return law_.Flexure(load); }
-  double Size() const { return Value(r_); }
-  T LowestHip() const { return 0.5 * r_; }
+  T StrainEnergy(const LegLoad<T>& load) const override { return law_.StrainEnergy(load); }
+  bool IsExpansion() const override { return LawT<T>::kIsExpansion; }
+  double DeflectionRatio(const LegLoad<T>& load) const override {
+    return law_.DeflectionRatio(load);
+  }
+  double Size() const override { return Value(r_); }
+  T LowestHip() const override { return 0.5 * r_; }
   /// sqrt(m C) [s].
-  double TimeScale(const LegLoad<T>& load) const {
+  double TimeScale(const LegLoad<T>& load) const override {
     return std::sqrt(m_ * Value(compliance_.Chord(Value(load.phi))));
   }
 
   const LawT<T>& law() const { return law_; }
   /// The same leg with the terms that effects bring into its law.
-  const ExtendedLeg<T>& extended() const { return extended_; }
+  const ExtendedLeg<T>& extended() const override { return extended_; }
 
  private:
   void StartRootAt(double phi) {

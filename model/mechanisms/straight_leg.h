@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "model/laws/extended_leg.h"
-#include "model/mechanisms/legged_body.h"
+#include "model/mechanisms/leg.h"
 
 namespace hoplab {
 
@@ -11,10 +12,8 @@ namespace hoplab {
 /// Mode: stance. The contact coordinate is x_c. Where the leg pushes (`rest_length_step`) its rest
 /// length is longer from greatest compression to lift-off: a discrete state.
 template <class T>
-class StraightSpring {
+class StraightSpring final : public Leg<T> {
  public:
-  static constexpr bool kIsExpansion = false;
-
   explicit StraightSpring(const Parameters<T>& p)
       : m_(Value(p.m)),
         k_(p.k),
@@ -23,33 +22,36 @@ class StraightSpring {
         pushes_(p.has_rest_length_step),
         extended_(p, Law::kStraightLeg) {}
 
-  template <class Other>
-  void CopyHidden(const Other& other) {
-    extended_.CopyRoot(other.extended());
-    SetPushed(other.pushed());
+  void SaveDiscreteState(DiscreteState& to) const override {
+    extended_.SaveRoot(to);
+    to.Put(pushed_);
+  }
+  void LoadDiscreteState(DiscreteState& from) override {
+    extended_.LoadRoot(from);
+    SetPushed(from.Take() != 0.0);
   }
   /// A stance in which the chord lengthens has had its greatest compression.
-  void StartSearch(Mode mode, const double* z) {
+  void StartSearch(Mode mode, const double* z) override {
     extended_.StartRootAt(0.0);
     SetPushed(pushes_ && mode == Mode::kStance &&
               z[kY] * z[kVy] - (z[kContact] - z[kX]) * z[kVx] > 0.0);
   }
 
-  T TouchdownHeight(const T& theta) const {
+  T TouchdownHeight(const T& theta) const override {
     using std::cos;
     return l0_ * cos(theta);
   }
-  T ChordAngle(const T& theta) const { return theta; }
-  T Stiffness(const LegLoad<T>&) const { return k_; }
-  Mode Land(const T& theta, T* z) {
+  T ChordAngle(const T& theta) const override { return theta; }
+  T Stiffness(const LegLoad<T>&) const override { return k_; }
+  Mode Land(const T& theta, T* z) override {
     using std::sin;
     SetPushed(false);
     z[kContact] = z[kX] + l0_ * sin(theta);
     extended_.StartRootAt(0.0);
     return Mode::kStance;
   }
-  Mode Settle(Mode mode, T*, const LegConditions<T>&) const { return mode; }
-  LegLoad<T> Load(Mode, const T* z) const {
+  Mode Settle(Mode mode, T*, const LegConditions<T>&) override { return mode; }
+  LegLoad<T> Load(Mode, const T* z) const override {
     using std::sqrt;
     LegLoad<T> load;
     load.u = z[kContact] - z[kX];
@@ -61,38 +63,38 @@ class StraightSpring {
     load.contact_rate = T(0.0);
     return load;
   }
-  T RestChord(const LegLoad<T>&) const { return RestLength(); }
+  T RestChord(const LegLoad<T>&) const override { return RestLength(); }
 
   // Greatest compression, -dl/dt; watched only where the leg changes there.
-  int OwnGuardCount(Mode) const { return pushes_ && !pushed_ ? 1 : 0; }
-  GuardSpec OwnGuard(Mode, int) const { return {EventKind::kMaxCompression, 1.0}; }
-  void OwnGuards(Mode, const LegLoad<T>& load, T* g) const {
+  int OwnGuardCount(Mode) const override { return pushes_ && !pushed_ ? 1 : 0; }
+  GuardSpec OwnGuard(Mode, int) const override { return {EventKind::kMaxCompression, 1.0}; }
+  void OwnGuards(Mode, const LegLoad<T>& load, T* g) const override {
     if (pushes_ && !pushed_) g[0] = -load.damping_rate;
   }
-  Mode Pass(EventKind, T*) {
+  Mode ResetStance(EventKind, T*) override {
     SetPushed(true);
     return Mode::kStance;
   }
 
-  T ShownAngle(Mode, const LegLoad<T>& load) const {
+  T ShownAngle(Mode, const LegLoad<T>& load) const override {
     using std::atan2;
     return atan2(load.u, load.y);
   }
-  T ShownLength(const T&) const { return l0_; }
+  T ShownLength(const T&) const override { return l0_; }
+  T ShownArc(const LegLoad<T>&) const override {
+    return T(std::numeric_limits<double>::quiet_NaN());
+  }
 
-  T StrainEnergy(const LegLoad<T>& load) const {
+  T StrainEnergy(const LegLoad<T>& load) const override {
     return 0.5 * load.elastic_force * (RestLength() - load.l);
   }
-  double Flexure(const LegLoad<T>&) const { return 0.0; }
-  double Size() const { return Value(l0_); }
-  T LowestHip() const { return 0.25 * l0_; }
+  double Size() const override { return Value(l0_); }
+  T LowestHip() const override { return 0.25 * l0_; }
   /// sqrt(m/k) [s].
-  double TimeScale(const LegLoad<T>&) const { return std::sqrt(m_ / Value(k_)); }
+  double TimeScale(const LegLoad<T>&) const override { return std::sqrt(m_ / Value(k_)); }
 
   /// The same leg with the terms that effects bring into its law.
-  const ExtendedLeg<T>& extended() const { return extended_; }
-
-  bool pushed() const { return pushed_; }
+  const ExtendedLeg<T>& extended() const override { return extended_; }
 
  private:
   const T& RestLength() const { return pushed_ ? pushed_length_ : l0_; }

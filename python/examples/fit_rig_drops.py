@@ -20,7 +20,7 @@ for trace in fit.traces:
         residual = trace.simulated["body_y_m"] - trace.measured["body_y_m"]
         print(f"{trace.file}: height off by up to {1000 * np.nanmax(np.abs(residual)):.1f} mm")
 
-suspects = ["leg_material_damping", "touchdown_loss"]
+suspects = ["leg_material_damping", "leg_mass"]
 diagnosis = hoplab.diagnose(dataset, effects=suspects, max_effects=2)
 print(diagnosis.sentence)
 

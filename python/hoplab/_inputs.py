@@ -63,7 +63,7 @@ def problem_options(law, free, fix, with_, integrator, tolerance):
     }
 
 
-def search_options(starts, seed, strategy, span, loss, loss_scale, jobs):
+def search_options(starts, seed, strategy, span, loss, loss_scale, discrepancy, jobs):
     return {
         "starts": index(starts),
         "seed": index(seed),
@@ -71,5 +71,6 @@ def search_options(starts, seed, strategy, span, loss, loss_scale, jobs):
         "span": span,
         "loss": loss,
         "loss_scale": float(loss_scale),
+        "discrepancy": discrepancy,
         "jobs": jobs_of(jobs),
     }

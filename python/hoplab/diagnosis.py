@@ -109,6 +109,7 @@ def diagnose(
     starts=1,
     seed=1,
     span="whole_else_hops",
+    discrepancy="matern",
     jobs=None,
     integrator="dop853",
     tolerance=1e-9,
@@ -117,7 +118,7 @@ def diagnose(
 
     Parameters
     ----------
-    dataset, law, free, fix, with_, span, jobs, integrator, tolerance
+    dataset, law, free, fix, with_, span, discrepancy, jobs, integrator, tolerance
         As in `fit`.
     effects : sequence of str, optional
         Effects to try; default: all that apply.
@@ -143,7 +144,7 @@ def diagnose(
     """
     began = time.perf_counter()
     options = problem_options(law, free, fix, with_, integrator, tolerance)
-    options |= search_options(starts, seed, "apex_shooting", span, "squared", 2.0, jobs)
+    options |= search_options(starts, seed, "apex_shooting", span, "squared", 2.0, discrepancy, jobs)
     options |= {"effects": words(effects), "without": words(without)}
     options["max_effects"] = index(max_effects)
     record = _core.diagnose(dataset_source(dataset), options)

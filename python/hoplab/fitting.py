@@ -177,6 +177,7 @@ def fit(
     span="whole_else_hops",
     loss="squared",
     loss_scale=2.0,
+    discrepancy="matern",
     profile=(),
     jobs=None,
     integrator="dop853",
@@ -209,6 +210,8 @@ def fit(
     loss : {"squared", "pseudo_huber"}, optional
     loss_scale : float, optional
         Standard deviations from which pseudo_huber is linear.
+    discrepancy : {"matern", "none"}, optional
+        Whether a smooth error of the model, where one pays, counts as noise beside the sensors'.
     profile : sequence of str, optional
         Parameters whose profile likelihood is computed, or ``"all"``; see `Fit.record`.
     jobs : int, optional
@@ -230,7 +233,7 @@ def fit(
     """
     began = time.perf_counter()
     options = problem_options(law, free, fix, with_, integrator, tolerance)
-    options |= search_options(starts, seed, strategy, span, loss, loss_scale, jobs)
+    options |= search_options(starts, seed, strategy, span, loss, loss_scale, discrepancy, jobs)
     options["profile"] = words(profile)
     result = _core.fit(dataset_source(dataset), options)
     record = result["record"]

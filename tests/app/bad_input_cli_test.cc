@@ -88,15 +88,19 @@ TEST_F(BadInputCli, AConstantChannelIsSuspected) {
   EXPECT_TRUE(Says(run.err, "8 more files"));
 }
 
-TEST_F(BadInputCli, TimesInMillisecondsAreSuspected) {
+TEST_F(BadInputCli, TimesInMillisecondsAreToldWithoutATry) {
   const std::string data = ChangedDataset(temp_.path(), [](const std::string& csv) {
     return EachRow(csv, [](std::vector<std::string>& cells) {
       cells[0] = std::to_string(1000.0 * std::stod(cells[0]));
     });
   });
-  const ProcessResult run = Hoplab({"fit", data});
-  EXPECT_TRUE(Says(run.err, "looks like milliseconds"));
-  EXPECT_EQ(run.exit_code, 1);
+  for (const char* command : {"fit", "diagnose"}) {
+    const ProcessResult run = Hoplab({command, data, "--json"});
+    EXPECT_EQ(run.exit_code, 1) << command;
+    const auto record = nlohmann::json::parse(run.out);
+    EXPECT_EQ(record.at("status"), "failed") << command;
+    EXPECT_TRUE(Says(record.at("message"), "looks like milliseconds; divide it by 1000"));
+  }
 }
 
 TEST_F(BadInputCli, WithoutContactNoParameterGetsANumber) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <limits>
+#include <sstream>
 
 #include "tests/datasets/small_dataset.h"
 
@@ -27,66 +29,93 @@ class VerdictSentenceTest : public ::testing::Test {
     d_.naming.candidates.push_back(c);
     return static_cast<int>(d_.naming.candidates.size()) - 1;
   }
-  void Accept(std::vector<int> group, const std::vector<double>& costs) {
-    d_.naming.best.members.push_back(
-        d_.naming.candidates[static_cast<std::size_t>(group.front())].candidate);
-    std::vector<Extension> rivals;
-    for (const double cost : costs) rivals.emplace_back().cost = cost;
+  // A main cause with what does as well; `sure`: that one of them is right.
+  void Accept(std::vector<int> group, double sure = 0.98, double share = 0.9) {
+    const int first = group.front();
+    const Candidate& c = d_.naming.candidates[static_cast<std::size_t>(first)].candidate;
+    d_.naming.best.members.push_back(c);
+    d_.naming.best_set.push_back(first);
     d_.naming.groups.push_back(std::move(group));
-    d_.naming.rivals.push_back(std::move(rivals));
+    CauseReport cause;
+    cause.candidate = first;
+    cause.cause = c;
+    cause.group_probability = sure;
+    cause.share = share;
+    cause.main = true;
+    d_.extension->causes.push_back(std::move(cause));
+  }
+  static long WordsOf(const std::string& text) {
+    std::istringstream words(text);
+    return std::distance(std::istream_iterator<std::string>(words), {});
   }
   Diagnosis d_;
 };
 
 TEST_F(VerdictSentenceTest, NamesTheCauseAndWhatItTakesTheErrorTo) {
-  Accept({Add("air_drag")}, {0.0});
+  Accept({Add("air_drag")});
   d_.verdict = Verdict::kNamed;
-  const std::string text = VerdictSentence(d_);
-  EXPECT_EQ(text.find("The simulation lacks air_drag (or something outside the catalogue"), 0u);
-  EXPECT_NE(text.find("the test error of body_x from 8.85 to 1.20 mm"), std::string::npos) << text;
+  EXPECT_EQ(VerdictSentence(d_),
+            "The simulation lacks air_drag; it takes the test error of body_x from 8.85 to 1.20 "
+            "mm.");
 }
 
-TEST_F(VerdictSentenceTest, DoubtsANameBesideWhichMisfitRemainsOrMayRemain) {
-  Accept({Add("air_drag")}, {0.0});
+TEST_F(VerdictSentenceTest, NamesMainCausesWithTheirSharesAndNoOthers) {
+  Accept({Add("leg_material_damping")}, 0.99, 0.912);
+  Accept({Add("touchdown_loss")}, 0.97, 0.0512);
+  Accept({Add("sensor_offset_y")}, 0.97, 0.004);
+  d_.extension->causes.back().main = false;
   d_.verdict = Verdict::kNamed;
-  d_.extension->explained = 0.997;
-  d_.extension->remainder.p_value = 0.06;
-  EXPECT_EQ(VerdictSentence(d_).find("The simulation lacks air_drag"), 0u);
-  d_.extension->remainder.p_value = 0.03;
-  EXPECT_NE(VerdictSentence(d_).find("something may remain (p = 0.030), so it may stand in for "
-                                     "another cause"),
-            std::string::npos)
+  const std::string text = VerdictSentence(d_);
+  EXPECT_EQ(text.find("The simulation lacks leg_material_damping (91 %) and touchdown_loss "
+                      "(5.1 %); "),
+            0u)
+      << text;
+  EXPECT_EQ(text.find("sensor_offset_y"), std::string::npos);
+}
+
+TEST_F(VerdictSentenceTest, SaysHowLikelyANameInDoubtIs) {
+  Accept({Add("air_drag")}, 0.8);
+  d_.verdict = Verdict::kConfounded;
+  EXPECT_EQ(VerdictSentence(d_).find("The simulation probably lacks air_drag (P 0.80); "), 0u)
       << VerdictSentence(d_);
-  d_.extension->remainder.p_value = 0.002;
-  EXPECT_EQ(VerdictSentence(d_).find("99.7 % of what the simulation misses is explained by "
-                                     "air_drag"),
-            0u);
-  EXPECT_NE(VerdictSentence(d_).find("something remains, so"), std::string::npos);
 }
 
 TEST_F(VerdictSentenceTest, ClaimsNothingThatTheHeldOutTrialsDoNotShow) {
-  Accept({Add("air_drag", "train-2.csv")}, {0.0});
+  Accept({Add("air_drag", "train-2.csv")});
   d_.verdict = Verdict::kNamed;
   d_.extension->gain.ci95 = {{-0.1, 3.0}};
-  EXPECT_NE(VerdictSentence(d_).find("no gain is claimed"), std::string::npos);
-  EXPECT_NE(VerdictSentence(d_).find("air_drag (in train-2.csv only)"), std::string::npos);
+  EXPECT_NE(VerdictSentence(d_).find("held-out trials do not confirm it"), std::string::npos);
+  EXPECT_NE(VerdictSentence(d_).find("air_drag in train-2.csv"), std::string::npos);
   d_.extension->gain.ci95.reset();
-  EXPECT_NE(VerdictSentence(d_).find("too few to claim"), std::string::npos);
+  EXPECT_NE(VerdictSentence(d_).find("too few held-out hops to claim"), std::string::npos);
   d_.extension->after.test.trials = 0;
-  EXPECT_NE(VerdictSentence(d_).find("no held-out trial"), std::string::npos);
+  EXPECT_NE(VerdictSentence(d_).find("no held-out trial confirms it"), std::string::npos);
 }
 
 TEST_F(VerdictSentenceTest, SaysWhatItCannotTellApart) {
   const int drag = Add("air_drag"), gravity = Add("gravity_scale"), loss = Add("touchdown_loss");
-  Accept({drag, gravity}, {0.0, 0.4});
+  Accept({drag, gravity});
   d_.verdict = Verdict::kConfounded;
-  EXPECT_EQ(VerdictSentence(d_).find("Cannot tell: air_drag and gravity_scale explain these hops "
-                                     "equally well, within 0.4 nats"),
-            0u);
-  Accept({loss}, {0.0});
-  EXPECT_NE(VerdictSentence(d_).find("lacks touchdown_loss; one of air_drag and gravity_scale"),
+  EXPECT_EQ(VerdictSentence(d_).find("The simulation lacks air_drag or gravity_scale; "), 0u)
+      << VerdictSentence(d_);
+  Accept({loss}, 0.98, 0.05);
+  EXPECT_NE(VerdictSentence(d_).find("air_drag or gravity_scale (90 %) and touchdown_loss (5.0 %)"),
             std::string::npos)
       << VerdictSentence(d_);
+}
+
+TEST_F(VerdictSentenceTest, HasAtMostThirtyWordsHoweverManyNamesThereAre) {
+  std::vector<int> many;
+  for (const char* name : {"air_drag", "gravity_scale", "clock_scale", "camera_roll"})
+    many.push_back(Add(name, "train-2.csv"));
+  Accept(many, 0.7, 0.5);
+  for (const char* name : {"touchdown_loss", "leg_hardening", "foot_slip"})
+    Accept({Add(name, "train-3.csv")}, 0.7, 0.1);
+  for (const Verdict v :
+       {Verdict::kNamed, Verdict::kConfounded, Verdict::kUnexplained, Verdict::kAdequate}) {
+    d_.verdict = v;
+    EXPECT_LE(WordsOf(VerdictSentence(d_)), 30) << VerdictSentence(d_);
+  }
 }
 
 TEST_F(VerdictSentenceTest, AnUnfinishedDiagnosisHasNone) {
@@ -94,13 +123,23 @@ TEST_F(VerdictSentenceTest, AnUnfinishedDiagnosisHasNone) {
   EXPECT_EQ(VerdictSentence(d_), "");
 }
 
-TEST_F(VerdictSentenceTest, AnUnexplainedMisfitGetsNoName) {
-  Accept({Add("air_drag")}, {0.0});
+TEST_F(VerdictSentenceTest, AnUnexplainedMisfitIsToldWithTheBestAttempt) {
+  Accept({Add("air_drag")});
+  d_.extension->explained = 0.6;
   d_.verdict = Verdict::kUnexplained;
-  d_.reason = "too little is explained";
   EXPECT_EQ(VerdictSentence(d_),
-            "Something is missing, and nothing in the catalogue explains it: too little is "
-            "explained.");
+            "Something is missing that the catalogue does not hold; the best attempt, air_drag, "
+            "explains 60 % of the misfit.");
+  d_.extension->at_bound = true;
+  EXPECT_NE(VerdictSentence(d_).find("needs a size beyond what is physical"), std::string::npos);
+}
+
+TEST(DiagnosisWords, SharesAreNeverRoundedUp) {
+  EXPECT_EQ(ShareText(0.9999), "99 %");
+  EXPECT_EQ(ShareText(1.0), "100 %");
+  EXPECT_EQ(ShareText(0.0512), "5.1 %");
+  EXPECT_EQ(ShareText(0.0004), "under 0.1 %");
+  EXPECT_EQ(ShareText(-0.1), "0.0 %");
 }
 
 TEST(DiagnosisWords, NumbersAreNeverInvented) {

@@ -44,7 +44,7 @@ std::set<std::string> Matches(const std::string& text, const std::regex& pattern
 std::map<std::string, int> EquationsOfTheSheet() {
   std::map<std::string, int> defined;
   std::istringstream sheet(ReadText(kSource / "model/README.md"));
-  const std::regex line_begin("^    (M[0-9]+[a-z]?) ");
+  const std::regex line_begin("^    (?:  )?(M[0-9]+[a-z]?) ");
   for (std::string line; std::getline(sheet, line);) {
     std::smatch found;
     if (std::regex_search(line, found, line_begin)) ++defined[found[1]];

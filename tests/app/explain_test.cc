@@ -120,7 +120,8 @@ TEST(Explain, EveryWordAReportsPageAsksForExists) {
     }
   }
   EXPECT_GE(asked, 25);
-  for (const char* status : {"supported", "indistinguishable", "excluded", "not-tested"})
+  for (const char* status :
+       {"supported", "indistinguishable", "excluded", "not-needed", "not-tested"})
     EXPECT_EQ(FindExplanation(status)->what.rfind("Judgement on a cause: ", 0), 0u);
 }
 

@@ -41,7 +41,7 @@ TEST_F(FitCli, RigDropsGivesEveryKeyOfTheContract) {
   EXPECT_EQ(record.at("command"), "fit");
   EXPECT_EQ(record.at("status"), "ok");
   EXPECT_EQ(record.at("dataset"), "rig-drops");
-  EXPECT_EQ(record.at("law"), "large_deflection");
+  EXPECT_EQ(record.at("law"), "elastica");
   EXPECT_EQ(record.at("seed"), 1);
   EXPECT_TRUE(record.at("version").is_string());
   EXPECT_TRUE(record.at("message").is_string());

@@ -24,7 +24,7 @@ inline std::string ShippedDataset(const std::string& name) {
 inline const char* const kScenario =
     "format: hoplab-scenario/1\n"
     "name: three-hops\n"
-    "law: large_deflection\n"
+    "law: elastica\n"
     "mechanism: {type: c_leg, body_mass_kg: 1.0, gravity_m_per_s2: 9.81, leg: {rest_radius_m: "
     "0.09, "
     "E_Pa: 22e9, G_Pa: 4e9, width_m: 0.03, thickness_m: 0.0038, damping_N_s_per_m: 3.0}}\n"

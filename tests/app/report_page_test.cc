@@ -132,8 +132,8 @@ TEST(ReportHeadline, AFitBeginsWithItsFirstValueItsErrorAndItsMisfit) {
 }
 
 TEST(ReportHeadline, WhatIsMissingIsNotComputedAndNeverZero) {
-  for (const char* command : {"check", "fit", "diagnose", "gait", "optimize", "sweep", "simulate",
-                              "reproduce", "something new"}) {
+  for (const char* command : {"check", "fit", "diagnose", "design", "gait", "optimize", "sweep",
+                              "simulate", "reproduce", "something new"}) {
     const Headline headline = HeadlineOf({{"command", command}});
     EXPECT_FALSE(headline.sentence.empty()) << command;
     for (const HeadlineFigure& figure : headline.figures) {
@@ -147,8 +147,8 @@ TEST(ReportHeadline, WhatIsMissingIsNotComputedAndNeverZero) {
 }
 
 TEST(ReportPage, ARecordOfWrongTypesIsNoReasonToStop) {
-  for (const char* command :
-       {"check", "fit", "diagnose", "gait", "optimize", "sweep", "simulate", "reproduce"}) {
+  for (const char* command : {"check", "fit", "diagnose", "design", "gait", "optimize", "sweep",
+                              "simulate", "reproduce"}) {
     const Json record = {{"command", command},
                          {"status", 3},
                          {"parameters", 5},

@@ -6,10 +6,14 @@
 namespace hoplab::testing {
 namespace {
 
-// Of table 6.5, percentage points.
+// "energy_rms_difference" of "table-6.5", ...
+double Statistic(const nlohmann::json& record, const char* table, const char* name) {
+  const nlohmann::json& statistics = record.at("comparison").at("statistics").at(table);
+  return statistics.at(name).at("value").get<double>();
+}
+// Percentage points.
 double EnergyRms(const nlohmann::json& record) {
-  const nlohmann::json& table = record.at("comparison").at("statistics").at("table-6.5");
-  return table.at("energy_rms_difference").at("value").get<double>();
+  return Statistic(record, "table-6.5", "energy_rms_difference");
 }
 
 TEST(ReproduceStudy, EverythingComesOutWithTheShippedConstants) {
@@ -25,10 +29,15 @@ TEST(ReproduceStudy, EverythingComesOutWithTheShippedConstants) {
   EXPECT_EQ(record.at("claims").size(), 10u);
   EXPECT_TRUE(record.at("left_out").empty());
   EXPECT_LT(record.at("seconds").get<double>(), 180.0);
-  // The constants do best on all tables together; docs/decisions/0005-study-constants.md.
-  EXPECT_LT(EnergyRms(record), 0.595);
-  EXPECT_EQ(record.at("tables")[3].at("name"), "table-6.4");
-  EXPECT_EQ(record.at("tables")[3].at("verdict"), "reproduced");
+  // The constants do best on all tables together; the figures of
+  // docs/decisions/0005-study-constants.md, bounds that they miss among them.
+  EXPECT_EQ(record.at("tables")[0].at("name"), "table-6.1");
+  EXPECT_EQ(record.at("tables")[0].at("verdict"), "reproduced");
+  EXPECT_NEAR(Statistic(record, "table-6.1", "convergence_time_rank_correlation"), 0.75, 0.05);
+  EXPECT_NEAR(Statistic(record, "table-6.2", "convergence_time_rms_difference"), 0.93, 0.05);
+  EXPECT_NEAR(Statistic(record, "table-6.2", "convergence_time_rank_correlation"), 0.70, 0.05);
+  EXPECT_NEAR(Statistic(record, "table-6.4", "convergence_time_rms_difference"), 0.27, 0.05);
+  EXPECT_NEAR(EnergyRms(record), 0.406, 0.001);
   for (const nlohmann::json& claim : record.at("claims")) {
     if (claim.at("name") == "claim-level" || claim.at("name") == "claim-f") {
       EXPECT_EQ(claim.at("verdict"), "reproduced");
@@ -38,7 +47,7 @@ TEST(ReproduceStudy, EverythingComesOutWithTheShippedConstants) {
   }
 }
 
-// The figure of docs/decisions/0005-study-constants.md: the bound of 0.23 is missed.
+// The figure of docs/decisions/0005-study-constants.md.
 TEST(ReproduceStudy, TheConstantsOfTheEnergyTableAloneComeWithin0234Points) {
   const TempFolder temp;
   const ProcessResult run =
@@ -47,6 +56,19 @@ TEST(ReproduceStudy, TheConstantsOfTheEnergyTableAloneComeWithin0234Points) {
                 temp.path());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NEAR(EnergyRms(nlohmann::json::parse(run.out)), 0.2340, 0.0001);
+}
+
+// With every landing at the printed angle the damped times are out of reach.
+TEST(ReproduceStudy, LandingsAsPrintedComeSecondsLate) {
+  const TempFolder temp;
+  const ProcessResult run = RunHoplab(
+      {"reproduce", "table-6.2", "table-6.4", "--constants",
+       std::string(HOPLAB_SOURCE_DIR) + "/experiments/published-as-printed.yaml", "--json"},
+      temp.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json record = nlohmann::json::parse(run.out);
+  EXPECT_NEAR(Statistic(record, "table-6.2", "convergence_time_rms_difference"), 3.94, 0.05);
+  EXPECT_NEAR(Statistic(record, "table-6.4", "convergence_time_rms_difference"), 4.75, 0.05);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ export function makeRuns() {
   hoplab('fit', join(source, 'datasets/rig-drops'), '--profile', 'E', '--quiet', '--out', 'fit');
   hoplab('generate', scenario('three-drops'), '--with', 'air_drag:c_drag=0.05', '--seed', '7', '--out', 'windy');
   hoplab('diagnose', 'windy', '--effects', 'air_drag,guide_viscous_friction,ground_slope,sensor_delay', '--quiet', '--out', 'diagnose');
+  hoplab('design', join(source, 'datasets/rig-drops'), '--sharpen', 'E', '--budget', '60', '--map', '5', '--quiet', '--out', 'design');
   hoplab('gait', scenario('controlled-hopping'), '--along', 'theta_td=0.6:0.8', '--quiet', '--out', 'gait');
   hoplab('optimize', scenario('fastest-convergence'), '--seeds', '2', '--budget', '40', '--map', '6', '--quiet', '--out', 'optimize');
   hoplab('sweep', scenario('modulus'), '--quiet', '--out', 'sweep');

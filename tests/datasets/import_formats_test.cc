@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "base/text.h"
 #include "datasets/read_dataset.h"
 #include "tests/datasets/import_samples.h"
 #include "tests/support/input_error_of.h"
@@ -69,6 +72,46 @@ TEST_F(ImportFormats, AStorageInDegreesTellsItsAngles) {
   EXPECT_NE(CsvOf(result).find("0.000,0.4363323129985824\n"), std::string::npos) << CsvOf(result);
 }
 
+// A turn about the lateral axis Z that goes through half a turn; w and z change sign together where
+// the tracker chose the other of the two quaternions.
+TEST_F(ImportFormats, AStorageOfQuaternionsGivesItsComponentsAndItsTurns) {
+  std::string text =
+      "Orientations\nversion=1\nDataType=Quaternion\nDataRate=100\nnRows=5\nnColumns=3\n"
+      "endheader\ntime\tleg_imu\ttrunk_imu\n";
+  const std::vector<double> angles = {3.0, 3.1, 3.2, 3.3, 3.4};
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double sign = i % 2 == 0 ? 1 : -1;
+    text += testing::Format("%.2f", 0.01 * static_cast<double>(i)) + "\t" +
+            FormatDouble(sign * std::cos(angles[i] / 2)) + ",0,0," +
+            FormatDouble(sign * std::sin(angles[i] / 2)) + "\t1,0,0,0\n";
+  }
+  const auto file = Write("imu.sto", text);
+  const ImportResult turn = ImportFile(file, {"leg_angle=leg_imu.angle_Z"});
+  const Trace trace = ParseTraceCsv(CsvOf(turn), "imu.csv");
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    EXPECT_NEAR((*trace.Find(ChannelId::kLegAngle))[i], angles[i], 1e-12) << i;
+  EXPECT_FALSE(turn.map.HasGuesses());
+  const std::string still = CsvOf(ImportFile(file, {"leg_angle=trunk_imu.angle_Z"}));
+  EXPECT_NE(still.find("\n0.03,0\n"), std::string::npos) << still;
+  const std::string error = InputErrorOf([&] { ImportFile(file, {"leg_angle=leg_imu.Z"}); });
+  EXPECT_NE(error.find("leg_imu.Z in 1; leg_angle_rad is an angle"), std::string::npos) << error;
+}
+
+TEST_F(ImportFormats, AStorageOfVectorsGivesItsDigitsOnceTheirUnitIsSaid) {
+  const auto file = Write("markers.sto",
+                          "markers\nDataType=Vec3\nnRows=3\nnColumns=2\nendheader\ntime\thip\n"
+                          "0.00\t1.50,300.25,7\n0.01\tnan,nan,nan\n0.02\t2.50,299.75,7\n");
+  EXPECT_EQ(CsvOf(ImportFile(file, {"x=hip.X:mm", "y=hip.Y:mm"})),
+            "time_s,body_x_m,body_y_m\n0.00,0.00150,0.30025\n0.01,,\n0.02,0.00250,0.29975\n");
+}
+
+TEST_F(ImportFormats, AMotiveQuaternionGivesItsTurnAboutEachAxis) {
+  const auto file = Write("take.csv", testing::FallMotive(fall_));
+  const std::string csv =
+      CsvOf(ImportFile(file, {"leg_angle=hip.Rotation.angle_Z", "y=hip.Position.Y"}));
+  EXPECT_NE(csv.find("\n0.004,0.29992,0\n"), std::string::npos) << csv;
+}
+
 TEST_F(ImportFormats, TheOlderStorageHeaderIsReadToo) {
   const auto file = Write("old.mot",
                           "drop\ndatacolumns 3\ndatarows 2\nrange 0 1\nendheader\n"
@@ -123,6 +166,32 @@ TEST_F(ImportFormats, MatFilesOfBothVersionsGiveBackTheirNumbers) {
     EXPECT_EQ(trace, ParseTraceCsv(FallCsv(fall_), "expected")) << version;
     EXPECT_EQ(result.unused, std::vector<std::string>{"gain"});  // a rate is a setting, no column
   }
+}
+
+TEST_F(ImportFormats, AQualisysMatGivesBackItsMarkersByNameAndItsTimesByTheFrameRate) {
+  for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
+    const auto file = temp_.path() / "drop.mat";
+    std::filesystem::remove(file);
+    testing::WriteFallQualisys(file, fall_, version);
+    const ImportResult result = ImportFile(file, {"x=-hip.X", "y=hip.Z"});
+    EXPECT_EQ(ParseTraceCsv(CsvOf(result), "drop.csv"), ParseTraceCsv(FallCsv(fall_), "expected"))
+        << version;
+    EXPECT_FALSE(result.map.HasGuesses());
+    EXPECT_EQ(result.unused, (std::vector<std::string>{"hip.Y", "hip.residual", "toe.X", "toe.Y",
+                                                       "toe.Z", "toe.residual"}));
+    ASSERT_EQ(result.notes.size(), 1u);
+    EXPECT_NE(result.notes[0].find("markers in mm, Time is frame / 250 Hz"), std::string::npos);
+    const std::string hidden = InputErrorOf([&] { ImportFile(file, {"y=toe.Z"}); });
+    EXPECT_NE(hidden.find("column toe.Z; has no sample at all"), std::string::npos) << hidden;
+  }
+}
+
+TEST_F(ImportFormats, ACubeWithoutLabelsIsNamedByItsIndices) {
+  const auto file = temp_.path() / "drop.mat";
+  testing::WriteFallQualisys(file, fall_, MAT_FT_MAT5, false);
+  const std::string path = "drop0001.Trajectories.Labeled.Data";
+  const ImportResult result = ImportFile(file, {"x=-" + path + "(1,1,:)", "y=" + path + "(1,3,:)"});
+  EXPECT_EQ(ParseTraceCsv(CsvOf(result), "drop.csv"), ParseTraceCsv(FallCsv(fall_), "expected"));
 }
 
 TEST_F(ImportFormats, ASingleOfAMatFileIsWrittenInItsOwnDigits) {

@@ -233,7 +233,7 @@ TEST_F(ImportMap, TimeMustIncreaseWithinTheCutAlone) {
   EXPECT_EQ(InputErrorOf([&] { ImportLogs(request); }),
             file.string() +
                 ":3: t [s] = 0; repeats the time before, 0. Remove the row, sort the rows by time, "
-                "or cut the log with --cut.");
+                "cut the log with --cut, or say --mend-times.");
   request.logs = {{Log("t [s],z [m]\n0,1\n1,2\n2,3\n1,4\n"), TrialRole::kTrain, {{1, 1}}}};
   EXPECT_NE(InputErrorOf([&] { ImportLogs(request); }).find(":5: t [s] = 1; repeats"),
             std::string::npos);

@@ -133,6 +133,49 @@ inline void WriteFallMat(const std::filesystem::path& file, const Fall& fall, ma
   Mat_Close(mat);
 }
 
+/// As Qualisys Track Manager exports a measurement: a struct named after its file with FrameRate
+/// and markers x coordinate x frame in mm, NaN where a marker was hidden; the body moves along -X,
+/// Z up.
+inline void WriteFallQualisys(const std::filesystem::path& file, const Fall& fall, mat_ft version,
+                              bool labelled = true) {
+  mat_t* mat = Mat_CreateVer(file.c_str(), nullptr, version);
+  std::size_t one[2] = {1, 1}, two[2] = {1, 2};
+  const std::size_t frames = fall.t_s.size();
+  std::size_t cube[3] = {2, 4, frames};
+  double rate = 250;
+  const double nan = std::nan("");
+  std::vector<double> data;
+  for (std::size_t i = 0; i < frames; ++i)
+    for (const double value : {-fall.x_mm[i], nan, 12.0, nan, fall.y_mm[i], nan, 0.4, nan})
+      data.push_back(value);
+  const char* top[] = {"File", "FrameRate", "Trajectories"};
+  const char* of_trajectories[] = {"Labeled"};
+  const char* of_labeled[] = {"Labels", "Data"};
+  matvar_t* root = Mat_VarCreateStruct("drop0001", 2, one, top, 3);
+  matvar_t* trajectories = Mat_VarCreateStruct("Trajectories", 2, one, of_trajectories, 1);
+  matvar_t* marked = Mat_VarCreateStruct("Labeled", 2, one, of_labeled, 2);
+  std::vector<std::string> names = {"hip", "toe"};
+  const auto text = [](std::string& name) {
+    std::size_t size[2] = {1, name.size()};
+    return Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UINT8, 2, size, name.data(), 0);
+  };
+  matvar_t* cells[] = {text(names[0]), text(names[1])};
+  matvar_t* labels = Mat_VarCreate("Labels", MAT_C_CELL, MAT_T_CELL, 2, two, cells, 0);
+  Mat_VarSetStructFieldByName(
+      marked, "Data", 0,
+      Mat_VarCreate("Data", MAT_C_DOUBLE, MAT_T_DOUBLE, 3, cube, data.data(), 0));
+  if (labelled) Mat_VarSetStructFieldByName(marked, "Labels", 0, labels);
+  Mat_VarSetStructFieldByName(trajectories, "Labeled", 0, marked);
+  Mat_VarSetStructFieldByName(
+      root, "FrameRate", 0,
+      Mat_VarCreate("FrameRate", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, one, &rate, 0));
+  Mat_VarSetStructFieldByName(root, "Trajectories", 0, trajectories);
+  Mat_VarWrite(mat, root, version == MAT_FT_MAT5 ? MAT_COMPRESSION_ZLIB : MAT_COMPRESSION_NONE);
+  Mat_VarFree(root);
+  if (!labelled) Mat_VarFree(labels);
+  Mat_Close(mat);
+}
+
 /// /t in ms as 64-bit integers, /body/pos of two columns with the attribute units = mm, and a table
 /// of members t_s and z_m.
 inline void WriteFallHdf5(const std::filesystem::path& file, const Fall& fall) {

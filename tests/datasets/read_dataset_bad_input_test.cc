@@ -31,7 +31,8 @@ TEST(BadDataset, AMisspeltKeyGetsTheNearestKnownOne) {
 TEST(BadDataset, AKeyLikeNoOtherGetsTheListOfKnownOnes) {
   EXPECT_EQ(ErrorWithYaml("    role: test\n", "    role: test\n    colour: red\n"),
             "hops/dataset.yaml:24: trials[1].colour; unknown key. Known: file, role, "
-            "touchdown_angle_deg, initial, initial_sigma, mechanism, controller.");
+            "touchdown_angle_deg, touchdown_angle_sigma_deg, initial, initial_sigma, mechanism, "
+            "controller, inputs.");
 }
 
 TEST(BadDataset, AnUnknownTopLevelKeyIsNamedByItself) {

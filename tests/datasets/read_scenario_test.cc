@@ -111,6 +111,19 @@ TEST(ReadScenario, ReadsWhatARunNeeds) {
   EXPECT_EQ(scenario.stop, (StopSpec{15, 60}));
 }
 
+TEST(ReadScenario, ReadsTheAngleALegStartsAt) {
+  EXPECT_FALSE(Document().Read().start_angle_rad.has_value());
+  const std::string with = Replace(kScenario, "touchdown_angle_deg: 40\n",
+                                   "touchdown_angle_deg: 18\nstart_angle_deg: 40\n");
+  EXPECT_DOUBLE_EQ(Document(with).Read().start_angle_rad.value(), DegToRad(40.0));
+  EXPECT_NE(ErrorWith("stop: {", "start_angle_deg: 200\nstop: {").find("start_angle_deg"),
+            std::string::npos);
+  EXPECT_NE(
+      ErrorWith("touchdown_angle_deg: 40\n", "touchdown_angle_deg: [40, 18]\nstart_angle_deg: 40\n")
+          .find("Remove one of them"),
+      std::string::npos);
+}
+
 TEST(ReadScenario, KeepsEffectsInOrderWithTheirPlaces) {
   const Scenario scenario =
       Document(Replace(kScenario, "{air_drag: {c_drag: 0.05}}",

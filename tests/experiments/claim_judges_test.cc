@@ -86,6 +86,9 @@ HoppingRun Hops(const std::vector<double>& speeds, const std::vector<double>& he
   run.end_time_s = 0.5 * static_cast<double>(speeds.size());
   run.hops = static_cast<int>(speeds.size()) - 1;
   run.final_speed_m_per_s = speeds.back();
+  for (std::size_t i = 1; i < run.apexes.size(); ++i)
+    run.speeds.flight.push_back({run.apexes[i].time_s, run.apexes[i].speed_m_per_s});
+  run.speeds.apex = run.speeds.flight;
   return run;
 }
 HoppingRun Hops(const std::vector<double>& speeds, Outcome outcome) {

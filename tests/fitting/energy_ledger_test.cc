@@ -45,7 +45,7 @@ TEST(EnergyLedger, BodyEnergyIsWeightTimesHeightAndHalfTheSquareOfSpeed) {
   const EnergyLedger ledger = LedgerOf(model, errors, &errors);
   ASSERT_FALSE(ledger.hops.empty());
   const TrialErrors& trial = errors.trials.back();
-  const auto [x, y, vx, vy] = trial.start;
+  const double y = trial.start[1], vx = trial.start[2], vy = trial.start[3];
   // Read off the simulated channels, which are exact parabolas there.
   EXPECT_NEAR(ledger.hops[0].before.begin, 9.81 * y + 0.5 * (vx * vx + vy * vy), 1e-6);
   EXPECT_EQ(ledger.hops[0].after->begin, ledger.hops[0].before.begin);

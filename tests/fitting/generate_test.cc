@@ -23,6 +23,13 @@ TEST(Generate, TheSameSeedGivesTheSameDataset) {
             GenerateDataset(s, {.seed = 42}).dataset.trials[0].trace);
 }
 
+TEST(Generate, RefusesALegThatStartsAtAnotherAngleThanItsTrialsSay) {
+  Scenario s = HopScenario(2);
+  s.start_angle_rad = 0.5;
+  EXPECT_NE(testing::InputErrorOf([&] { GenerateDataset(s, {}); }).find("start_angle_deg"),
+            std::string::npos);
+}
+
 TEST(Generate, LeavingATrialOutDoesNotChangeTheOthers) {
   Scenario s = HopScenario(2);
   const Dataset whole = GenerateDataset(s, {}).dataset;

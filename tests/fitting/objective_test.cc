@@ -25,7 +25,7 @@ struct ObjectiveCase {
   // The cost where one column (shared values, then starts) has moved by `by`.
   double CostAfter(int column, double by) const {
     Eigen::VectorXd values = shared;
-    std::vector<std::array<double, 4>> moved = starts;
+    std::vector<OwnValues> moved = starts;
     if (column < 2)
       values[column] += by;
     else
@@ -34,7 +34,7 @@ struct ObjectiveCase {
   }
   FitProblem problem;
   std::vector<TrialProblem> trials;
-  std::vector<std::array<double, 4>> starts;
+  std::vector<OwnValues> starts;
   Eigen::VectorXd shared = Eigen::Vector2d(21e9, 2.0);
 };
 

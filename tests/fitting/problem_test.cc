@@ -25,7 +25,7 @@ TEST(Problem, EveryChannelOfTheFormatIsOneOfTheSimulator) {
 TEST(Problem, FreesModulusAndDampingOfACLegByDefault) {
   const FitProblem p = MakeProblem(SmallDataset(), {});
   EXPECT_EQ(p.shared_names(), (std::vector<std::string>{"E", "d"}));
-  EXPECT_EQ(p.law, Law::kLargeDeflection);
+  EXPECT_EQ(p.law, Law::kElastica);
   EXPECT_EQ(p.shared[0].initial, 20e9);
   EXPECT_EQ(p.shared[0].unit, "Pa");
 }
@@ -113,7 +113,7 @@ TEST(Problem, AStartThatIsNotStatedIsReadOffTheFirstFlight) {
   EXPECT_NEAR(p.trials[0].start[1], truth.y_m, 0.002);
   EXPECT_NEAR(p.trials[0].start[2], truth.vx_m_per_s, 0.03);
   EXPECT_NEAR(p.trials[0].start[3], truth.vy_m_per_s, 0.03);
-  EXPECT_TRUE(std::isinf(p.trials[0].prior_sigma[0]));
+  EXPECT_TRUE(std::isinf(p.trials[0].own[0].prior_sigma));
 }
 
 TEST(Problem, PlaceAlongTheGroundIsHeldWhereNoChannelSeesIt) {
@@ -121,8 +121,8 @@ TEST(Problem, PlaceAlongTheGroundIsHeldWhereNoChannelSeesIt) {
   d.channels.erase(d.channels.begin());  // body_x_m
   for (Trial& t : d.trials) t.initial_sigma.reset();
   const FitProblem p = MakeProblem(d, {});
-  EXPECT_FALSE(p.trials[0].start_free[0]);
-  EXPECT_TRUE(p.trials[0].start_free[1]);
+  EXPECT_FALSE(p.trials[0].own[0].free);
+  EXPECT_TRUE(p.trials[0].own[1].free);
 }
 
 TEST(Problem, NoiseIsEstimatedFromTheTracesWhenAsked) {

@@ -140,7 +140,7 @@ TEST(GroundSlope, BouncesABallByTheNormalOfTheGround) {
 }
 
 TEST(GroundSlope, KeepsTheEnergyOfALegAndMeasuresItsAngleFromTheHorizontal) {
-  for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kStraightLeg}) {
+  for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kElastica, Law::kStraightLeg}) {
     SimulationRequest q = ExcitedRequest(law);
     q.parameters.d = q.parameters.kp = 0.0;
     const std::array effects = {Setting("ground_slope", -0.06)};
@@ -163,8 +163,44 @@ TEST(GroundSlope, KeepsTheEnergyOfALegAndMeasuresItsAngleFromTheHorizontal) {
   }
 }
 
-TEST(HipViscousFriction, TakesWhatItsTorqueTimesItsRateSays) {
-  for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kStraightLeg}) {
+TEST(HipViscousFriction, AnswersToTheRateOfTheLegAngle) {
+  for (Law law : kAllLaws) {
+    if (law == Law::kBall) continue;
+    for (double theta : {30.0, 8.0, -10.0}) {
+      SimulationRequest q = ExcitedRequest(law);
+      q.parameters.kp = 0.0;
+      if (law != Law::kStraightLeg) {
+        q.parameters.theta_td = Degrees(theta);
+        q.initial = {0.0, 0.25, 0.7, -0.1};
+      }
+      const double b_h = 0.02, step = 1e-4;
+      const std::array effects = {Setting("hip_viscous_friction", b_h)};
+      q.effects = effects;
+      const Trajectory whole = Simulate(q);
+      std::vector<double> times;
+      for (double t : TimesClearOfEvents(whole)) {
+        if (t < First(whole, EventKind::kTouchdown).time) continue;
+        if (t > First(whole, EventKind::kLiftoff).time) break;
+        for (double shift : {-2.0, -1.0, 0.0, 1.0, 2.0}) times.push_back(t + shift * step);
+      }
+      ASSERT_GE(times.size(), 10u);
+      const std::array channels = {Channel::kHipTorque, Channel::kLegAngle};
+      q.row_times = times;
+      q.channels = channels;
+      const Trajectory run = Simulate(q);
+      const auto angle = [&](std::size_t row) { return run.samples[2 * row + 1]; };
+      for (std::size_t i = 2; i < times.size(); i += 5) {
+        const double rate =
+            (8.0 * (angle(i + 1) - angle(i - 1)) - (angle(i + 2) - angle(i - 2))) / (12.0 * step);
+        EXPECT_NEAR(run.samples[2 * i], b_h * rate, 1e-6 * b_h * (1.0 + std::abs(rate)))
+            << NameOf(law) << ' ' << theta;
+      }
+    }
+  }
+}
+
+TEST(HipViscousFriction, TakesFromTheBodyWhatItsTorqueDoesAcrossTheChord) {
+  for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kElastica, Law::kStraightLeg}) {
     SimulationRequest q = ExcitedRequest(law);
     q.parameters.d = q.parameters.kp = 0.0;
     const double b_h = law == Law::kStraightLeg ? 5.0 : 0.02;
@@ -184,15 +220,18 @@ TEST(HipViscousFriction, TakesWhatItsTorqueTimesItsRateSays) {
         times.push_back(middle - half * Rule::abscissa()[i]);
       for (double x : Rule::abscissa()) times.push_back(middle + half * x);
     }
-    const std::array channels = {Channel::kHipTorque};
+    const std::array channels = {Channel::kHipTorque, Channel::kBodyX,  Channel::kBodyY,
+                                 Channel::kBodyVx,    Channel::kBodyVy, Channel::kContactX};
     q.row_times = times;
     q.channels = channels;
     run = Simulate(q);
     double lost = 0.0;
     for (std::size_t i = 0; i < times.size(); ++i) {
       const std::size_t place = i % 20, node = place < 10 ? 9 - place : place - 10;
-      const double torque = run.samples[i];  // b_h rate
-      lost += 0.5 * (q.horizon - begin) / kPanels * Rule::weights()[node] * torque * torque / b_h;
+      const double* row = &run.samples[channels.size() * i];
+      const double torque = row[0], u = row[5] - row[1], y = row[2];
+      const double turning = (y * row[3] + u * row[4]) / (u * u + y * y);
+      lost -= 0.5 * (q.horizon - begin) / kPanels * Rule::weights()[node] * torque * turning;
     }
     const double start = Energy(q, Mode::kFlight, q.initial);
     EXPECT_GT(lost, 1e-5 * start) << NameOf(law);

@@ -65,7 +65,7 @@ TEST_P(ConservativeLaw, KeepsTheTotalEnergyInsideAStance) {
 }
 
 INSTANTIATE_TEST_SUITE_P(CLeg, ConservativeLaw,
-                         ::testing::Values(Law::kConsistent, Law::kLargeDeflection),
+                         ::testing::Values(Law::kConsistent, Law::kLargeDeflection, Law::kElastica),
                          [](const auto& info) { return std::string(NameOf(info.param)); });
 
 TEST(StraightLegEnergy, IsKeptOverAnUndampedStance) {
@@ -124,7 +124,7 @@ SimulationRequest UpToLiftoff(SimulationRequest q) {
 }
 
 TEST(DampedEnergy, LossUpToLiftoffIsWhatTheDamperDissipates) {
-  for (Law law : {Law::kConsistent, Law::kLargeDeflection}) {
+  for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kElastica}) {
     for (double deg : {8.0, 25.0, 45.0}) {
       SimulationRequest q = Tight(StripLegRequest(law, Degrees(deg)));
       q.parameters.d = 5.0;

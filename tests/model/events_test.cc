@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "model/hybrid/engine.h"
-#include "model/integrators/dop853.h"
 #include "tests/support/clocks.h"
 #include "tests/support/requests.h"
 
@@ -10,18 +9,27 @@ namespace {
 
 using namespace testing;
 
-struct NoRows {
-  template <class... Args>
-  void operator()(Args&&...) const {}
-};
 template <template <class> class System>
-Trajectory RunSystem(double z0, double z1, double horizon, const System<double>& system = {}) {
-  const RunSettings settings{.horizon = horizon, .max_hops = 0, .row_times = {}, .channels = {}};
-  NoRows sink;
+Trajectory RunSystem(double z0, double z1, double horizon) {
+  System<double> system, values;
+  System<Jet<1>> rates;
+  RowReader<double> no_rows;
   Trajectory out;
-  Engine<System, double, Dop853, NoRows> engine(system, system, {}, {}, settings, sink, out);
+  Engine<double> engine({system, values, rates}, {}, {.horizon = horizon}, no_rows, out);
   const double z[2] = {z0, z1};
-  engine.Run(Mode::kRolling, z, [](int) { return 0.0; });
+  engine.Run(Mode::kRolling, z);
+  return out;
+}
+
+Trajectory RunDip(double depth) {
+  Dip<double> system, values;
+  Dip<Jet<1>> rates;
+  system.depth = values.depth = rates.depth = depth;
+  RowReader<double> no_rows;
+  Trajectory out;
+  Engine<double> engine({system, values, rates}, {}, {.horizon = 2.0}, no_rows, out);
+  const double z[2] = {0.0, 0.0};
+  engine.Run(Mode::kRolling, z);
   return out;
 }
 
@@ -54,13 +62,14 @@ TEST(Chattering, TwoEventsThatUndoEachOtherEndTheRun) {
 TEST(ClosedGuard, OfLiftoffAfterAChangeOfStanceFiresWithTheChange) {
   using T = Jet<kNarrowJet>;
   LosesSupport<T> system;
+  LosesSupport<double> values;
+  LosesSupport<Jet<1>> rates;
   system.rate = Seeded<T>(1.0, 0, 1.0);
-  const RunSettings settings{.horizon = 2.0, .max_hops = 0, .row_times = {}, .channels = {}};
-  NoRows sink;
+  RowReader<T> no_rows;
   Trajectory out;
-  Engine<LosesSupport, T, Dop853, NoRows> engine(system, {}, {}, {}, settings, sink, out);
+  Engine<T> engine({system, values, rates}, {}, {.horizon = 2.0}, no_rows, out);
   const T z[2] = {T(1.0), T(0.5)};
-  engine.Run(Mode::kRolling, z, [](int) { return T(0.0); });
+  engine.Run(Mode::kRolling, z);
   ASSERT_EQ(EventNames(out), "rolling_to_toe liftoff");
   EXPECT_EQ(out.events[1].time, out.events[0].time);
   EXPECT_EQ(out.final_mode, Mode::kFlight);
@@ -70,33 +79,15 @@ TEST(ClosedGuard, OfLiftoffAfterAChangeOfStanceFiresWithTheChange) {
 }
 
 TEST(GuardDip, InsideOneStepIsFound) {
-  Dip<double> system;
-  system.depth = 1e-4;  // below zero for 0.02 s of a 2 s step
-  RunSettings settings{.horizon = 2.0, .max_hops = 0, .row_times = {}, .channels = {}};
-  NoRows sink;
-  Trajectory out;
-  Dip<Jet<1>> rate;
-  rate.depth = system.depth;
-  Engine<Dip, double, Dop853, NoRows> engine(system, system, rate, {}, settings, sink, out);
-  const double z[2] = {0.0, 0.0};
-  engine.Run(Mode::kRolling, z, [](int) { return 0.0; });
-  ASSERT_EQ(out.events.size(), 1u);
-  EXPECT_NEAR(out.events[0].time, 1.0 - 0.01, 1e-12);
+  const Trajectory run = RunDip(1e-4);  // below zero for 0.02 s of a 2 s step
+  ASSERT_EQ(run.events.size(), 1u);
+  EXPECT_NEAR(run.events[0].time, 1.0 - 0.01, 1e-12);
 }
 
 TEST(GuardDip, ThatStaysAboveZeroIsReportedAsANearMiss) {
-  Dip<double> system;
-  system.depth = -1e-4;
-  RunSettings settings{.horizon = 2.0, .max_hops = 0, .row_times = {}, .channels = {}};
-  NoRows sink;
-  Trajectory out;
-  Dip<Jet<1>> rate;
-  rate.depth = system.depth;
-  Engine<Dip, double, Dop853, NoRows> engine(system, system, rate, {}, settings, sink, out);
-  const double z[2] = {0.0, 0.0};
-  engine.Run(Mode::kRolling, z, [](int) { return 0.0; });
-  EXPECT_TRUE(out.events.empty());
-  EXPECT_NEAR(out.nearest_miss, 1e-4, 1e-8);
+  const Trajectory run = RunDip(-1e-4);
+  EXPECT_TRUE(run.events.empty());
+  EXPECT_NEAR(run.nearest_miss, 1e-4, 1e-8);
 }
 
 TEST(EventLocation, TouchdownAndApexLieOnTheirGuards) {

@@ -40,7 +40,7 @@ constexpr std::array kSequences = {
 SimulationRequest RequestOf(Law law, const Sequence& s) {
   SimulationRequest q = ThickLegRequest(law);
   q.parameters.theta_td = Degrees(s.theta_deg);
-  q.initial = s.initial;
+  q.initial.assign(s.initial.begin(), s.initial.end());
   return q;
 }
 
@@ -158,7 +158,7 @@ TEST(Blends, RollingLawAtOneTurnsThesisAndNoSlipIntoEachOther) {
 TEST(Blends, RollingLawMovesTheFootOfAnElasticArcByWhatItDoesNotRollOff) {
   const std::array effects = {Set("rolling_law", 0.7)};
   constexpr std::array kSeen = {Channel::kLegAngle, Channel::kLegLength};
-  for (Law law : {Law::kConsistent, Law::kLargeDeflection}) {
+  for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kElastica}) {
     SimulationRequest q = RequestOf(law, kSequences[0]);
     q.effects = effects;
     q.channels = kSeen;
@@ -193,7 +193,7 @@ struct ConservativeTerm : ::testing::TestWithParam<std::tuple<const char*, doubl
 
 TEST_P(ConservativeTerm, KeepsTheEnergyOfAHopAndInsideAStance) {
   const std::array effects = {Set(std::get<0>(GetParam()), std::get<1>(GetParam()))};
-  for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kStraightLeg}) {
+  for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kElastica, Law::kStraightLeg}) {
     for (const Sequence& s : kSequences) {
       SimulationRequest q = law == Law::kStraightLeg ? SteadyStraightLeg() : RequestOf(law, s);
       q.parameters.d = 0.0;
@@ -225,7 +225,7 @@ TEST(FootSlip, LosesItsRateTimesTheSquareOfTheForce) {
   constexpr std::array kForce = {Channel::kGroundForceX};
   const double c = 1e-3;
   const std::array effects = {Set("foot_slip", c)};
-  for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kStraightLeg}) {
+  for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kElastica, Law::kStraightLeg}) {
     SimulationRequest q =
         law == Law::kStraightLeg ? SteadyStraightLeg() : RequestOf(law, kSequences[1]);
     q.parameters.d = 0.0;

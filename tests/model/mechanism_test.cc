@@ -6,6 +6,7 @@
 #include "model/laws/elastic_arc.h"
 #include "model/laws/half_circle.h"
 #include "model/mechanisms/c_leg.h"
+#include "model/mechanisms/legged_body_inl.h"
 #include "tests/support/matrix_near.h"
 #include "tests/support/requests.h"
 
@@ -14,14 +15,13 @@ namespace {
 
 using namespace testing;
 
-template <class T>
-using TestThesisLeg = CLeg<T, ThesisLaw>;
-template <class T>
-using TestNoSlipLeg = CLeg<T, NoSlipLaw>;
-template <class T>
-using TestConsistentLeg = CLeg<T, ConsistentLaw>;
-template <class T>
-using TestLargeDeflectionLeg = CLeg<T, LargeDeflectionLaw>;
+using ThesisBody = LeggedBody<double, CLeg<double, ThesisLaw>>;
+using NoSlipBody = LeggedBody<double, CLeg<double, NoSlipLaw>>;
+using ConsistentBody = LeggedBody<double, CLeg<double, ConsistentLaw>>;
+using LargeDeflectionBody = LeggedBody<double, CLeg<double, LargeDeflectionLaw>>;
+
+// Any leg's setup: the law is that of the type.
+MechanismSetup<double> SetupOf(const Parameters<double>& p) { return {.parameters = p}; }
 
 Parameters<double> Undamped() {
   Parameters<double> p = ThickLegRequest(Law::kConsistent).parameters;
@@ -35,16 +35,14 @@ std::array<double, 5> AtTouchdown(const Parameters<double>& p) {
 
 template <class LegT>
 struct CLegWithLaw : ::testing::Test {};
-using Legs = ::testing::Types<LeggedBody<double, TestThesisLeg>, LeggedBody<double, TestNoSlipLeg>,
-                              LeggedBody<double, TestConsistentLeg>,
-                              LeggedBody<double, TestLargeDeflectionLeg>>;
+using Legs = ::testing::Types<ThesisBody, NoSlipBody, ConsistentBody, LargeDeflectionBody>;
 TYPED_TEST_SUITE(CLegWithLaw, Legs);
 
 TYPED_TEST(CLegWithLaw, TouchesDownWithoutAForce) {
   for (double deg : {-15.0, 0.0, 1.0, 20.0, 45.0, 90.0}) {
     Parameters<double> p = Undamped();
     p.theta_td = Degrees(deg);
-    TypeParam leg(p, {}, LiftoffRule::kZeroForce);
+    TypeParam leg(SetupOf(p));
     auto z = AtTouchdown(p);
     if (deg <= 0.0) z[kY] = 2.0 * p.r * std::cos(p.theta_td);
     const ResetResult reset = leg.Reset(Mode::kFlight, 0, 0.0, z.data());
@@ -59,7 +57,7 @@ TYPED_TEST(CLegWithLaw, AtTouchdownHasTheUnloadedGeometry) {
   for (double deg : {1.0, 20.0, 45.0, 90.0}) {
     Parameters<double> p = Undamped();
     p.theta_td = Degrees(deg);
-    TypeParam leg(p, {}, LiftoffRule::kZeroForce);
+    TypeParam leg(SetupOf(p));
     auto z = AtTouchdown(p);
     leg.Reset(Mode::kFlight, 0, 0.0, z.data());
     const auto seen = leg.Observe(Mode::kRolling, 0.0, z.data());
@@ -77,7 +75,7 @@ TYPED_TEST(CLegWithLaw, GroundForceIsMassTimesAccelerationAndWeight) {
   p.d = 4.0;
   p.kp = 0.5;
   p.v_des = 1.7;
-  TypeParam leg(p, {}, LiftoffRule::kZeroForce);
+  TypeParam leg(SetupOf(p));
   auto z = AtTouchdown(p);
   leg.Reset(Mode::kFlight, 0, 0.0, z.data());
   z[kX] += 0.01;
@@ -100,7 +98,7 @@ TYPED_TEST(CLegWithLaw, GroundForceIsMassTimesAccelerationAndWeight) {
 
 TYPED_TEST(CLegWithLaw, ToeStanceShowsTheChordAsTheLeg) {
   const Parameters<double> p = Undamped();
-  TypeParam leg(p, {}, LiftoffRule::kZeroForce);
+  TypeParam leg(SetupOf(p));
   const std::array<double, 5> z = {0.2, 0.17, 1.0, -0.2, 0.23};
   const auto seen = leg.Observe(Mode::kToe, 0.0, z.data());
   EXPECT_NEAR(seen[Channel::kLegLength], std::hypot(0.03, 0.17), kClosedForm);
@@ -110,7 +108,7 @@ TYPED_TEST(CLegWithLaw, ToeStanceShowsTheChordAsTheLeg) {
 TYPED_TEST(CLegWithLaw, InFlightTheSensorsSeeAWaitingLeg) {
   Parameters<double> p = Undamped();
   p.kp = 1.0;
-  TypeParam leg(p, {}, LiftoffRule::kZeroForce);
+  TypeParam leg(SetupOf(p));
   const std::array<double, 5> z = {0.2, 0.3, 1.0, -0.2, 0.0};
   const auto seen = leg.Observe(Mode::kFlight, 0.0, z.data());
   EXPECT_EQ(seen[Channel::kLegAngle], p.theta_td);
@@ -171,7 +169,7 @@ std::vector<std::array<double, 5>> LoadedStates(double r) {
 
 TEST(ThesisLaw, ContactMovesAsTheImplicitEquationM7Says) {
   const Parameters<double> p = Undamped();
-  LeggedBody<double, TestThesisLeg> leg(p, {}, LiftoffRule::kZeroForce);
+  ThesisBody leg(SetupOf(p));
   for (const auto& z : LoadedStates(p.r)) {
     double dz[5];
     leg.Derivative(Mode::kRolling, 0.0, z.data(), dz);
@@ -183,7 +181,7 @@ TEST(ThesisLaw, ContactMovesAsTheImplicitEquationM7Says) {
 
 TEST(NoSlipLaw, ContactMovesByTheArcLaidDownM8) {
   const Parameters<double> p = Undamped();
-  LeggedBody<double, TestNoSlipLeg> leg(p, {}, LiftoffRule::kZeroForce);
+  NoSlipBody leg(SetupOf(p));
   for (const auto& z : LoadedStates(p.r)) {
     double dz[5];
     leg.Derivative(Mode::kRolling, 0.0, z.data(), dz);

@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "model/hybrid/engine.h"
-#include "model/integrators/cvodes.h"
-#include "model/integrators/dop853.h"
-#include "model/integrators/erkstep.h"
 #include "tests/support/piecewise_linear.h"
 #include "tests/support/requests.h"
 
@@ -15,35 +12,30 @@ using namespace testing;
 // Half a unit of the last printed digit.
 constexpr double kPrinted = 0.5e-10;
 
-struct NoRows {
-  template <class... Args>
-  void operator()(Args&&...) const {}
-};
-
 // x(0.125), d x(0.125)/d slope_a.
 struct Result {
   double x[2], d[2];
   std::vector<Event> events;
 };
 
-template <template <int, int, class> class Stepper>
 Result SwitchedRun(const IntegratorOptions& options) {
   using T = Jet<kNarrowJet>;
   PiecewiseLinear<T> system;
+  PiecewiseLinear<double> values;
+  PiecewiseLinear<Jet<1>> rates;
   system.slope_a = Seeded<T>(2.75, 0, 1.0);
-  const RunSettings settings{.horizon = 0.125, .max_hops = 0, .row_times = {}, .channels = {}};
-  NoRows sink;
+  RowReader<T> no_rows;
   Trajectory out;
-  Engine<PiecewiseLinear, T, Stepper, NoRows> engine(system, {}, {}, options, settings, sink, out);
+  Engine<T> engine({system, values, rates}, options, {.horizon = 0.125}, no_rows, out);
   const T z0[2] = {T(0.0), T(1.0)};
-  engine.Run(Mode::kRolling, z0, [](int) { return T(0.0); });
-  const auto& z = engine.final_state();
+  engine.Run(Mode::kRolling, z0);
+  const T* z = engine.final_state();
   return {{Value(z[0]), Value(z[1])}, {Slope(z[0], 0), Slope(z[1], 0)}, out.events};
 }
 
 TEST(SwitchedLinearSystem, StateMatchesThePublishedDigits) {
-  const Result r = SwitchedRun<Dop853>(
-      {.relative_tolerance = kOracleRelative, .absolute_tolerance = kOracleAbsolute});
+  const Result r =
+      SwitchedRun({.relative_tolerance = kOracleRelative, .absolute_tolerance = kOracleAbsolute});
   EXPECT_NEAR(r.x[0], -0.3161266570, kPrinted);
   EXPECT_NEAR(r.x[1], -0.2381449819, kPrinted);
   ASSERT_FALSE(r.events.empty());
@@ -51,15 +43,15 @@ TEST(SwitchedLinearSystem, StateMatchesThePublishedDigits) {
 }
 
 TEST(SwitchedLinearSystem, DerivativeByTheSwitchingSlopeMatchesThePublishedDigits) {
-  const Result r = SwitchedRun<Dop853>(
-      {.relative_tolerance = kOracleRelative, .absolute_tolerance = kOracleAbsolute});
+  const Result r =
+      SwitchedRun({.relative_tolerance = kOracleRelative, .absolute_tolerance = kOracleAbsolute});
   EXPECT_NEAR(r.d[0], -0.1027231879, kPrinted);
   EXPECT_NEAR(r.d[1], 0.0703041416, kPrinted);
 }
 
 TEST(SwitchedLinearSystem, SwitchesLieOnTheirLines) {
-  const Result r = SwitchedRun<Dop853>(
-      {.relative_tolerance = kOracleRelative, .absolute_tolerance = kOracleAbsolute});
+  const Result r =
+      SwitchedRun({.relative_tolerance = kOracleRelative, .absolute_tolerance = kOracleAbsolute});
   for (const Event& e : r.events) {
     const double slope = e.mode_before == Mode::kRolling ? 2.75 : 0.36;
     EXPECT_NEAR(e.y - slope * e.x, 0.0, kEventResidual);
@@ -67,7 +59,7 @@ TEST(SwitchedLinearSystem, SwitchesLieOnTheirLines) {
 }
 
 TEST(SwitchedLinearSystem, ErkStepGivesTheSameDerivative) {
-  const Result r = SwitchedRun<ErkStepper>(
+  const Result r = SwitchedRun(
       {.kind = IntegratorKind::kErkStep, .relative_tolerance = 1e-12, .absolute_tolerance = 1e-13});
   EXPECT_NEAR(r.d[0], -0.1027231879, 1e-9);
   EXPECT_NEAR(r.d[1], 0.0703041416, 1e-9);
@@ -75,7 +67,7 @@ TEST(SwitchedLinearSystem, ErkStepGivesTheSameDerivative) {
 
 TEST(SwitchedLinearSystem, CvodesGivesTheSameDerivative) {
   // Backward differentiation errs by about the tolerance per step, over some 1000 steps here.
-  const Result r = SwitchedRun<CvodesStepper>(
+  const Result r = SwitchedRun(
       {.kind = IntegratorKind::kCvodes, .relative_tolerance = 1e-11, .absolute_tolerance = 1e-12});
   EXPECT_NEAR(r.d[0], -0.1027231879, 1e-7);
   EXPECT_NEAR(r.d[1], 0.0703041416, 1e-7);

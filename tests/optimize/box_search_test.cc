@@ -44,5 +44,26 @@ TEST(BoxSearch, NeverEvaluatesMoreThanItsBudget) {
   }
 }
 
+TEST(BoxSearch, FindsTheDeepestOfManyDips) {
+  BoxSearchRequest request;
+  request.low = {-5.12, -5.12};
+  request.high = {5.12, 5.12};
+  request.budget = 4000;
+  request.cost = [](std::span<const double> x) {  // Rastrigin's function, least at 0.4, -1.3
+    double sum = 20.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double d = x[i] - (i == 0 ? 0.4 : -1.3);
+      sum += d * d - 10.0 * std::cos(2.0 * M_PI * d);
+    }
+    return sum;
+  };
+  const BoxSearchResult found = SearchBox(request);
+  ASSERT_EQ(found.x.size(), 2U);
+  EXPECT_NEAR(found.x[0], 0.4, 1e-4);
+  EXPECT_NEAR(found.x[1], -1.3, 1e-4);
+  EXPECT_LE(found.evaluations, 4000);
+  EXPECT_EQ(SearchBox(request).x, found.x);
+}
+
 }  // namespace
 }  // namespace hoplab

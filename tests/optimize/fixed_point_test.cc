@@ -29,6 +29,15 @@ FixedPoint SlipFrom(const ApexState& start) {
   return SearchFixedPoint(map, start, options);
 }
 
+TEST(ReturnMap, IsThatOfAPlacedLegWhateverItsStart) {
+  Hopper hopper = ControlledHopper();
+  const Hop placed = ReturnMap(hopper).Apply({1.0, 0.3});
+  hopper.request.parameters.start_angle = 0.3;  // M47
+  const Hop other = ReturnMap(hopper).Apply({1.0, 0.3});
+  ASSERT_TRUE(placed.ok());
+  EXPECT_EQ(placed.next, other.next);
+}
+
 TEST(FixedPoint, KnownSteadyHopIsFoundFromTenPercentOff) {
   for (const double vx : {0.9, 1.1}) {
     for (const double y : {0.9, 1.1}) {

@@ -1,106 +1,92 @@
 #pragma once
 
-#include "model/hybrid/automaton.h"
+#include "model/hybrid/hybrid_system.h"
 
 namespace hoplab::testing {
 
 /// Two clocks that run down together: guards z0 and z1, z0' = z1' = -1. In mode kRolling both are
 /// watched; z0 at zero leads to kToe, where only z1 is.
 template <class T>
-struct TwoClocks {
-  using Scalar = T;
-  static constexpr int kDim = 2;
-  template <class Other>
-  void CopyHidden(const Other&) {}
-  void Derivative(Mode, const T&, const T*, T* dz) const { dz[0] = dz[1] = T(-1.0); }
-  int GuardCount(Mode mode) const { return mode == Mode::kRolling ? 2 : 1; }
-  GuardSpec Guard(Mode mode, int i) const {
+struct TwoClocks final : HybridSystem<T> {
+  int size() const override { return 2; }
+  void Derivative(Mode, const T&, const T*, T* dz) const override { dz[0] = dz[1] = T(-1.0); }
+  int GuardCount(Mode mode) const override { return mode == Mode::kRolling ? 2 : 1; }
+  GuardSpec Guard(Mode mode, int i) const override {
     if (mode == Mode::kRolling && i == 0) return {EventKind::kRollingToToe, 1.0};
     return {EventKind::kLiftoff, 1.0};
   }
-  void Guards(Mode mode, const T&, const T* z, T* g) const {
+  void Guards(Mode mode, const T&, const T* z, T* g) const override {
     g[0] = mode == Mode::kRolling ? z[0] : z[1];
     g[1] = z[1];
   }
-  ResetResult Reset(Mode mode, int i, const T&, T* z) {
+  ResetResult Reset(Mode mode, int i, const T&, T* z) override {
     if (mode == Mode::kRolling && i == 0) return {Mode::kToe};
     z[0] = z[1] = T(100.0);
     return {Mode::kToe};
   }
-  double FirstStep(Mode, const T*) const { return 0.1; }
-  double Flexure(Mode, const T*) const { return 0.0; }
+  double FirstStep(Mode, const T*) const override { return 0.1; }
 };
 
 /// Two modes that each send the state back to the other at the same place: no way on.
 template <class T>
-struct BackAndForth {
-  using Scalar = T;
-  static constexpr int kDim = 2;
-  template <class Other>
-  void CopyHidden(const Other&) {}
-  void Derivative(Mode, const T&, const T*, T* dz) const { dz[0] = dz[1] = T(-1.0); }
-  int GuardCount(Mode) const { return 1; }
-  GuardSpec Guard(Mode, int) const { return {EventKind::kSwitch, 1.0}; }
-  void Guards(Mode, const T&, const T* z, T* g) const { g[0] = z[0]; }
-  ResetResult Reset(Mode mode, int, const T&, T*) {
+struct BackAndForth final : HybridSystem<T> {
+  int size() const override { return 2; }
+  void Derivative(Mode, const T&, const T*, T* dz) const override { dz[0] = dz[1] = T(-1.0); }
+  int GuardCount(Mode) const override { return 1; }
+  GuardSpec Guard(Mode, int) const override { return {EventKind::kSwitch, 1.0}; }
+  void Guards(Mode, const T&, const T* z, T* g) const override { g[0] = z[0]; }
+  ResetResult Reset(Mode mode, int, const T&, T*) override {
     return {mode == Mode::kRolling ? Mode::kToe : Mode::kRolling};
   }
-  double FirstStep(Mode, const T*) const { return 0.1; }
-  double Flexure(Mode, const T*) const { return 0.0; }
+  double FirstStep(Mode, const T*) const override { return 0.1; }
 };
 
 /// A guard that dips below zero and back within a time far shorter than a step of the (trivially
 /// smooth) flow: z0' = 1, guard (z0 - 1)^2 - depth.
 template <class T>
-struct Dip {
-  using Scalar = T;
-  static constexpr int kDim = 2;
+struct Dip final : HybridSystem<T> {
   double depth = 1e-4;
-  template <class Other>
-  void CopyHidden(const Other&) {}
-  void Derivative(Mode, const T&, const T*, T* dz) const {
+  int size() const override { return 2; }
+  void Derivative(Mode, const T&, const T*, T* dz) const override {
     dz[0] = T(1.0);
     dz[1] = T(0.0);
   }
-  int GuardCount(Mode mode) const { return mode == Mode::kRolling ? 1 : 0; }
-  GuardSpec Guard(Mode, int) const { return {EventKind::kSwitch, 1.0}; }
-  void Guards(Mode, const T&, const T* z, T* g) const {
+  int GuardCount(Mode mode) const override { return mode == Mode::kRolling ? 1 : 0; }
+  GuardSpec Guard(Mode, int) const override { return {EventKind::kSwitch, 1.0}; }
+  void Guards(Mode, const T&, const T* z, T* g) const override {
     g[0] = (z[0] - 1.0) * (z[0] - 1.0) - depth;
   }
-  ResetResult Reset(Mode, int, const T&, T*) { return {Mode::kToe}; }
-  double FirstStep(Mode, const T*) const { return 10.0; }
-  double Flexure(Mode, const T*) const { return 0.0; }
+  ResetResult Reset(Mode, int, const T&, T*) override { return {Mode::kToe}; }
+  double FirstStep(Mode, const T*) const override { return 10.0; }
 };
 
 /// A stance that loses its support as it changes: z0 at zero leads from kRolling to kToe and takes
 /// 1 from z1, which is the lift-off guard of both and then stands closed. z0' = -rate.
 template <class T>
-struct LosesSupport {
-  using Scalar = T;
-  static constexpr int kDim = 2;
+struct LosesSupport final : HybridSystem<T> {
   T rate{1.0};
-  template <class Other>
-  void CopyHidden(const Other&) {}
-  void Derivative(Mode, const T&, const T*, T* dz) const {
+  int size() const override { return 2; }
+  void Derivative(Mode, const T&, const T*, T* dz) const override {
     dz[0] = -rate;
     dz[1] = T(0.1);
   }
-  int GuardCount(Mode mode) const { return mode == Mode::kRolling ? 2 : mode == Mode::kToe; }
-  GuardSpec Guard(Mode, int i) const {
+  int GuardCount(Mode mode) const override {
+    return mode == Mode::kRolling ? 2 : mode == Mode::kToe;
+  }
+  GuardSpec Guard(Mode, int i) const override {
     if (i == 1) return {EventKind::kRollingToToe, 1.0};
     return {EventKind::kLiftoff, 1.0, Outcome::kNoSupport};
   }
-  void Guards(Mode, const T&, const T* z, T* g) const {
+  void Guards(Mode, const T&, const T* z, T* g) const override {
     g[0] = z[1];
     g[1] = z[0];
   }
-  ResetResult Reset(Mode, int i, const T&, T* z) {
+  ResetResult Reset(Mode, int i, const T&, T* z) override {
     if (i == 0) return {Mode::kFlight};
     z[1] -= 1.0;
     return {Mode::kToe};
   }
-  double FirstStep(Mode, const T*) const { return 0.1; }
-  double Flexure(Mode, const T*) const { return 0.0; }
+  double FirstStep(Mode, const T*) const override { return 0.1; }
 };
 
 }  // namespace hoplab::testing

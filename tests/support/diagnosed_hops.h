@@ -62,7 +62,8 @@ inline std::vector<Candidate> CandidatesOf(const std::vector<std::string>& names
 struct NullFit {
   FitProblem problem;
   std::vector<TrialProblem> train;
-  Extension null;
+  Extension null;     // under white noise
+  Extension settled;  // under the noise that suits it
 
   explicit NullFit(const Dataset& dataset, const ProblemOptions& options = {})
       : problem(MakeProblem(dataset, options)), train(TrialsOf(problem, TrialRole::kTrain)) {
@@ -72,6 +73,10 @@ struct NullFit {
     null.starts = fit.starts;
     null.cost = fit.cost;
     null.status = fit.records.at(static_cast<std::size_t>(fit.best_start)).status;
+    null.complete = fit.stop.complete;
+    settled = null;
+    Settle(settled, Settings());
+    Settle(null, SettingsOf(Discrepancy::kNone));
   }
   explicit NullFit(const World& world) : NullFit(DatasetOf(world)) {}
 
@@ -91,11 +96,14 @@ struct NullFit {
   Extension RefittedWith(const Candidate& candidate, const Eigen::VectorXd& size) const {
     return Refit(null, std::array{candidate}, size, Settings());
   }
-  RefitSettings Settings() const {
+  RefitSettings Settings() const { return SettingsOf(Discrepancy::kMatern); }
+  RefitSettings SettingsOf(Discrepancy discrepancy) const {
     RefitSettings settings;
     settings.train = &train;
+    settings.discrepancy = discrepancy;
     return settings;
   }
+  NullFits fits() const { return {&null, &settled}; }
 };
 
 /// The same effect under another name: nothing can tell the two apart.

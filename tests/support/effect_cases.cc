@@ -72,7 +72,7 @@ Linearisation AtTheTruth(const FitProblem& problem, const std::vector<Candidate>
   Eigen::VectorXd shared(extended.shared_count());
   for (int k = 0; k < shared.size(); ++k)
     shared[k] = extended.shared[static_cast<std::size_t>(k)].initial;
-  std::vector<std::array<double, 4>> starts;
+  std::vector<OwnValues> starts;
   for (const TrialProblem& t : train) starts.push_back(t.start);
   return Linearise(extended, problem.shared_count(), train, shared, starts, 1);
 }
@@ -101,7 +101,9 @@ std::vector<EffectCase> EffectCasesOf(Law law) {
   const std::vector<Candidate> candidates = CandidatesOf(problem, {});
   std::vector<TrialProblem> train = TrialsOf(problem, TrialRole::kTrain);
   const Linearisation at = AtTheTruth(problem, candidates, train);
-  for (TrialProblem& t : train) t.prior_sigma.fill(std::numeric_limits<double>::infinity());
+  for (TrialProblem& t : train) {
+    for (OwnParameter& o : t.own) o.prior_sigma = std::numeric_limits<double>::infinity();
+  }
   const Linearisation free = AtTheTruth(problem, candidates, train);
 
   std::vector<EffectCase> cases;

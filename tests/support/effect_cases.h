@@ -21,7 +21,7 @@ struct EffectDirection {
 };
 
 /// Sizes the suite plants, in delta80.
-inline constexpr std::array kSizes = {0.5, 1.0, 1.5, 2.0, 4.0};
+inline constexpr std::array kSizes = {0.5, 1.0, 1.5, 2.0, 4.0, 16.0};
 /// Chi-square threshold delta80 refers to: delta80 = (sqrt(7.85) + 0.84)/sqrt(V) = 3.64/sqrt(V).
 inline constexpr double kDelta80Threshold = 7.85;
 

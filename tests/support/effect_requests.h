@@ -11,8 +11,9 @@
 
 namespace hoplab::testing {
 
-inline constexpr std::array kAllLaws = {Law::kThesis,          Law::kNoSlip,      Law::kConsistent,
-                                        Law::kLargeDeflection, Law::kStraightLeg, Law::kBall};
+inline constexpr std::array kAllLaws = {
+    Law::kThesis,   Law::kNoSlip,      Law::kConsistent, Law::kLargeDeflection,
+    Law::kElastica, Law::kStraightLeg, Law::kBall};
 
 inline constexpr std::array kSmoothChannels = {
     Channel::kBodyX,        Channel::kBodyY,        Channel::kBodyVx,

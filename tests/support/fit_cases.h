@@ -25,8 +25,8 @@ inline Dataset SmallDataset(int train_trials = 2, int test_trials = 1, std::uint
   return d;
 }
 
-inline std::vector<std::array<double, 4>> NominalStarts(const std::vector<TrialProblem>& trials) {
-  std::vector<std::array<double, 4>> starts;
+inline std::vector<OwnValues> NominalStarts(const std::vector<TrialProblem>& trials) {
+  std::vector<OwnValues> starts;
   for (const TrialProblem& t : trials) starts.push_back(t.start);
   return starts;
 }

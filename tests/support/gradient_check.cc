@@ -20,6 +20,12 @@ double ValueOf(const SimulationRequest& q, const SensitivityDirection& d) {
       return q.initial[d.index];
     case Of::kEffect:
       return q.effects[d.index].values[d.component];
+    case Of::kInput:
+      return d.component == 0 ? q.inputs[d.index].delay : q.inputs[d.index].scale;
+    case Of::kTouchdownAngle:
+      return q.touchdown_angles[d.index];
+    case Of::kClock:
+      return q.clock_offsets[d.index];
   }
   return 0.0;
 }
@@ -27,6 +33,8 @@ double ValueOf(const SimulationRequest& q, const SensitivityDirection& d) {
 // A change of this size is a moderate one.
 double SizeOf(const SimulationRequest& q, const SensitivityDirection& d) {
   if (d.of == Of::kEffect) return q.effects[d.index].effect->info.parameters[d.component].typical;
+  const bool is_time = d.of == Of::kClock || (d.of == Of::kInput && d.component == 0);
+  if (is_time) return 1e-3;  // s
   const double value = std::abs(ValueOf(q, d));
   if (value > 0.0) return value;
   return d.of == Of::kParameter && d.parameter == ParameterId::kThetaTd ? 0.2 : 1.0;
@@ -44,6 +52,9 @@ struct Run {
 };
 Run RunAt(SimulationRequest q, const SensitivityDirection& d, double value) {
   std::vector<EffectSetting> effects(q.effects.begin(), q.effects.end());
+  std::vector<DrivenInput> inputs(q.inputs.begin(), q.inputs.end());
+  std::vector<double> angles(q.touchdown_angles.begin(), q.touchdown_angles.end());
+  std::vector<double> offsets(q.clock_offsets.begin(), q.clock_offsets.end());
   switch (d.of) {
     case Of::kParameter:
       Field(q.parameters, d.parameter) = value;
@@ -54,7 +65,19 @@ Run RunAt(SimulationRequest q, const SensitivityDirection& d, double value) {
     case Of::kEffect:
       effects[d.index].values[d.component] = value;
       break;
+    case Of::kInput:
+      (d.component == 0 ? inputs[d.index].delay : inputs[d.index].scale) = value;
+      break;
+    case Of::kTouchdownAngle:
+      angles[d.index] = value;
+      break;
+    case Of::kClock:
+      offsets[d.index] = value;
+      break;
   }
+  q.inputs = inputs;
+  q.touchdown_angles = angles;
+  q.clock_offsets = offsets;
   q.effects = effects;
   // An effect at its null acts only while it is differentiated; its events are wanted too.
   const bool at_null = d.of == Of::kEffect && effects[d.index].IsNull();
@@ -80,7 +103,7 @@ double Norm(const std::vector<double>& v, std::size_t begin, std::size_t end) {
 }  // namespace
 
 std::string NameOf(const SimulationRequest& q, const SensitivityDirection& d) {
-  static constexpr const char* kStates[] = {"x", "y", "vx", "vy"};
+  static constexpr const char* kStates[] = {"x", "y", "vx", "vy", "contact"};
   switch (d.of) {
     case Of::kParameter:
       return std::string(InfoOf(d.parameter).name);
@@ -89,6 +112,13 @@ std::string NameOf(const SimulationRequest& q, const SensitivityDirection& d) {
     case Of::kEffect:
       return std::string(q.effects[d.index].effect->info.name) + "." +
              std::string(q.effects[d.index].effect->info.parameters[d.component].name);
+    case Of::kInput:
+      return std::string(hoplab::NameOf(q.inputs[d.index].kind)) +
+             (d.component == 0 ? ".delay" : ".scale");
+    case Of::kTouchdownAngle:
+      return "touchdown_angle." + std::to_string(d.index + 1);
+    case Of::kClock:
+      return "clock." + std::to_string(d.index);
   }
   return "";
 }
@@ -122,25 +152,22 @@ std::vector<ColumnCheck> CheckGradient(const SimulationRequest& request,
     append(analytic.event_time_sensitivities);
 
     // First a step that moves the results by about 1 % (if that is a moderate change of the
-    // parameter), then shorter ones: the best differences are kept. A step that meets another
+    // parameter), then shorter ones. A step that meets another
     // event sequence is of no use.
     const double size = SizeOf(request, d);
     const double slope = Norm(column, 0, column.size());
     const double values = Norm(base.all, 0, base.all.size());
     double h = 0.01 * values / slope;
     if (!(h < 0.4 * size) && (ValueOf(request, d) != 0.0 || !std::isfinite(h))) h = 0.4 * size;
-    DifferenceColumn oracle;
-    bool same_sequence = false;
+    std::vector<DifferenceColumn> tables;  // of the lengths that met no other sequence
     // Usually five lengths; more where no step was short enough yet (three hops of an unstable
     // gait carry a millimetre to a fall).
-    for (int attempt = 0; attempt < 5 || (attempt < 10 && !same_sequence); ++attempt, h *= 0.25) {
+    for (int attempt = 0; attempt < 5 || (attempt < 10 && tables.empty()); ++attempt, h *= 0.25) {
       changed = false;
       const DifferenceColumn found = AtLowerBound(request, d)
                                          ? RichardsonForward(f, ValueOf(request, d), h)
                                          : RichardsonDerivative(f, ValueOf(request, d), h);
-      if (changed || found.value.empty()) continue;
-      if (!same_sequence || found.error_norm < oracle.error_norm) oracle = found;
-      same_sequence = true;
+      if (!changed && found.value.size() == column.size()) tables.push_back(found);
     }
 
     const std::size_t samples = analytic.samples.size(), finals = analytic.final_state.size();
@@ -152,8 +179,13 @@ std::vector<ColumnCheck> CheckGradient(const SimulationRequest& request,
       if (begin == end) continue;
       ColumnCheck check;
       check.what = std::string(kParts[part]) + " d/d" + NameOf(request, d);
-      check.sequence_changed = !same_sequence || oracle.value.size() != column.size();
+      check.sequence_changed = tables.empty();
       if (!check.sequence_changed) {
+        // Of each part the best differences: what suits the samples need not suit event times.
+        const DifferenceColumn& oracle =
+            *std::min_element(tables.begin(), tables.end(), [&](const auto& a, const auto& b) {
+              return Norm(a.error, begin, end) < Norm(b.error, begin, end);
+            });
         std::vector<double> difference(column.size());
         for (std::size_t i = 0; i < column.size(); ++i) difference[i] = column[i] - oracle.value[i];
         const double norm = Norm(oracle.value, begin, end);

@@ -18,7 +18,7 @@ struct HopTruth {
 inline Scenario HopScenario(int hops, const HopTruth& truth = {}) {
   Scenario s;
   s.name = "generated-hops";
-  s.law = "large_deflection";
+  s.law = "elastica";
   MechanismSpec& m = s.mechanism;
   m.type = MechanismType::kCLeg;
   m.body_mass_kg = 1.0;

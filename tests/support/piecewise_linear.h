@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/hybrid/automaton.h"
+#include "model/hybrid/hybrid_system.h"
 
 namespace hoplab::testing {
 
@@ -8,14 +8,11 @@ namespace hoplab::testing {
 /// systems, IEEE Trans. Circuits Syst. I 47, 2000): x' = A1 x until x2 = slope_a x1, then
 /// x' = A2 x until x2 = slope_b x1. Mode::kRolling stands for mode 1, Mode::kToe for mode 2.
 template <class T>
-struct PiecewiseLinear {
-  using Scalar = T;
-  static constexpr int kDim = 2;
+struct PiecewiseLinear final : HybridSystem<T> {
   T slope_a{2.75}, slope_b{0.36};
 
-  template <class Other>
-  void CopyHidden(const Other&) {}
-  void Derivative(Mode mode, const T&, const T* x, T* dx) const {
+  int size() const override { return 2; }
+  void Derivative(Mode mode, const T&, const T* x, T* dx) const override {
     if (mode == Mode::kRolling) {
       dx[0] = x[0] - 100.0 * x[1];
       dx[1] = 10.0 * x[0] + x[1];
@@ -24,16 +21,15 @@ struct PiecewiseLinear {
       dx[1] = -100.0 * x[0] + x[1];
     }
   }
-  int GuardCount(Mode) const { return 1; }
-  GuardSpec Guard(Mode, int) const { return {EventKind::kSwitch, 1.0}; }
-  void Guards(Mode mode, const T&, const T* x, T* g) const {
+  int GuardCount(Mode) const override { return 1; }
+  GuardSpec Guard(Mode, int) const override { return {EventKind::kSwitch, 1.0}; }
+  void Guards(Mode mode, const T&, const T* x, T* g) const override {
     g[0] = mode == Mode::kRolling ? T(x[1] - slope_a * x[0]) : T(slope_b * x[0] - x[1]);
   }
-  ResetResult Reset(Mode mode, int, const T&, T*) {
+  ResetResult Reset(Mode mode, int, const T&, T*) override {
     return {mode == Mode::kRolling ? Mode::kToe : Mode::kRolling};
   }
-  double FirstStep(Mode, const T*) const { return 1e-3; }
-  double Flexure(Mode, const T*) const { return 0.0; }
+  double FirstStep(Mode, const T*) const override { return 1e-3; }
 };
 
 }  // namespace hoplab::testing

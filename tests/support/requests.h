@@ -98,6 +98,6 @@ inline std::vector<double> EvenTimes(double end, int count) {
 }
 
 inline constexpr Law kCLegLaws[] = {Law::kThesis, Law::kNoSlip, Law::kConsistent,
-                                    Law::kLargeDeflection};
+                                    Law::kLargeDeflection, Law::kElastica};
 
 }  // namespace hoplab::testing

@@ -25,9 +25,24 @@ FitProblem Problem() { return MakeProblem(DatasetOf({}), {}); }
 TEST(Candidates, AreEveryEffectThatAppliesInTheOrderOfTheCatalogue) {
   std::vector<std::string> expected;
   for (const Effect* effect : AllEffects()) {
-    if (AppliesTo(*effect, Law::kLargeDeflection)) expected.emplace_back(effect->info.name);
+    if (AppliesTo(*effect, Law::kElastica)) expected.emplace_back(effect->info.name);
   }
   EXPECT_EQ(NamesOf(CandidatesOf(Problem(), {})), expected);
+}
+
+TEST(Candidates, OfAFreeBallHoldNoFrictionOfAGuide) {
+  FitProblem ball;
+  ball.law = Law::kBall;
+  ball.trials.resize(1);
+  const auto guides = [&](const CandidateOptions& options) {
+    const std::vector<std::string> names = NamesOf(CandidatesOf(ball, options));
+    return std::count_if(names.begin(), names.end(),
+                         [](const std::string& name) { return name.starts_with("guide_"); });
+  };
+  EXPECT_EQ(guides({}), 0);
+  EXPECT_EQ(guides({.only = {"guide_coulomb_friction"}}), 1);
+  ball.trials[0].parameters.on_guide = true;
+  EXPECT_EQ(guides({}), 2);
 }
 
 TEST(Candidates, DoNotDependOnTheOrderInWhichTheyAreNamed) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fitting/diagnosis/linearise_at.h"
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
@@ -149,9 +150,38 @@ TEST(LineariseAt, LeavesOutOneCandidateWhoseSimulationFailsAndSaysWhich) {
   const std::array smooth = {tested[0], tested[2]};
   const Linearisation without = LineariseAt(fit.null, smooth, fit.train, 1);
   EXPECT_TRUE(without.failed.empty());
-  EXPECT_EQ(without.r, at.r);
-  EXPECT_EQ(without.columns.col(0), at.columns.col(0));
-  EXPECT_EQ(without.columns.col(1), at.columns.col(2));
+  EXPECT_NEAR(without.chi2(), at.chi2(), 1e-9 * at.chi2());
+  for (const auto& [mine, others] : {std::pair{0, 0}, {1, 2}}) {
+    const double length = at.columns.col(others).norm();
+    EXPECT_NEAR(without.columns.col(mine).norm(), length, 1e-9 * length);
+    const double score = at.columns.col(others).dot(at.r);
+    EXPECT_NEAR(without.columns.col(mine).dot(without.r), score, 1e-9 * std::abs(score));
+  }
+}
+
+TEST(LineariseAt, HasTheSumsOfProductsOfEveryRow) {
+  for (const bool white : {true, false}) {
+    NullFit fit({.effects = {testing::EffectOfSize("touchdown_angle_bias", 0.03)}});
+    const Extension& model = white ? fit.null : fit.settled;
+    ASSERT_EQ(model.problem.noise.IsWhite(), white);
+    const std::vector<Candidate> tested =
+        testing::CandidatesOf({"air_drag", "leg_material_damping", "sensor_delay"});
+    const Linearisation at = LineariseAt(model, tested, fit.train, 1);
+    const Linearisation rows = fit.Linearised(model, tested);
+    EXPECT_LT(at.rows(), rows.rows());
+    EXPECT_EQ(at.degrees_of_freedom(), rows.degrees_of_freedom());
+    EXPECT_EQ(at.samples, rows.samples);
+    EXPECT_NEAR(at.chi2(), rows.chi2(), 1e-9 * rows.chi2());
+    const Eigen::MatrixXd a = at.columns.transpose() * at.columns;
+    const Eigen::MatrixXd b = rows.columns.transpose() * rows.columns;
+    const Eigen::VectorXd c = at.columns.transpose() * at.r, d = rows.columns.transpose() * rows.r;
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(at.length[i], rows.length[i], 1e-9 * rows.length[i]);
+      EXPECT_NEAR(c[i], d[i], 1e-8 * std::sqrt(b(i, i) * rows.chi2()));
+      for (int j = 0; j < 3; ++j)
+        EXPECT_NEAR(a(i, j), b(i, j), 1e-8 * std::sqrt(b(i, i) * b(j, j)));
+    }
+  }
 }
 
 TEST(LineariseAt, OfNothingElseThanWhatFailsIsTheModelByItself) {
@@ -160,7 +190,8 @@ TEST(LineariseAt, OfNothingElseThanWhatFailsIsTheModelByItself) {
   const Linearisation at = LineariseAt(fit.null, tested, fit.train, 1);
   EXPECT_EQ(at.failed.size(), 1u);
   EXPECT_EQ(at.columns.cols(), 1);
-  EXPECT_EQ(at.r, LineariseAt(fit.null, {}, fit.train, 1).r);
+  const double chi2 = LineariseAt(fit.null, {}, fit.train, 1).chi2();
+  EXPECT_NEAR(at.chi2(), chi2, 1e-9 * chi2);
 }
 
 }  // namespace

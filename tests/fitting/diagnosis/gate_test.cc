@@ -24,12 +24,22 @@ TEST(Gate, OpensForAFitOfCleanData) {
   EXPECT_EQ(names, (std::vector<std::string>{"fit", "events", "noise", "gradients"}));
 }
 
-TEST(Gate, RefusesAFitThatDidNotConverge) {
+TEST(Gate, TellsAFitThatIsNoMinimum) {
   NullFit fit{testing::World{}};
-  fit.null.status = SolveStatus::kIterationLimit;
+  EXPECT_TRUE(CheckGate(fit.null, fit.train, 1).at_minimum);
+  fit.null.shared[0] *= 1.01;
+  const Gate gate = CheckGate(fit.null, fit.train, 1);
+  EXPECT_TRUE(gate.passed()) << gate.Refusal();
+  EXPECT_FALSE(gate.at_minimum);
+  EXPECT_NE(gate.checks.front().text.find("no minimum"), std::string::npos);
+}
+
+TEST(Gate, RefusesAFitThatFailed) {
+  NullFit fit{testing::World{}};
+  fit.null.status = SolveStatus::kFailed;
   const std::string refusal = RefusalOf(fit);
   EXPECT_EQ(refusal.rfind("fit: ", 0), 0u) << refusal;
-  EXPECT_NE(refusal.find(NameOf(SolveStatus::kIterationLimit)), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find(NameOf(SolveStatus::kFailed)), std::string::npos) << refusal;
 }
 
 TEST(Gate, LooksNoFurtherThanAFitThatFailed) {

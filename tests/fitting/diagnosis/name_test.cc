@@ -17,7 +17,8 @@ using testing::NullFit;
 
 Naming NameIn(const NullFit& fit, const std::vector<Candidate>& candidates,
               const NamingOptions& options = {}) {
-  return NameCauses(fit.null, candidates, fit.With(candidates), fit.train, options);
+  return NameCauses(fit.fits(), candidates, fit.Linearised(fit.settled, candidates), fit.train,
+                    options);
 }
 Naming NameSix(const NullFit& fit, const NamingOptions& options = {}) {
   return NameIn(fit, testing::CandidatesOf(testing::kSixEffects), options);
@@ -74,8 +75,9 @@ TEST(NameCauses, KeepsNoMemberThatDoesNotPay) {
     const Naming n = NameSix(fit);
     ASSERT_FALSE(n.best.members.empty());
     for (int i = 0; i < static_cast<int>(n.best.members.size()); ++i) {
-      const Extension less = RefitWithout(n.best, i, fit.problem, fit.Settings());
-      EXPECT_GT(less.cost - n.best.cost, n.penalty - 0.01)
+      Extension less = RefitWithout(n.best, i, fit.problem, fit.Settings());
+      Settle(less, fit.Settings());
+      EXPECT_GT(n.best.evidence.log_z() - less.evidence.log_z(), n.log_odds - 0.01)
           << n.best.members[i].Name() << ", seed " << seed;
     }
   }
@@ -149,7 +151,7 @@ TEST(NameCauses, AddsNoMoreEffectsThanAllowed) {
   const Naming none = NameSix(fit, {.max_effects = 0});
   EXPECT_TRUE(none.best.members.empty());
   EXPECT_EQ(none.refits, 0);
-  EXPECT_EQ(none.best.cost, fit.null.cost);
+  EXPECT_EQ(none.best.cost, fit.settled.cost);
 }
 
 TEST(NameCauses, DoesNotDependOnTheNumberOfJobs) {
@@ -198,12 +200,23 @@ TEST(NameCauses, CountsAndReportsEveryRefit) {
   EXPECT_GE(n.refits, 6);
 }
 
-TEST(NameCauses, PenaltyGrowsWithTheNumberOfCandidatesThatCanBeTested) {
+TEST(NameCauses, OfAllThatCanBeTestedOneIsExpectedBeforehand) {
   const NullFit fit{testing::World{}};
-  EXPECT_NEAR(NameSix(fit).penalty, std::log(6 / 0.05), 1e-12);
-  const Naming one = NameIn(fit, {CandidateOf("air_drag")});
-  EXPECT_NEAR(one.penalty, std::log(1 / 0.05), 1e-12);
-  EXPECT_NEAR(one.local_penalty, std::log(3 / 0.05), 1e-12);
+  const Naming six = NameSix(fit);
+  EXPECT_NEAR(six.log_odds, std::log(5.0), 1e-12);
+  EXPECT_NEAR(six.local_log_odds, std::log(5.0 * 3), 1e-12);
+}
+
+TEST(NameCauses, ProbabilitiesAreThoseOfTheModelsVisited) {
+  const Naming n = NameSix(NullFit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}}));
+  EXPECT_GT(ResultOf(n, "touchdown_angle_bias").probability, 0.99);
+  double sum = 0.0;
+  for (const auto& [set, weight] : n.posterior) sum += weight;
+  EXPECT_NEAR(sum, 1.0, 1e-3);
+  for (const CandidateResult& c : n.candidates) {
+    EXPECT_GE(c.probability, 0.0);
+    EXPECT_LE(c.probability, 1.0 + 1e-12);
+  }
 }
 
 TEST(NameCauses, BoundsWhatItExcludes) {

@@ -30,8 +30,8 @@ TrialProblem Recorded(const Extension& truth, const TrialDesign& design,
   trial.file = trial.recording = "proposed.csv";
   trial.parameters.theta_td = design.touchdown_angle;
   if (design.kp) trial.parameters.kp = *design.kp;
-  trial.start = {trial.start[0], design.height, design.speed, 0.0};
-  trial.prior_mean = trial.start;
+  trial.start = Eigen::Vector4d(trial.start[0], design.height, design.speed, 0.0);
+  for (int k = 0; k < 4; ++k) trial.own[k].prior_mean = trial.start[k];
   Trajectory run;
   TrialEvaluator(truth.problem, trial)
       .Simulate({truth.shared, trial.start, false}, truth.problem.integrator, run);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <cstdarg>
@@ -64,6 +65,52 @@ void ReadVerdict(const Diagnosis& d, Outcome& out) {
   }
 }
 
+bool IsPlanted(const Truth& truth, const Candidate& c) {
+  return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const PlantedEffect& e) {
+    return e.name == c.effect->info.name &&
+           (c.only_recording.empty() || c.only_recording == truth.only_recording);
+  });
+}
+
+void ReadCauses(const Diagnosis& d, Outcome& out) {
+  out.unlisted_probability = d.UnlistedProbability();
+  out.left_share = d.left.share;
+  if (!d.extension) return;
+  for (const CauseReport& c : d.extension->causes) {
+    Outcome::Seen seen;
+    seen.name = c.cause.Name();
+    seen.main = c.main;
+    seen.probability = c.probability;
+    seen.group_probability = c.group_probability;
+    seen.evidence = c.evidence_probability;
+    seen.features = c.features;
+    seen.right = IsPlanted(out.truth, c.cause);
+    for (const std::vector<int>& group : d.naming.groups) {
+      if (group.front() != c.candidate) continue;
+      for (const int i : group)
+        seen.group_right =
+            seen.group_right ||
+            IsPlanted(out.truth, d.naming.candidates[static_cast<std::size_t>(i)].candidate);
+    }
+    out.seen.push_back(std::move(seen));
+  }
+}
+
+// Pairs by name: the trap first (drag with a bias looks like a height offset), then pairs that act
+// on different and on like places. Those whose files are not in the catalogue are left out.
+constexpr std::array<std::array<const char*, 2>, kPairCount> kPairs = {{
+    {"air_drag", "touchdown_angle_bias"},
+    {"gravity_scale", "touchdown_loss"},
+    {"leg_material_damping", "touchdown_angle_bias"},
+    {"leg_hardening", "air_drag"},
+    {"sensor_scale_y", "torque_gain"},
+    {"ground_compliance", "sensor_offset_x"},
+    {"camera_roll", "leg_hysteresis"},
+    {"clock_scale", "touchdown_angle_speed"},
+    {"ground_slope", "hip_viscous_friction"},
+    {"guide_coulomb_friction", "stiffness_drift"},
+}};
+
 }  // namespace
 
 bool Outcome::Holds(std::string_view name) const {
@@ -108,6 +155,7 @@ Outcome RunSealed(const Truth& planted, std::vector<std::string> without) {
   out.refusal = d.refusal;
   if (!d.refusal.empty()) return out;
   ReadVerdict(d, out);
+  ReadCauses(d, out);
   const double truth = TrueStiffness(out.truth.law);
   out.error_before = std::abs(d.null.shared[0] - truth);
   out.error_after = std::abs(d.naming.best.shared[0] - truth);
@@ -175,6 +223,53 @@ std::vector<Truth> PlantEach(Table table, double size, int seeds) {
            .effects = {{std::string(effect->info.name), directions[pick]->Values(*effect, size)}},
            .size = size,
            .seed = NoiseSeed(table, static_cast<int>(random.Uniform(0.0, 1e6)))});
+    }
+  }
+  return truths;
+}
+
+const EffectCase* CaseOf(Law law, std::string_view name) {
+  for (const EffectCase& e : AllEffectCases()) {
+    if (e.law == law && e.effect->info.name == name) return &e;
+  }
+  return nullptr;
+}
+
+std::string PairName(int pair) {
+  const auto& [a, b] = kPairs[static_cast<std::size_t>(pair)];
+  return std::string(a) + " + " + b;
+}
+
+std::optional<Truth> PlantPair(int pair, int seed, double size) {
+  RandomStream random(kSuiteSeed + static_cast<std::uint64_t>(Table::kTwoEffects),
+                      static_cast<std::uint64_t>(1000 * pair + seed));
+  const auto pick = [&](std::size_t n) {
+    return static_cast<std::size_t>(random.Uniform(0.0, 1.0) * static_cast<double>(n));
+  };
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    Truth truth{.law = kAllLaws[pick(kAllLaws.size())], .size = size};
+    for (const char* name : kPairs[static_cast<std::size_t>(pair)]) {
+      const EffectCase* e = CaseOf(truth.law, name);
+      if (!e || e->At(size).empty()) break;
+      const auto directions = e->At(size);
+      truth.effects.push_back(
+          {name, directions[pick(directions.size())]->Values(*e->effect, size)});
+    }
+    truth.seed = NoiseSeed(Table::kTwoEffects, static_cast<int>(random.Uniform(0.0, 1e6)));
+    if (truth.effects.size() < 2) continue;
+    std::vector<std::string> notes;
+    MakeDataset(truth, &notes);
+    if (notes.empty()) return truth;
+  }
+  return std::nullopt;
+}
+
+std::vector<Truth> PlantPairs(double size, int seeds) {
+  std::vector<Truth> truths;
+  for (int pair = 0; pair < kPairCount; ++pair) {
+    if (pair % EveryNth() != 0) continue;
+    for (int seed = 0; seed < seeds; ++seed) {
+      if (std::optional<Truth> truth = PlantPair(pair, seed, size)) truths.push_back(*truth);
     }
   }
   return truths;

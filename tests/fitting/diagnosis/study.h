@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,20 @@ struct Outcome {
   /// standard error without.
   double error_before = 0.0, error_after = 0.0, std_error = 0.0;
   double cpu_seconds = 0.0;
+  /// Each cause of the extension, what was seen of it, and whether a planted effect is in its
+  /// group.
+  struct Seen {
+    std::string name;
+    bool main = false;
+    double probability = 0.0;        // told
+    double group_probability = 0.0;  // that a name of its group is right
+    double evidence = 0.0;           // of the evidence alone
+    NameFeatures features;
+    bool group_right = false, right = false;
+  };
+  std::vector<Seen> seen;
+  double unlisted_probability = 0.0;
+  double left_share = 0.0;
 
   bool Names() const { return !groups.empty(); }
   bool Holds(std::string_view name) const;  // in some group
@@ -74,6 +89,17 @@ int EveryNth();
 /// `seeds` cases of each effect of the catalogue at `size`, one effect after the other; law, sign
 /// (direction) and noise are drawn. Effects no law allows at that size are not among them.
 std::vector<Truth> PlantEach(Table table, double size, int seeds);
+
+/// How an effect can be planted under a law; null: it is in no catalogue of that law.
+const EffectCase* CaseOf(Law law, std::string_view name);
+
+/// Pairs of effects that are planted together.
+inline constexpr int kPairCount = 10;
+std::string PairName(int pair);  // "air_drag + touchdown_angle_bias"
+/// Both effects of a pair at `size` delta80 each under a drawn law; absent if no law carries both.
+std::optional<Truth> PlantPair(int pair, int seed, double size);
+/// `seeds` cases of each pair.
+std::vector<Truth> PlantPairs(double size, int seeds);
 
 /// Share in per cent.
 double PerCent(long part, long whole);

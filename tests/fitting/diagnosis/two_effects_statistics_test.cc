@@ -33,65 +33,15 @@ void PrintCases(Report& report, const std::vector<Outcome>& outcomes) {
   }
 }
 
-// Pairs by name: the trap first (drag with a bias looks like a height offset), then pairs that act
-// on different and on like places. Those whose files are not in the catalogue are left out.
-constexpr std::array<std::array<const char*, 2>, 10> kPairs = {{
-    {"air_drag", "touchdown_angle_bias"},
-    {"gravity_scale", "touchdown_loss"},
-    {"leg_material_damping", "touchdown_angle_bias"},
-    {"leg_hardening", "air_drag"},
-    {"sensor_scale_y", "torque_gain"},
-    {"ground_compliance", "sensor_offset_x"},
-    {"camera_roll", "leg_hysteresis"},
-    {"clock_scale", "touchdown_angle_speed"},
-    {"ground_slope", "hip_viscous_friction"},
-    {"guide_coulomb_friction", "stiffness_drift"},
-}};
-
-const EffectCase* CaseOf(Law law, const char* name) {
-  for (const EffectCase& e : AllEffectCases()) {
-    if (e.law == law && e.effect->info.name == name) return &e;
-  }
-  return nullptr;
-}
-
-// Both effects at `size` delta80 each under a drawn law; absent if no law carries both.
-std::optional<Truth> PlantPair(int pair, int seed, double size) {
-  RandomStream random(kSuiteSeed + static_cast<std::uint64_t>(Table::kTwoEffects),
-                      static_cast<std::uint64_t>(1000 * pair + seed));
-  const auto pick = [&](std::size_t n) {
-    return static_cast<std::size_t>(random.Uniform(0.0, 1.0) * static_cast<double>(n));
-  };
-  for (int attempt = 0; attempt < 50; ++attempt) {
-    Truth truth{.law = kAllLaws[pick(kAllLaws.size())], .size = size};
-    for (const char* name : kPairs[static_cast<std::size_t>(pair)]) {
-      const EffectCase* e = CaseOf(truth.law, name);
-      if (!e || e->At(size).empty()) break;
-      const auto directions = e->At(size);
-      truth.effects.push_back(
-          {name, directions[pick(directions.size())]->Values(*e->effect, size)});
-    }
-    truth.seed = NoiseSeed(Table::kTwoEffects, static_cast<int>(random.Uniform(0.0, 1e6)));
-    if (truth.effects.size() < 2) continue;
-    std::vector<std::string> notes;
-    MakeDataset(truth, &notes);
-    if (notes.empty()) return truth;
-  }
-  return std::nullopt;
-}
-
 TEST(DiagnosisStatistics, TwoEffectsAtOnceAreBothReported) {
   const int seeds = SeedCount(10);
   std::vector<Truth> truths;
   std::string absent;
-  for (int pair = 0; pair < static_cast<int>(kPairs.size()); pair += EveryNth()) {
+  for (int pair = 0; pair < kPairCount; pair += EveryNth()) {
     for (int i = 0; i < seeds; ++i) {
       const auto truth = PlantPair(pair, i, 4.0);
       if (truth) truths.push_back(*truth);
-      if (!truth && i == 0)
-        absent += std::string(absent.empty() ? "" : ", ") +
-                  kPairs[static_cast<std::size_t>(pair)][0] + " + " +
-                  kPairs[static_cast<std::size_t>(pair)][1];
+      if (!truth && i == 0) absent += std::string(absent.empty() ? "" : ", ") + PairName(pair);
     }
   }
   const std::vector<Outcome> outcomes = RunAll(truths);

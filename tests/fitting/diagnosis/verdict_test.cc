@@ -73,6 +73,33 @@ TEST(Diagnose, LookAlikesAreConfoundedAndATrialIsProposed) {
   EXPECT_GT(d.experiment->expected_nats, 0.0);
 }
 
+// Whether one of the candidates is excluded, or has a bound.
+bool Excludes(const Diagnosis& d) {
+  return std::any_of(d.naming.candidates.begin(), d.naming.candidates.end(),
+                     [](const CandidateResult& c) {
+                       return c.status == CandidateStatus::kExcluded ||
+                              (c.bound95.size() > 0 && std::isfinite(c.bound95[0]));
+                     });
+}
+
+TEST(Diagnose, ExcludesCausesBesideANameThatIsSureAndBesideNoOther) {
+  const Diagnosis named = Diagnose(
+      DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}, .test = 2, .hops = 3}),
+      OptionsWith(testing::kSixEffects));
+  ASSERT_EQ(named.verdict, Verdict::kNamed);
+  EXPECT_TRUE(Excludes(named));
+  const Diagnosis confounded =
+      Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_loss", 0.02)}, .seed = 7}),
+               OptionsWith({"touchdown_loss", "touchdown_angle_bias", "air_drag", "sensor_delay"}));
+  ASSERT_EQ(confounded.verdict, Verdict::kConfounded);
+  EXPECT_FALSE(Excludes(confounded));
+  const Diagnosis unexplained =
+      Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.05)}}),
+               OptionsWith({"air_drag", "sensor_delay"}));
+  ASSERT_EQ(unexplained.verdict, Verdict::kUnexplained);
+  EXPECT_FALSE(Excludes(unexplained));
+}
+
 TEST(Diagnose, AnEffectThatNothingResemblesIsUnexplained) {
   const Diagnosis d = Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.05)}}),
                                OptionsWith({"air_drag", "sensor_delay"}));

@@ -1,0 +1,105 @@
+#include "datasets/input_spec.h"
+
+#include "datasets/key_advice.h"
+
+namespace hoplab {
+namespace {
+
+struct InputRow {
+  const char* name;
+  Range range;
+};
+
+const InputRow& Row(InputId id) {
+  static const std::array<InputRow, kAllInputs.size()> kRows = {{
+      {"hip_torque_N_m", Within(1e6, "N m")},
+      {"leg_angle_rad", Within(1e3, "rad")},
+      {"body_force_x_N", Within(1e6, "N")},
+      {"body_force_y_N", Within(1e6, "N")},
+  }};
+  return kRows[static_cast<std::size_t>(id)];
+}
+
+constexpr Range kDelay = Within(1, "s");
+constexpr Range kScale = Within(1e6, "");
+
+InputSpec ReadInput(InputId id, const YamlCursor& block) {
+  InputSpec input;
+  input.id = id;
+  input.column = InputName(id);
+  input.origin.place = block.place();
+  // `hip_torque_N_m:` with nothing behind it is all defaults.
+  if (block.node().kind == YamlNode::Kind::kNull) return input;
+  block.AllowOnly({"column", "hold", "delay_s", "delay_sigma_s", "scale", "scale_sigma", "clock"});
+  if (const auto column = block.Optional("column")) input.column = column->Name();
+  if (const auto hold = block.Optional("hold"))
+    input.held = hold->Choice({"linear", "previous"}) == 1;
+  input.delay_s = block.OptionalNumber("delay_s", kDelay).value_or(0);
+  input.delay_sigma_s = block.OptionalNumber("delay_sigma_s", Positive(1, "s"));
+  input.scale = block.OptionalNumber("scale", kScale).value_or(1);
+  input.scale_sigma = block.OptionalNumber("scale_sigma", Positive(1e6, ""));
+  if (const auto clock = block.Optional("clock")) input.clock = clock->Name();
+  return input;
+}
+
+}  // namespace
+
+const char* InputName(InputId id) { return Row(id).name; }
+Range InputRange(InputId id) { return Row(id).range; }
+
+std::vector<std::string> InputNames() {
+  std::vector<std::string> names;
+  for (const InputId id : kAllInputs) names.emplace_back(InputName(id));
+  return names;
+}
+
+std::optional<InputId> InputFromName(std::string_view name) {
+  for (const InputId id : kAllInputs)
+    if (name == InputName(id)) return id;
+  return std::nullopt;
+}
+
+std::vector<InputSpec> ReadInputs(const YamlCursor& cursor) {
+  std::vector<InputSpec> inputs;
+  for (const auto& [name, block] : cursor.Entries(0)) {
+    const std::optional<InputId> id = InputFromName(name);
+    if (!id) {
+      const KeyAdvice advice = UnknownKeyAdvice(name, InputNames());
+      block.FailAtKey(
+          advice.rule == "unknown key" ? "is nothing that can drive a simulation" : advice.rule,
+          advice.remedy);
+    }
+    inputs.push_back(ReadInput(*id, block));
+  }
+  return inputs;
+}
+
+std::vector<ClockSpec> ReadClocks(const YamlCursor& cursor) {
+  std::vector<ClockSpec> clocks;
+  for (const auto& [name, block] : cursor.Entries(1)) {
+    if (name.find_first_of(". @") != std::string::npos || name.empty())
+      block.FailAtKey("a clock's name must be a word without blanks and dots", "Rename it.");
+    ClockSpec clock;
+    clock.name = name;
+    clock.origin.place = block.place();
+    block.AllowOnly({"offset_s", "sigma_s", "per"});
+    clock.offset_s = block.OptionalNumber("offset_s", kDelay).value_or(0);
+    clock.sigma_s = block.OptionalNumber("sigma_s", Positive(1, "s"));
+    if (const auto per = block.Optional("per")) {
+      clock.per_trial = per->Choice({"dataset", "trial"}) == 1;
+      if (clock.per_trial && !clock.sigma_s)
+        per->Fail("says that the offset differs between trials, but not by how much",
+                  "Add sigma_s, one standard deviation in s.");
+    }
+    clocks.push_back(std::move(clock));
+  }
+  return clocks;
+}
+
+const InputSpec* FindInput(const std::vector<InputSpec>& inputs, InputId id) {
+  for (const InputSpec& input : inputs)
+    if (input.id == id) return &input;
+  return nullptr;
+}
+
+}  // namespace hoplab

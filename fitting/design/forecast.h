@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fitting/diagnosis/extension.h"
+
+namespace hoplab {
+
+/// What the recorded trials say about a model's shared values, their starts projected out: rows R
+/// with R'R the information, in units of the values' scales. Values on a bound count as known.
+struct RecordedInformation {
+  std::vector<int> free;  // places of the shared values that are not on a bound
+  Eigen::MatrixXd rows;   // one column a free value
+};
+RecordedInformation InformationOf(const Extension& model, const std::vector<TrialProblem>& train);
+
+/// What a trial is expected to say for rival models.
+struct SeparationForecast {
+  /// (i, j): log-likelihood by which j, refitted to old and new data, misses what i predicts in the
+  /// new trial [nats].
+  Eigen::MatrixXd nats;
+  /// Why there is none: "fell_angle under air_drag"; empty if there is one.
+  std::string failure;
+};
+
+/// By the linear model of each rival at its fitted values.
+SeparationForecast ForecastLinearly(std::span<const Extension> rivals,
+                                    std::span<const RecordedInformation> information,
+                                    const TrialProblem& trial, int jobs);
+
+/// By refits of each rival to the recorded trials and what each other one predicts.
+SeparationForecast ForecastByRefits(std::span<const Extension> rivals,
+                                    const std::vector<TrialProblem>& train,
+                                    const TrialProblem& trial, int jobs);
+
+/// Whether every rival predicts the trial to its end.
+bool AllGetThrough(std::span<const Extension> rivals, TrialProblem trial);
+
+/// Entropy of weights that add to one [nats].
+double EntropyOf(std::span<const double> weights);
+
+/// Logarithm of the entropy of `weights` that is expected to remain after a trial with such a
+/// forecast, each rival in turn being true. Log-likelihood ratios are normal with mean d and
+/// variance 2 d; of three rivals and more those to one truth are taken as fully correlated.
+double LogExpectedEntropy(std::span<const double> weights, const Eigen::MatrixXd& nats);
+
+/// Names of a rival's members: "air_drag + ground_slope", "none of them".
+std::string RivalName(const Extension& rival);
+
+/// Half width of a value's 95 % interval [its own unit] from the recorded trials alone, and with a
+/// new one; infinite where the data do not determine it.
+struct SharpeningForecast {
+  double half_width = 0.0;
+  std::string failure;  // "fell_angle"; empty: it can be simulated
+};
+SharpeningForecast ForecastInterval(const Extension& model, const RecordedInformation& information,
+                                    int parameter, const TrialProblem* trial);
+
+}  // namespace hoplab

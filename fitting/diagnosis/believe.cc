@@ -1,0 +1,50 @@
+#include "fitting/diagnosis/believe.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hoplab {
+namespace {
+
+constexpr double kMostOthers = 2.0;  // no more causes were planted together
+constexpr double kMostNats = 50.0;   // a gap beyond is no surer
+constexpr double kLeastChance = 1e-10, kLeastShare = 1e-4;
+
+double Rarity(double p_value) { return -std::log10(std::max(p_value, kLeastChance)); }
+
+// Place of a member's first value among the shared ones.
+std::size_t FirstValue(const Extension& e, std::size_t member) {
+  int place = e.problem.shared_count() - e.parameter_count();
+  for (std::size_t i = 0; i < member; ++i) place += e.members[i].parameter_count();
+  return static_cast<std::size_t>(place);
+}
+
+}  // namespace
+
+void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
+             const std::vector<Heterogeneity>& sizes) {
+  const Naming& naming = diagnosis.naming;
+  const Extension& best = naming.best;
+  NameFeatures common;
+  common.left_gain = std::log1p(std::max(best.evidence.discrepancy - best.evidence.white, 0.0));
+  common.left_share = std::log10(std::clamp(1.0 - report.explained, kLeastShare, 1.0));
+  common.remainder = Rarity(report.remainder.p_value);
+  const double gain = best.evidence.log_z() - diagnosis.null.evidence.log_z();
+  common.gain = std::log10(1.0 + std::max(gain, 0.0));
+  common.others = std::min(static_cast<double>(best.members.size() - 1), kMostOthers);
+  for (CauseReport& c : report.causes) {
+    const std::size_t member = naming.MemberOf(c.candidate);
+    NameFeatures& f = c.features = common;
+    f.gap = std::log1p(std::clamp(naming.gaps[member], 0.0, kMostNats));
+    f.decided = f.gain * f.gap;
+    f.group = static_cast<double>(naming.groups[member].size() - 1);
+    const auto first = sizes.begin() + static_cast<std::ptrdiff_t>(FirstValue(best, member));
+    c.sizes.assign(first, first + c.cause.parameter_count());
+    for (const Heterogeneity& h : c.sizes)
+      f.heterogeneity = std::max(f.heterogeneity, Rarity(h.p_value));
+    c.group_probability = CalibratedProbability(f);
+    c.probability = c.group_probability * naming.group_weights[member].front();
+  }
+}
+
+}  // namespace hoplab

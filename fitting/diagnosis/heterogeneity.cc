@@ -1,0 +1,125 @@
+#include "fitting/diagnosis/heterogeneity.h"
+
+#include <Eigen/Dense>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "fitting/eliminated_trial.h"
+
+namespace hoplab {
+namespace {
+
+// Trials' rows with one value free in each: b_i ~ N(0, tau^2) beside the shared steps s,
+// residuals r_i + C_i s + c_i b_i. With b_i integrated out the rows have the covariance
+// I + tau^2 c c', whose inverse is I - w c c', w = tau^2/(1 + tau^2 c'c).
+class RandomEffect {
+ public:
+  RandomEffect(const std::vector<EliminatedTrial>& trials, int value)
+      : trials_(trials), value_(value) {}
+
+  // Restricted log-likelihood at tau, the shared steps marginalised; leaves their estimate.
+  double LogLikelihood(double tau) {
+    Eigen::MatrixXd H;
+    Eigen::VectorXd g;
+    double sum = 0.0;
+    for (const EliminatedTrial& t : trials_) {
+      if (t.empty()) continue;
+      if (H.size() == 0) {
+        H = Eigen::MatrixXd::Zero(t.columns.cols(), t.columns.cols());
+        g = Eigen::VectorXd::Zero(t.columns.cols());
+      }
+      const auto c = t.columns.col(value_);
+      const double V = c.squaredNorm(), w = tau * tau / (1.0 + tau * tau * V);
+      const Eigen::RowVectorXd cC = c.transpose() * t.columns;
+      const double cr = c.dot(t.residuals);
+      H += t.columns.transpose() * t.columns - w * cC.transpose() * cC;
+      g += t.columns.transpose() * t.residuals - w * cr * cC.transpose();
+      sum -= 0.5 * (std::log1p(tau * tau * V) + t.residuals.squaredNorm() - w * cr * cr);
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> solver(H);
+    step_ = -solver.solve(g);
+    const Eigen::VectorXd d = solver.vectorD().cwiseMax(std::numeric_limits<double>::min());
+    return sum - 0.5 * g.dot(step_) - 0.5 * d.array().log().sum();
+  }
+
+  double mean_step() const { return step_[value_]; }
+  // Of the last LogLikelihood(tau).
+  double SizeStep(const EliminatedTrial& t, double tau) const {
+    const auto c = t.columns.col(value_);
+    const double w = tau * tau / (1.0 + tau * tau * c.squaredNorm());
+    return step_[value_] - w * c.dot(t.residuals + t.columns * step_);
+  }
+
+ private:
+  const std::vector<EliminatedTrial>& trials_;
+  int value_;
+  Eigen::VectorXd step_;
+};
+
+// The spread of the restricted likelihood's maximum and what it brings; steps in the value's scale.
+void Spread(const std::vector<EliminatedTrial>& parts, int k, double value, double scale,
+            double information, Heterogeneity& h) {
+  RandomEffect effect(parts, k);
+  const double none = effect.LogLikelihood(0.0);
+  // From a tenth of what one trial can tell to a thousand times it.
+  const double told = 1.0 / std::sqrt(information / (h.degrees_of_freedom + 1));
+  constexpr int kBits = 20;
+  const auto [log_tau, worst] = boost::math::tools::brent_find_minima(
+      [&](double x) { return -effect.LogLikelihood(std::exp(x)); }, std::log(0.1 * told),
+      std::log(1e3 * told), kBits);
+  h.gain = std::max(-worst - none, 0.0);
+  const double tau = h.gain > 0.0 ? std::exp(log_tau) : 0.0;
+  effect.LogLikelihood(tau);
+  h.mean = value + scale * effect.mean_step();
+  h.spread = scale * tau;
+  for (const EliminatedTrial& part : parts) {
+    const bool sees = !part.empty() && part.columns.col(k).squaredNorm() > 0.0;
+    h.sizes.push_back(sees ? value + scale * effect.SizeStep(part, tau)
+                           : std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+}  // namespace
+
+std::vector<Heterogeneity> HeterogeneityOf(const Extension& model,
+                                           const std::vector<TrialProblem>& train, int jobs) {
+  const int n = model.problem.shared_count();
+  std::vector<KeptColumn> columns;
+  for (int k = 0; k < n; ++k)
+    columns.push_back({k, model.problem.shared[static_cast<std::size_t>(k)].scale});
+  std::vector<EliminatedTrial> parts(train.size());
+  ParallelFor(static_cast<int>(train.size()), jobs, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    TrialEvaluation e;
+    TrialEvaluator(model.problem, train[at]).Evaluate({model.shared, model.starts[at], true}, e);
+    if (e.complete) parts[at] = EliminateOwn(train[at], e, n, columns);
+  });
+  std::vector<Heterogeneity> out(static_cast<std::size_t>(n));
+  for (int k = 0; k < n; ++k) {
+    double information = 0.0, pull = 0.0, squares = 0.0;
+    int trials = 0;
+    for (const EliminatedTrial& part : parts) {
+      if (part.empty()) continue;
+      const double V = part.columns.col(k).squaredNorm();
+      const double g = part.columns.col(k).dot(part.residuals);
+      if (!(V > 0.0)) continue;
+      information += V;
+      pull += g;
+      squares += g * g / V;
+      ++trials;
+    }
+    if (trials < 2) continue;
+    Heterogeneity& h = out[static_cast<std::size_t>(k)];
+    h.chi2 = std::max(squares - pull * pull / information, 0.0);
+    h.degrees_of_freedom = trials - 1;
+    h.p_value = boost::math::cdf(
+        boost::math::complement(boost::math::chi_squared(static_cast<double>(trials - 1)), h.chi2));
+    Spread(parts, k, model.shared[k], columns[static_cast<std::size_t>(k)].scale, information, h);
+  }
+  return out;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "fitting/diagnosis/extension.h"
+
+namespace hoplab {
+
+/// Whether trials agree on one shared value of a fitted model, to first order at the fit.
+struct Heterogeneity {
+  double chi2 = 0.0;
+  int degrees_of_freedom = 0;  // trials that see it, less one
+  double p_value = 1.0;        // of chi2 if they agree
+
+  /// The value as N(mean, spread^2) over trials, the spread by restricted likelihood with every
+  /// other shared value free; unit of the value. spread 0: one value serves all.
+  double mean = 0.0, spread = 0.0;
+  double gain = 0.0;          // nats of restricted likelihood over one value for all
+  std::vector<double> sizes;  // one a trial, shrunk towards the mean; NaN: it does not see it
+};
+
+/// One a shared value of `model`, under its noise.
+std::vector<Heterogeneity> HeterogeneityOf(const Extension& model,
+                                           const std::vector<TrialProblem>& train, int jobs);
+
+}  // namespace hoplab

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/linearisation.h"
+
+namespace hoplab {
+
+/// The model linearised, under its noise, with the columns of candidates it does not have, at their
+/// null; any number of them. Rows are compressed: each trial has as many as there are columns and
+/// one, whose sums of products are those of all its rows, so that memory does not grow with the
+/// length of the trials. Their labels name the trial alone, and `raw` and `leverage` are empty.
+/// (Linearise gives every row.)
+Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tested,
+                          const std::vector<TrialProblem>& train, int jobs);
+
+}  // namespace hoplab

@@ -1,0 +1,65 @@
+#include "fitting/diagnosis/shares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+
+namespace hoplab {
+namespace {
+
+// Whether some channel's held-out error is larger without a cause by what an engineer would see.
+bool MakesAnError(const std::vector<double>& without, const std::vector<double>& with) {
+  constexpr double kSeen = 1.1;
+  for (std::size_t c = 0; c < std::min(without.size(), with.size()); ++c) {
+    if (without[c] > kSeen * with[c]) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool CauseReport::Varies() const {
+  constexpr double kCertain = 0.01;
+  return std::any_of(sizes.begin(), sizes.end(),
+                     [](const Heterogeneity& h) { return h.spread > 0.0 && h.p_value < kCertain; });
+}
+
+std::vector<CauseReport> TakeApart(const Naming& naming, const SharesRequest& request,
+                                   const RefitSettings& settings) {
+  const Extension& best = naming.best;
+  const double fall = request.plain_square - request.extended_square;
+  std::vector<CauseReport> causes(best.members.size());
+  ParallelFor(static_cast<int>(causes.size()), settings.jobs, [&](int i) {
+    CauseReport& cause = causes[static_cast<std::size_t>(i)];
+    cause.candidate = naming.best_set[static_cast<std::size_t>(i)];
+    cause.cause = best.members[static_cast<std::size_t>(i)];
+    cause.evidence_probability =
+        naming.candidates[static_cast<std::size_t>(cause.candidate)].probability;
+    cause.rmse_without.assign(best.problem.channels.size(),
+                              std::numeric_limits<double>::quiet_NaN());
+    const Extension& without = naming.without[static_cast<std::size_t>(i)];
+    if (!without.ok()) {
+      cause.share = 1.0;  // nothing could be simulated without it
+      cause.main = true;
+      return;
+    }
+    RefitSettings alone = settings;
+    alone.jobs = 1;
+    const Extension white = UnderWhiteNoise(without, alone);
+    cause.share = fall > 0.0 ? (white.white_square - request.extended_square) / fall : 0.0;
+    const HeldOutErrors errors = MeasureHeldOut(without, 1, /*test_only=*/true);
+    if (!errors.test.rmse.empty()) cause.rmse_without = errors.test.rmse;
+    cause.gain = CompareHeldOut(without, errors, *request.after, request.seed, nullptr);
+    const bool measured = cause.gain.ci95.has_value();
+    const bool material = cause.share >= request.material ||
+                          MakesAnError(cause.rmse_without, request.after->test.rmse);
+    cause.main = material && (!measured || cause.gain.IsClaim());
+  });
+  std::stable_sort(causes.begin(), causes.end(),
+                   [](const CauseReport& a, const CauseReport& b) { return a.share > b.share; });
+  return causes;
+}
+
+}  // namespace hoplab

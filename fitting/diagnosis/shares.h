@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fitting/diagnosis/calibration.h"
+#include "fitting/diagnosis/heterogeneity.h"
+#include "fitting/diagnosis/measure.h"
+#include "fitting/diagnosis/name.h"
+
+namespace hoplab {
+
+/// What one cause of the extension explains.
+struct CauseReport {
+  int candidate = 0;  // place in Naming::candidates
+  Candidate cause;
+  double probability = 0.0;           // that the name is right, calibrated (NameFeatures)
+  double group_probability = 0.0;     // that it or a name that does as well is, likewise
+  double evidence_probability = 0.0;  // that it acts, if only what is listed can
+  NameFeatures features;
+  /// Rise of the squared misfit without it over the fall from the plain model to the extension;
+  /// shares of causes that overlap do not add to one.
+  double share = 0.0;
+  /// It explains a material share of the misfit, or the held-out error is a tenth larger without
+  /// it; and held-out trials confirm it.
+  bool main = false;
+  std::vector<double> rmse_without;  // held-out, per channel; NaN where not computed
+  HeldOutGain gain;                  // held-out, of the extension over the model without it
+  /// One a parameter: whether trials agree on its size.
+  std::vector<Heterogeneity> sizes;
+  /// Some size differs between trials for certain.
+  bool Varies() const;
+};
+
+/// Share of the misfit below which a cause, or what is left, is of no consequence.
+inline constexpr double kMaterial = 0.02;
+
+/// What a sharing out is asked with.
+struct SharesRequest {
+  double plain_square = 0.0;             // squares the plain model leaves, under white noise
+  double extended_square = 0.0;          // the extension
+  const HeldOutErrors* after = nullptr;  // held-out errors of the extension
+  double material = kMaterial;
+  std::uint64_t seed = 1;
+};
+
+/// The extension `naming.best` taken apart, the largest share first. Squares are compared between
+/// models fitted under white noise.
+std::vector<CauseReport> TakeApart(const Naming& naming, const SharesRequest& request,
+                                   const RefitSettings& settings);
+
+}  // namespace hoplab

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "fitting/diagnosis/diagnosis.h"
+
+namespace hoplab {
+
+/// Squared misfit beyond noise that a model with `parameters` more values leaves, `square` in all,
+/// as a share of the plain model's, 0..1.
+double LeftShare(const Detection& seen, double square, int parameters);
+
+/// Weighs what is left, gives the verdict with its reason, and withdraws exclusions that are not
+/// earned: they are beside a sure name or an adequate model, and where nothing is left of which the
+/// share is above `material`.
+void Judge(Diagnosis& diagnosis, double material);
+
+}  // namespace hoplab

@@ -1,0 +1,237 @@
+#include "fitting/discrepancy/restricted_likelihood.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace hoplab {
+namespace {
+
+// A diagonal of R below this share of its column's length: a direction nothing sees.
+constexpr double kRankTolerance = 1e-10;
+
+bool OnBound(const SharedParameter& s, double value) {
+  const double near = 1e-6 * s.scale;
+  return value <= s.lower + near || value >= s.upper - near;
+}
+
+// Sum of the logarithms of the diagonal of R over its first `count` columns, what nothing sees left
+// out.
+double LogDiagonal(const Eigen::MatrixXd& R, Eigen::Index count, const Eigen::VectorXd& length) {
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double d = std::abs(R(k, k));
+    if (d > kRankTolerance * length[k]) sum += std::log(d);
+  }
+  return sum;
+}
+
+Eigen::MatrixXd UpperOf(const RowMajorMatrix& block) {
+  const Eigen::MatrixXd whole = block;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(whole);
+  const Eigen::Index rows = std::min(whole.rows(), whole.cols());
+  return qr.matrixQR().topRows(rows).template triangularView<Eigen::Upper>();
+}
+
+std::size_t StepFor(const std::vector<TrialProblem>& trials, std::size_t most_samples) {
+  std::size_t samples = 0;
+  for (const TrialProblem& t : trials) samples += static_cast<std::size_t>(t.sample_count);
+  return std::max<std::size_t>(1, samples / std::max<std::size_t>(most_samples, 1));
+}
+
+}  // namespace
+
+LikelihoodDetail LikelihoodDetail::Coarse() {
+  LikelihoodDetail detail;
+  detail.rows_a_channel = 150;
+  detail.most_samples = 20'000;
+  return detail;
+}
+
+RestrictedLikelihood::RestrictedLikelihood(const FitProblem& problem,
+                                           const std::vector<TrialProblem>& trials,
+                                           const Eigen::VectorXd& shared,
+                                           const std::vector<OwnValues>& starts, int jobs,
+                                           const LikelihoodDetail& detail)
+    : jobs_(jobs) {
+  for (int k = 0; k < problem.shared_count(); ++k) {
+    const bool bound = OnBound(problem.shared[static_cast<std::size_t>(k)], shared[k]);
+    (bound ? bound_ : free_).push_back(k);
+  }
+  if (detail.prior_widths.size() > 0) {
+    const std::vector<int> columns = Columns();
+    prior_widths_.resize(static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      prior_widths_[static_cast<Eigen::Index>(k)] = detail.prior_widths[columns[k]];
+  }
+  const std::size_t step = StepFor(trials, detail.most_samples);
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < trials.size(); i += step) places.push_back(i);
+  std::vector<Made> made(places.size());
+  ParallelFor(static_cast<int>(places.size()), jobs, [&](int i) {
+    const std::size_t place = places[static_cast<std::size_t>(i)];
+    made[static_cast<std::size_t>(i)] =
+        Make(problem, trials[place], shared, starts[place], detail.rows_a_channel);
+  });
+
+  const auto channels = static_cast<Eigen::Index>(problem.channels.size());
+  Eigen::ArrayXd square = Eigen::ArrayXd::Zero(channels), count = square;
+  double rows = 0.0, seconds = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!made[i].complete) continue;
+    square += made[i].squares;
+    count += made[i].counts;
+    white_square_ += made[i].white_square;
+    const std::vector<double>& times = trials[places[i]].row_times;
+    longest_ = std::max(longest_, 0.5 * times.back());
+    rows += static_cast<double>(times.size());
+    seconds += times.back();
+    parts_.push_back(std::move(made[i].part));
+  }
+  shortest_ = rows > 0.0 ? 3.0 * seconds / rows : 0.0;
+  for (Eigen::Index c = 0; c < channels; ++c)
+    root_mean_square_.push_back(count[c] > 0.0 ? std::sqrt(square[c] / count[c]) : 0.0);
+}
+
+std::vector<int> RestrictedLikelihood::Columns() const {
+  std::vector<int> columns = free_;
+  columns.insert(columns.end(), bound_.begin(), bound_.end());
+  return columns;
+}
+
+RestrictedLikelihood::Made RestrictedLikelihood::Make(const FitProblem& problem,
+                                                      const TrialProblem& trial,
+                                                      const Eigen::VectorXd& shared,
+                                                      const OwnValues& own,
+                                                      std::size_t rows_a_channel) const {
+  Made made;
+  const TrialEvaluator evaluator(problem, trial);
+  TrialEvaluation e;
+  EvaluationRequest request{shared, own, true};
+  request.whiten = false;
+  evaluator.Evaluate(request, e);
+  if (!e.complete) return made;
+  made.complete = true;
+  made.white_square = e.residuals.squaredNorm();
+  Part& part = made.part;
+  part.channels = evaluator.channel_rows();
+  part.averaged.assign(part.channels.size(), 1.0);
+
+  const std::vector<int> columns = Columns();
+  const auto width = static_cast<Eigen::Index>(columns.size());
+  const int n = problem.shared_count();
+  part.block.resize(e.residuals.size(), trial.own_count() + width + 1);
+  for (int k = 0; k < trial.own_count(); ++k) {
+    const OwnParameter& o = trial.own[static_cast<std::size_t>(k)];
+    if (o.free && e.jacobian.col(n + k).squaredNorm() > 0.0)
+      part.block.col(part.own++) = e.jacobian.col(n + k) * o.scale;
+  }
+  for (Eigen::Index k = 0; k < width; ++k) {
+    const auto place = static_cast<std::size_t>(columns[static_cast<std::size_t>(k)]);
+    part.block.col(part.own + k) =
+        e.jacobian.col(static_cast<Eigen::Index>(place)) * problem.shared[place].scale;
+  }
+  part.block.col(part.own + width) = e.residuals;
+  part.block.conservativeResize(Eigen::NoChange, part.own + width + 1);
+
+  const auto channels = static_cast<Eigen::Index>(problem.channels.size());
+  made.squares = made.counts = Eigen::ArrayXd::Zero(channels);
+  for (Eigen::Index c = 0; c < channels; ++c) {
+    for (const int row : part.channels[static_cast<std::size_t>(c)].rows) {
+      made.squares[c] += e.residuals[row] * e.residuals[row];
+      made.counts[c] += 1.0;
+    }
+  }
+  if (rows_a_channel > 0) Average(part, rows_a_channel);
+  return made;
+}
+
+// Means of some rows following each other, times the root of their number: white noise of size one
+// stays of size one, and what is slower than a mean grows by the root.
+void RestrictedLikelihood::Average(Part& part, std::size_t most) {
+  Eigen::Index samples = 0, rows = 0;
+  for (std::size_t c = 0; c < part.channels.size(); ++c) {
+    const std::size_t count = part.channels[c].rows.size();
+    const std::size_t together = std::max<std::size_t>(1, (count + most - 1) / most);
+    part.averaged[c] = static_cast<double>(together);
+    samples += static_cast<Eigen::Index>(count);
+    rows += static_cast<Eigen::Index>((count + together - 1) / together);
+  }
+  // Contact times and priors follow the samples.
+  const Eigen::Index others = part.block.rows() - samples;
+  RowMajorMatrix out(rows + others, part.block.cols());
+  int next = 0;
+  for (std::size_t c = 0; c < part.channels.size(); ++c) {
+    const ChannelRows all = std::move(part.channels[c]);
+    ChannelRows mean;
+    const auto together = static_cast<std::size_t>(part.averaged[c]);
+    for (std::size_t first = 0; first < all.rows.size(); first += together) {
+      const std::size_t end = std::min(first + together, all.rows.size());
+      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(part.block.cols());
+      double time = 0.0;
+      for (std::size_t k = first; k < end; ++k) {
+        sum += part.block.row(all.rows[k]);
+        time += all.times[k];
+      }
+      const auto count = static_cast<double>(end - first);
+      out.row(next) = sum / std::sqrt(count);
+      mean.rows.push_back(next++);
+      mean.times.push_back(time / count);
+    }
+    part.channels[c] = std::move(mean);
+  }
+  out.bottomRows(others) = part.block.bottomRows(others);
+  part.block = std::move(out);
+}
+
+double RestrictedLikelihood::Evaluate(const NoiseModel& noise,
+                                      std::vector<OneSided>* on_bounds) const {
+  const auto free = static_cast<Eigen::Index>(free_.size());
+  const auto width = free + static_cast<Eigen::Index>(bound_.size());
+  std::vector<double> logs(parts_.size(), 0.0);
+  std::vector<Eigen::MatrixXd> rest(parts_.size());
+  ParallelFor(static_cast<int>(parts_.size()), jobs_, [&](int i) {
+    const Part& part = parts_[static_cast<std::size_t>(i)];
+    RowMajorMatrix block = part.block;
+    double log_sum = 0.0;
+    for (std::size_t c = 0; c < part.channels.size(); ++c) {
+      const double ratio = noise.AmplitudeOf(c) * std::sqrt(part.averaged[c]);
+      if (!(ratio > 0.0)) continue;
+      const ChannelRows& at = part.channels[c];
+      log_sum += WhitenMatern(at.times, at.rows, ratio, noise.time_scale, block);
+    }
+    const Eigen::VectorXd length = block.colwise().norm();
+    const Eigen::MatrixXd R = UpperOf(block);
+    const Eigen::Index own = std::min<Eigen::Index>(part.own, R.rows());
+    logs[static_cast<std::size_t>(i)] = log_sum + LogDiagonal(R, own, length);
+    rest[static_cast<std::size_t>(i)] = R.bottomRightCorner(R.rows() - own, width + 1);
+  });
+  double log_sum = 0.0;
+  Eigen::Index rows = 0;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    log_sum += logs[i];
+    rows += rest[i].rows();
+  }
+  const Eigen::Index priors = prior_widths_.size();
+  RowMajorMatrix all = RowMajorMatrix::Zero(std::max(rows + priors, width + 1), width + 1);
+  Eigen::Index at = 0;
+  for (const Eigen::MatrixXd& r : rest) {
+    all.middleRows(at, r.rows()) = r;
+    at += r.rows();
+  }
+  for (Eigen::Index k = 0; k < priors; ++k) all(rows + k, k) = 1.0 / prior_widths_[k];
+  const Eigen::VectorXd length = all.colwise().norm();
+  const Eigen::MatrixXd R = UpperOf(all);
+  // Values on bounds stay there: what they could still explain counts as left over.
+  const double left = R.col(width).tail(width + 1 - free).squaredNorm();
+  if (on_bounds) {
+    on_bounds->clear();
+    for (Eigen::Index k = free; k < width; ++k)
+      on_bounds->push_back({bound_[static_cast<std::size_t>(k - free)], R(k, width), R(k, k)});
+  }
+  return -0.5 * left - log_sum - LogDiagonal(R, free, length);
+}
+
+}  // namespace hoplab

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "fitting/problem.h"
+#include "fitting/trial_evaluator.h"
+
+namespace hoplab {
+
+/// What a marginal likelihood says of one value on a bound.
+struct OneSided {
+  int parameter = 0;  // place among the shared values
+  /// Half the squared length of what moving it inside, by u of its scales, leaves of the residuals
+  /// is (offset + slope u)^2/2, all other values following.
+  double offset = 0.0, slope = 0.0;
+};
+
+/// How much of the data a likelihood is of. What noise is like is common to all trials and slower
+/// than a row, so a search for it can do with less.
+struct LikelihoodDetail {
+  /// Rows of a trial's channel are averaged until there are no more than these; 0: every row.
+  std::size_t rows_a_channel = 0;
+  /// Of more samples every second trial is taken, or every third, ...
+  std::size_t most_samples = std::numeric_limits<std::size_t>::max();
+  /// Widths of the shared values' priors in their scales: what they bound is not counted as a gain
+  /// that no data made. Empty: flat.
+  Eigen::VectorXd prior_widths;
+
+  /// For a search.
+  static LikelihoodDetail Coarse();
+};
+
+/// Trials linearised at one point, in units of the channels' sigma: the restricted likelihood of
+/// any noise there.
+class RestrictedLikelihood {
+ public:
+  /// Simulates `trials` (of `problem`) once. Trials that cannot be simulated to the end of their
+  /// data are left out. Shared values on a bound are taken as given.
+  RestrictedLikelihood(const FitProblem& problem, const std::vector<TrialProblem>& trials,
+                       const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
+                       int jobs, const LikelihoodDetail& detail = {});
+
+  /// Restricted log-likelihood [nats]: of the residuals with the linearised values marginalised
+  /// under flat priors (beyond the own ones' stated priors), but for a constant that no noise
+  /// changes:
+  ///   - 1/2 |r~|^2 (r~ whitened, its values' best fit taken off) - 1/2 log |C| - 1/2 log |J~' J~|
+  /// The columns of J are per scale of the values.
+  double At(const NoiseModel& noise) const { return Evaluate(noise, nullptr); }
+  /// The same, and what it says of the values on bounds.
+  double At(const NoiseModel& noise, std::vector<OneSided>& on_bounds) const {
+    return Evaluate(noise, &on_bounds);
+  }
+
+  /// Root mean square of a channel's residuals over sigma.
+  double RootMeanSquare(std::size_t channel) const { return root_mean_square_[channel]; }
+  std::size_t channels() const { return root_mean_square_.size(); }
+  /// Greatest and least time scale the data can tell [s]: half the longest trial, three rows.
+  double longest() const { return longest_; }
+  double shortest() const { return shortest_; }
+  /// Shared values that are marginalised.
+  int marginalised() const { return static_cast<int>(free_.size()); }
+  /// Sum of squares of the data over sigma, and of priors: what white noise sees.
+  double white_square() const { return white_square_; }
+
+ private:
+  struct Part {
+    std::vector<ChannelRows> channels;
+    std::vector<double> averaged;  // rows of one channel that were averaged into one
+    RowMajorMatrix block;          // own columns, free shared ones, those on bounds, residuals
+    Eigen::Index own = 0;
+  };
+  // What one trial tells of itself.
+  struct Made {
+    Part part;
+    bool complete = false;
+    double white_square = 0.0;
+    Eigen::ArrayXd squares, counts;  // per channel
+  };
+  Made Make(const FitProblem& problem, const TrialProblem& trial, const Eigen::VectorXd& shared,
+            const OwnValues& own, std::size_t rows_a_channel) const;
+  std::vector<int> Columns() const;
+  static void Average(Part& part, std::size_t most);
+  double Evaluate(const NoiseModel& noise, std::vector<OneSided>* on_bounds) const;
+
+  std::vector<Part> parts_;
+  std::vector<int> free_, bound_;  // shared values
+  Eigen::VectorXd prior_widths_;   // of these, in this order; empty: flat
+  std::vector<double> root_mean_square_;
+  double longest_ = 0.0, shortest_ = 0.0, white_square_ = 0.0;
+  int jobs_;
+};
+
+}  // namespace hoplab

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "fitting/problem.h"
+#include "fitting/trial_evaluator.h"
+
+namespace hoplab {
+
+/// Whether a search has ended at a minimum.
+struct StopCheck {
+  /// Every simulation reaches the end of its data.
+  bool complete = false;
+  /// Log-likelihood that the linear model still promises there, bounds respected [nats]; NaN where
+  /// not even a free flight leads on. At a minimum it is far below one.
+  double promised_nats = std::numeric_limits<double>::quiet_NaN();
+  /// Shared values on a bound where no physics ends: a modulus can be neither 1e3 nor 1e13 Pa.
+  std::vector<std::string> at_wall;
+  /// What speaks against a minimum, one sentence each.
+  std::vector<std::string> faults;
+
+  bool IsMinimum() const { return faults.empty(); }
+};
+
+/// A gain below this is the tolerance of two searches [nats].
+inline constexpr double kMinimumNats = 0.1;
+
+/// Linearises `trials` (of `problem`) at the values where a search has ended.
+StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& trials,
+                    const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
+                    const Loss& loss, int jobs);
+
+}  // namespace hoplab

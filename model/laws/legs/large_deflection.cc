@@ -1,0 +1,14 @@
+#include "model/laws/elastic_arc.h"
+#include "model/laws/legs/make_leg_law.h"
+#include "model/mechanisms/c_leg.h"
+
+namespace hoplab {
+// Outside any unnamed namespace: GCC 12 gives instantiations on an alias of the same name in two
+// unnamed namespaces one symbol.
+template <class T>
+using LargeDeflectionLeg = CLeg<T, LargeDeflectionLaw>;
+
+namespace leg_laws {
+extern constexpr LegLaw large_deflection = MakeLegLaw<LargeDeflectionLeg>(Law::kLargeDeflection);
+}
+}  // namespace hoplab

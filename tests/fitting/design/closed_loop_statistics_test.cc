@@ -1,0 +1,224 @@
+// The generator as the machine: from three trials with a confounded cause, the trial to record next
+// is proposed, generated, added and diagnosed, until the cause is sure; against trials drawn at
+// random from the same space.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "base/input_error.h"
+#include "base/random.h"
+#include "fitting/design/design_search.h"
+#include "tests/fitting/diagnosis/study.h"
+#include "tests/support/diagnosed_hops.h"
+
+namespace hoplab::testing {
+namespace {
+
+constexpr int kFirstTrials = 3, kMostTrials = 6;
+// Trials that count where the cause is not sure after the last one.
+constexpr int kNotSure = kMostTrials + 1;
+
+struct LoopCase {
+  const char* effect;
+  double size;
+  std::uint64_t seed;
+};
+
+// Sizes at which three trials often leave the effect among others as good.
+const std::vector<std::pair<const char*, double>> kPlanted = {{"touchdown_loss", 0.008},
+                                                              {"touchdown_loss", 0.012},
+                                                              {"touchdown_angle_bias", 0.003},
+                                                              {"touchdown_angle_bias", 0.004},
+                                                              {"gravity_scale", 0.003},
+                                                              {"air_drag", 0.005},
+                                                              {"air_drag", 0.008}};
+// Chance is drawn several times for each case.
+constexpr int kDraws = 3;
+
+struct LoopEnd {
+  bool confounded = false;  // the first trials leave the cause among others as good
+  int trials = kNotSure;    // recorded when the cause was sure
+  double probability = 0.0;
+  std::size_t set = 0;  // of names as good as each other, after the last trial; 0: none
+};
+
+class Machine {
+ public:
+  explicit Machine(const LoopCase& of) : case_(of), scenario_(HopScenario(2)) {
+    scenario_.effects = {EffectOfSize(of.effect, of.size)};
+    scenario_.dataset->sample_rate_hz = 100.0;
+    std::vector<GenerateTrial>& trials = scenario_.dataset->trials;
+    trials.erase(trials.begin() + 7, trials.end());  // one test trial
+    trials.erase(trials.begin() + kFirstTrials, trials.begin() + 6);
+    GenerateOptions options;
+    options.seed = of.seed;
+    recorded_ = GenerateDataset(scenario_, options).dataset;
+    SetNominal(recorded_);
+  }
+
+  const Dataset& recorded() const { return recorded_; }
+  int trials() const { return static_cast<int>(recorded_.trials.size()) - 1; }
+
+  // Recorded as long as the trial it is like. False, and no trial more, where the machine falls.
+  bool Add(const TrialDesign& design, double seconds) {
+    Scenario one = scenario_;
+    one.stop = {seconds, std::nullopt};
+    GenerateTrial t = one.dataset->trials.front();
+    t.file = "train-" + std::to_string(10 + trials()) + ".csv";
+    t.touchdown_angle_rad = design.touchdown_angle;
+    t.initial = StateSpec{0.0, design.height, design.speed, design.throw_speed};
+    t.mechanism.body_mass_kg += design.added_mass;
+    one.dataset->trials = {t};
+    try {
+      GenerateOptions options;
+      options.seed = case_.seed * 1000 + static_cast<std::uint64_t>(trials());
+      GeneratedDataset made = GenerateDataset(one, options);
+      if (!made.notes.empty()) return false;
+      SetNominal(made.dataset);
+      recorded_.trials.push_back(made.dataset.trials.front());
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+ private:
+  static void SetNominal(Dataset& d) {
+    const auto set = [](MechanismSpec& m) {
+      m.c_leg.E_Pa = 20e9;
+      m.c_leg.damping_N_s_per_m = 1.0;
+    };
+    set(d.mechanism);
+    for (Trial& t : d.trials) set(t.mechanism);
+  }
+
+  LoopCase case_;
+  Scenario scenario_;
+  Dataset recorded_;
+};
+
+// By the evidence: among the causes of the list, which are those a trial is to tell apart.
+double ProbabilityOf(const Diagnosis& d, const std::string& effect) {
+  if (!d.extension) return 0.0;
+  for (const CauseReport& c : d.extension->causes) {
+    if (c.cause.effect->info.name == effect) return c.evidence_probability;
+  }
+  return 0.0;
+}
+
+std::size_t SetOf(const Diagnosis& d, const std::string& effect) {
+  for (std::size_t m = 0; m < d.naming.groups.size(); ++m) {
+    const std::vector<std::string> names = GroupNames(d.naming, m);
+    if (std::find(names.begin(), names.end(), effect) != names.end()) return names.size();
+  }
+  return 0;
+}
+
+// What `hoplab design` looks for, and where one cause remains that is not sure, the trial that
+// tells it from none.
+std::vector<DesignTried> Proposed(const Diagnosis& d, const DesignSpace& space) {
+  const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
+  DesignSearchRequest request;
+  request.space = space;
+  std::vector<Extension> rivals;
+  for (const std::vector<Extension>& group : d.naming.rivals) {
+    if (group.size() > 1 && rivals.empty()) rivals = group;
+  }
+  if (rivals.empty() && !d.naming.best.members.empty())
+    rivals = {d.naming.best, d.naming.without.front()};
+  if (rivals.size() < 2) return SearchSharpening(d.null, 0, train, request).best;
+  rivals.resize(std::min<std::size_t>(rivals.size(), 4));
+  const std::vector<double> even(rivals.size(), 1.0 / static_cast<double>(rivals.size()));
+  return SearchSeparating(rivals, even, train, request).best;
+}
+
+// `chance`: number of the stream random trials are drawn from; 0: trials are proposed.
+LoopEnd RunLoop(const LoopCase& of, int chance) {
+  const bool proposes = chance == 0;
+  Machine machine(of);
+  RandomStream random(of.seed, 77 + static_cast<std::uint64_t>(chance));
+  const FitProblem first = MakeProblem(machine.recorded(), {});
+  const DesignSpace space = DefaultSpace(first, TrialsOf(first, TrialRole::kTrain));
+  const double seconds = space.like.row_times.back();
+  LoopEnd end;
+  for (;;) {
+    const Diagnosis d = Diagnose(machine.recorded(), OptionsWith(kSixEffects));
+    end.probability = ProbabilityOf(d, of.effect);
+    end.set = SetOf(d, of.effect);
+    if (end.probability >= kSure) {
+      end.trials = machine.trials();
+      return end;
+    }
+    if (machine.trials() == kMostTrials) return end;
+    if (machine.trials() == kFirstTrials) end.confounded = end.set > 1;
+    if (!end.confounded) return end;
+    bool added = false;
+    if (proposes) {
+      // The model that proposes is not the machine: it may fall where the model does not.
+      for (const DesignTried& tried : Proposed(d, space)) {
+        if (!added) added = machine.Add(tried.design, seconds);
+      }
+    }
+    // A trial that falls is drawn anew, which is kind to chance.
+    for (int draw = 0; draw < 100 && !added; ++draw) {
+      std::vector<double> point(space.Searched().size());
+      for (double& x : point) x = random.Uniform(0.0, 1.0);
+      added = machine.Add(space.At(point), seconds);
+    }
+    if (!added) return end;
+  }
+}
+
+TEST(DesignStatistics, AProposedTrialIsWorthMoreThanARandomOne) {
+  const int seeds = SeedCount(6);
+  const int every = EveryNth() > 1 ? 3 : 1;  // the short version: two effects
+  Report report("8-closed-loop", "Trials until the cause is sure");
+  report.Say(
+      "From %d trials, one more at a time until P(cause) >= %.2f or %d trials (%d counts where "
+      "it is not sure then). Random trials that fall are drawn anew.",
+      kFirstTrials, kSure, kMostTrials, kNotSure);
+  report.Head({"effect", "size", "seed", "proposed", "random", "P proposed", "set proposed"});
+  double proposed = 0.0, random = 0.0, sets = 0.0;
+  int cases = 0, confounded = 0, not_sure = 0, random_not_sure = 0;
+  for (std::size_t i = 0; i < kPlanted.size(); i += static_cast<std::size_t>(every)) {
+    for (int s = 0; s < seeds; ++s) {
+      const LoopCase of{kPlanted[i].first, kPlanted[i].second, 200 + static_cast<std::uint64_t>(s)};
+      const LoopEnd by_design = RunLoop(of, 0);
+      ++cases;
+      if (!by_design.confounded) continue;
+      ++confounded;
+      not_sure += by_design.trials == kNotSure;
+      sets += static_cast<double>(by_design.set);
+      proposed += by_design.trials - kFirstTrials;
+      std::string drawn;
+      for (int chance = 1; chance <= kDraws; ++chance) {
+        const LoopEnd by_chance = RunLoop(of, chance);
+        random += static_cast<double>(by_chance.trials - kFirstTrials) / kDraws;
+        random_not_sure += by_chance.trials == kNotSure;
+        drawn += (drawn.empty() ? "" : ", ") + std::to_string(by_chance.trials);
+      }
+      report.Row({of.effect, Cell("%g", of.size), Cell("%d", s), Cell("%d", by_design.trials),
+                  drawn, Cell("%.3f", by_design.probability), Cell("%zu", by_design.set)});
+    }
+  }
+  const double share = random > 0.0 ? proposed / random : 0.0;
+  report.Say(
+      "%d of %d cases are confounded after %d trials. Further trials: %.0f proposed, %.0f "
+      "random: %.0f %% of them. Not sure in the end: %d of %d proposed, %d of %d random. Names as "
+      "good as each other after the last: %.2f.",
+      confounded, cases, kFirstTrials, proposed, random, 100.0 * share, not_sure, confounded,
+      random_not_sure, kDraws * confounded, sets / std::max(confounded, 1));
+  ASSERT_GT(confounded, 0);
+  // The short version has too few cases for a share.
+  if (every == 1) {
+    EXPECT_LE(share, 0.6);
+    EXPECT_LE(sets / confounded, 1.3);
+  } else {
+    EXPECT_LE(proposed, random);
+  }
+}
+
+}  // namespace
+}  // namespace hoplab::testing
