@@ -73,10 +73,9 @@ TEST(CompareCli, PrintsEveryLawAgainstTheTruth) {
 
 TEST(CompareCli, TheElasticaWithItsLegsDampingAndMassBringsTheModulusWithinOnePercent) {
   const TempFolder temp;
-  const ProcessResult run =
-      RunHoplab({"compare", ShippedDataset("rig-drops"), "--variant",
-                 "elastica+leg_material_damping+leg_mass", "--json"},
-                temp.path());
+  const ProcessResult run = RunHoplab({"compare", ShippedDataset("rig-drops"), "--variant",
+                                       "elastica+leg_material_damping+leg_mass", "--json"},
+                                      temp.path());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json row = nlohmann::json::parse(run.out).at("rows").at(0);
   // E I of the rig, by its truth file: 2.69101 N m^2, with the dataset's section 21.991 GPa.
