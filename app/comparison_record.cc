@@ -225,7 +225,7 @@ Json ErrorsRecord(const std::vector<Side>& sides) {
     add("train error", c, UnitOfChannel(c),
         [&](const Side& s) { return NumberAt(s.train(), "/rmse/" + c); });
   }
-  add("test misfit", "", "nats a sample",
+  add("test nll", "", "nats a sample",
       [](const Side& s) { return NumberAt(s.test(), "/nll_per_sample"); });
   add("chi2 per sample", "", "", [](const Side& s) { return s.chi2(); });
   return out;
@@ -243,12 +243,12 @@ Json CausesRecord(const std::vector<Side>& sides) {
   for (const std::string& name : names) {
     Json runs = Json::array();
     for (const Side& side : sides) {
-      Json found = nullptr;
+      Json found = {{"looked_for", side.is_diagnosis()}, {"found", false}};
       for (const Json& cause : At(side.record(), "/causes")) {
         if (TextAt(cause, "/name") != name) continue;
-        found = {{"probability", At(cause, "/probability")},
-                 {"share", At(cause, "/share")},
-                 {"parameters", At(cause, "/parameters")}};
+        found["found"] = true;
+        for (const char* key : {"probability", "share", "parameters"})
+          found[key] = At(cause, std::string("/") + key);
       }
       runs.push_back(found);
     }
@@ -284,8 +284,13 @@ Json ChangedRecord(const std::vector<Side>& sides) {
     return part.is_object() && part.contains(key) ? part.at(key) : Json(nullptr);
   };
   const auto options = [](const Side& s) -> const Json& { return At(s.record(), "/options"); };
-  for (const std::string& key : keys_of(options))
+  for (const std::string& key : keys_of(options)) {
+    // What only one of two commands knows was not set.
+    const bool common = std::all_of(sides.begin(), sides.end(),
+                                    [&](const Side& s) { return options(s).contains(key); });
+    if (!common) continue;
     add("option", key, [&](const Side& s) { return entry(options(s), key); });
+  }
   const auto stated = [](const Side& s) -> const Json& { return At(s.mechanism(), "/parameters"); };
   for (const std::string& key : keys_of(stated)) {
     const bool fitted = std::any_of(sides.begin(), sides.end(),

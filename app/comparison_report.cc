@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/comparison_record.h"
@@ -89,34 +90,27 @@ std::vector<std::string> ErrorLines(const Json& record) {
   return table.Lines();
 }
 
-std::vector<std::string> CauseLines(const Json& record) {
-  TextTable table = RunsTable(record, "causes");
-  for (const Json& cause : record["causes"]) {
-    std::vector<std::string> cells = {Text(cause["name"])};
-    for (const Json& own : cause["runs"]) {
-      std::vector<std::string> parts;
-      if (own.is_object()) {
-        for (const Json& p : own["parameters"]) {
-          const ReadableUnit unit = ReadableUnitOf(Number(p["value"]), Text(p["unit"]));
-          parts.push_back(Text(p["name"]) + " " + Significant(Number(p["value"]) * unit.factor, 3) +
-                          (unit.unit.empty() ? "" : " " + unit.unit));
-        }
-        if (own["share"].is_number())
-          parts.push_back(Significant(100.0 * Number(own["share"]), 2) + " % of the misfit");
-        if (own["probability"].is_number())
-          parts.push_back("probability " + Significant(Number(own["probability"]), 2));
-      }
-      cells.push_back(parts.empty() ? "not found" : Join(parts));
-    }
-    table.AddRow(cells);
+// "eta 0.046, 96 % of the misfit, probability 0.89".
+std::string CauseText(const Json& own) {
+  if (own["found"] != Json(true))
+    return own["looked_for"] == Json(true) ? "not found" : "not looked for";
+  std::vector<std::string> parts;
+  for (const Json& p : own["parameters"]) {
+    const ReadableUnit unit = ReadableUnitOf(Number(p["value"]), Text(p["unit"]));
+    parts.push_back(Text(p["name"]) + " " + Significant(Number(p["value"]) * unit.factor, 3) +
+                    (unit.unit.empty() ? "" : " " + unit.unit));
   }
-  return table.Lines();
+  if (own["share"].is_number())
+    parts.push_back(Significant(100.0 * Number(own["share"]), 2) + " % of the misfit");
+  if (own["probability"].is_number())
+    parts.push_back("probability " + Significant(Number(own["probability"]), 2));
+  return Join(parts);
 }
 
 std::string SettingText(const Json& value) {
   if (value.is_null() || (value.is_structured() && value.empty())) return "none";
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_float()) return Significant(value.get<double>(), 6);
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
   std::vector<std::string> parts;
   if (value.is_array()) {
     for (const Json& each : value) parts.push_back(SettingText(each));
@@ -127,14 +121,21 @@ std::string SettingText(const Json& value) {
   return Join(parts);
 }
 
-std::vector<std::string> ChangeLines(const Json& record) {
-  TextTable table = RunsTable(record, "set otherwise");
-  for (const Json& change : record["changed"]) {
-    std::vector<std::string> cells = {Text(change["key"])};
-    for (const Json& value : change["values"]) cells.push_back(SettingText(value));
-    table.AddRow(cells);
+// One line a name and run, wrapped: texts may be long.
+std::vector<std::string> NamedLines(const std::string& title, const Json& entries,
+                                    const std::string& name, const std::string& values,
+                                    const auto& text_of) {
+  std::size_t width = title.size();
+  for (const Json& entry : entries) width = std::max(width, Text(entry[name]).size());
+  std::vector<std::string> lines = {"  " + title};
+  for (const Json& entry : entries) {
+    for (std::size_t i = 0; i < entry[values].size(); ++i) {
+      const std::string begin =
+          fmt::format("  {:<{}}  {}  ", i == 0 ? Text(entry[name]) : "", width, i + 1);
+      lines.push_back(begin + Wrapped(text_of(entry[values][i]), begin.size(), kReportWidth));
+    }
   }
-  return table.Lines();
+  return lines;
 }
 
 }  // namespace
@@ -157,8 +158,8 @@ std::string ComparisonReport(const Json& record, bool colours) {
   };
   part(ValueLines(record));
   part(ErrorLines(record));
-  part(CauseLines(record));
-  part(ChangeLines(record));
+  part(NamedLines("causes", record["causes"], "name", "runs", CauseText));
+  part(NamedLines("set otherwise", record["changed"], "key", "values", SettingText));
   return text + "\n";
 }
 

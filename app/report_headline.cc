@@ -387,11 +387,16 @@ void ComparisonHeadline(const Json& record, Headline& out) {
   out.figures.back().note = fmt::format("of {} values", SizeAt(record, "/values"));
   const std::string errors = fmt::format("/errors/0/values/{}", last);
   const std::string channel = TextAt(record, "/errors/0/channel");
+  const std::string what = TextAt(record, "/errors/0/what"),
+                    unit = TextAt(record, "/errors/0/unit");
   HeadlineFigure error =
-      Figure(record, TextAt(record, "/errors/0/what") + ", " + WithoutUnit(channel), errors,
-             TextAt(record, "/errors/0/unit"), 3);
-  error.note =
-      "was " + ErrorText(NumberAt(record, "/errors/0/values/0"), TextAt(record, "/errors/0/unit"));
+      Figure(record, what + (channel.empty() ? "" : ", ") + WithoutUnit(channel), errors, unit, 3);
+  if (unit == "m") {  // as the tables say it
+    const std::string text = ErrorText(NumberAt(record, errors), unit);
+    error.value = text.substr(0, text.find(' '));
+    error.unit = "mm";
+  }
+  error.note = "was " + ErrorText(NumberAt(record, "/errors/0/values/0"), unit);
   out.figures.push_back(error);
 }
 

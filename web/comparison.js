@@ -35,8 +35,8 @@ function comparedValueRows(values, names) {
   });
 }
 
-function causeText(own) {
-  if (!own) return 'not found';
+function comparedCauseText(own) {
+  if (!own.found) return own.looked_for ? 'not found' : 'not looked for';
   const parts = list(own.parameters).map((p) => `${p.name} ${quantity(p.value, p.unit, 3)}`);
   if (isNumber(own.share)) parts.push(`${percent(own.share, 2)} of the misfit`);
   if (isNumber(own.probability)) parts.push(`probability ${significant(own.probability, 2)}`);
@@ -47,19 +47,19 @@ function comparisonReport() {
   const names = list(run.runs).map((r) => r.name);
   const common = list(run.runs).slice(1).some((r) => !r.other_recordings_than_first);
   section('Runs', dataTable(['', 'run', 'of', 'law', 'verdict'], list(run.runs).map((r, i) =>
-    [String(i + 1), r.name, `${r.command} of ${r.dataset}`, words(r.law), words(r.verdict ?? r.status)]), 'rllll', 'Runs'));
+    [String(i + 1), r.name, `${r.command} of ${r.dataset}`, words(r.law), words(r.verdict ?? r.status)]), 'rllll'));
   section('Values', comparisonPlot(list(run.values), names),
-    dataTable(['', 'run', 'value', '95 % interval', 'unit', 'change', '95 %', 'z', ''], comparedValueRows(list(run.values), names), 'llrllrlrl', 'Values'),
+    dataTable(['', 'run', 'value', '95 % interval', 'unit', 'change', '95 %', 'z', ''], comparedValueRows(list(run.values), names), 'llrllrlrl'),
     paragraph('A change is clear where all values of a run together would show such a one by chance in less than one comparison of twenty (Holm). Its interval joins those of both runs, between trials where a model misses more than the noise.', 'note'),
     common ? paragraph('Runs on the same recordings share their errors: their differences have no interval and no z.', 'note') : undefined);
   section('Errors', dataTable(['', ...names], list(run.errors).map((e) => {
     const scale = errorScale(e.unit);
     return [`${e.what}${e.channel ? `, ${splitUnit(e.channel).name}` : ''}`, ...e.values.map((v) => (isNumber(v) ? `${significant(v * scale.factor, 3)} ${scale.unit}`.trim() : notComputed))];
-  }), `l${'r'.repeat(names.length)}`, 'Errors'));
+  }), `l${'r'.repeat(names.length)}`));
   if (list(run.causes).length)
-    section('Causes', dataTable(['', ...names], run.causes.map((c) => [words(c.name), ...c.runs.map(causeText)]), 'l', 'Causes'));
+    section('Causes', dataTable(['', ...names], run.causes.map((c) => [words(c.name), ...c.runs.map(comparedCauseText)]), 'l'));
   section('Set otherwise', list(run.changed).length
-    ? dataTable(['', ...names], run.changed.map((c) => [words(c.key), ...c.values.map(settingText)]), 'l', 'What was set otherwise')
+    ? dataTable(['', ...names], run.changed.map((c) => [words(c.key), ...c.values.map(settingText)]), 'l')
     : paragraph('Nothing: the runs differ in their recordings alone.'));
   runDetails();
 }

@@ -42,7 +42,7 @@ int leg_load_driven(leg_state *leg, const leg_hip *hip, double motor, leg_load *
   leg_instant s;
   *load = none;
   if (leg->mode == LEG_FLIGHT) return 0;
-  if (leg_solve(leg, hip, &s) != 0) return 1;
+  if (leg_solve(leg, hip, &s) != 0 || !(fabs(s.elastic) < HUGE_VAL)) return 1;
   force = leg_chord_force(y, &s);
   load->torque = motor;
 @TORQUE@  normal = load->torque / (s.l * s.l);
