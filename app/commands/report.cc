@@ -64,10 +64,10 @@ void AddReportCommand(CLI::App& app, Invocation& invocation) {
       ->required();
   AddRunFolderOptions(sub, *settings, "Folder of a comparison (default runs/<run>-comparison-NNN)");
   sub.footer(
-      "Every command that writes a run folder writes report.html into it: one file that\n"
-      "opens without a network. With one run this one writes it again, as after an update of\n"
-      "hoplab. With several it tells what changed: values with the intervals of their\n"
-      "differences, errors, causes, settings.\n"
+      "Every command that writes a run folder writes report.html into it: one file\n"
+      "that opens without a network. With one run this one writes it again, as after\n"
+      "an update of hoplab. With several it tells what changed: values with the\n"
+      "intervals of their differences, errors, causes, settings.\n"
       "Examples:\n"
       "  hoplab report runs/rig-drops-fit-001\n"
       "  hoplab report runs/old-bearing-fit-001 runs/new-bearing-fit-001");

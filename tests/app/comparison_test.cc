@@ -46,8 +46,8 @@ Json Compare(const std::vector<Json>& records) {
 }
 
 TEST(Comparison, ADifferenceJoinsTheIntervalsOfBoth) {
-  const Json record = Compare(
-      {FitOf("old", {Parameter("E", 100.0, 3.0)}), FitOf("new", {Parameter("E", 110.0, 4.0)})});
+  const Json record = Compare({FitOf("old", Json::array({Parameter("E", 100.0, 3.0)})),
+                               FitOf("new", Json::array({Parameter("E", 110.0, 4.0)}))});
   const Json& own = record["values"][0]["runs"][1];
   EXPECT_DOUBLE_EQ(own["difference"].get<double>(), 10.0);
   EXPECT_NEAR(own["difference_ci95"][0].get<double>(), 5.0, 1e-12);  // 10 -+ hypot(3, 4)
@@ -63,8 +63,9 @@ TEST(Comparison, ADifferenceJoinsTheIntervalsOfBoth) {
 
 TEST(Comparison, WhereAModelMissesMoreThanTheNoiseTheIntervalBetweenTrialsCounts) {
   const Json p = Parameter("E", 100.0, 3.0, 12.0), q = Parameter("E", 110.0, 4.0, 5.0);
-  const Json noise = Compare({FitOf("old", {p}), FitOf("new", {q})});
-  const Json misfit = Compare({FitOf("old", {p}, true), FitOf("new", {q}, true)});
+  const Json noise = Compare({FitOf("old", Json::array({p})), FitOf("new", Json::array({q}))});
+  const Json misfit =
+      Compare({FitOf("old", Json::array({p}), true), FitOf("new", Json::array({q}), true)});
   const auto half = [](const Json& record) {
     const Json& range = record["values"][0]["runs"][1]["difference_ci95"];
     return 0.5 * (range[1].get<double>() - range[0].get<double>());
@@ -87,8 +88,8 @@ TEST(Comparison, OfManyValuesOneIsNotClearByChance) {
 }
 
 TEST(Comparison, RunsOnTheSameRecordingsHaveNoIntervalOfTheirDifference) {
-  const Json record = Compare(
-      {FitOf("old", {Parameter("E", 100.0, 3.0)}), FitOf("old", {Parameter("E", 110.0, 4.0)})});
+  const Json record = Compare({FitOf("old", Json::array({Parameter("E", 100.0, 3.0)})),
+                               FitOf("old", Json::array({Parameter("E", 110.0, 4.0)}))});
   const Json& own = record["values"][0]["runs"][1];
   EXPECT_DOUBLE_EQ(own["difference"].get<double>(), 10.0);
   EXPECT_TRUE(own["difference_ci95"].is_null());
@@ -97,11 +98,11 @@ TEST(Comparison, RunsOnTheSameRecordingsHaveNoIntervalOfTheirDifference) {
 }
 
 TEST(Comparison, WhatOneRunDoesNotHaveIsNullAndWhatDiffersIsListed) {
-  Json other = FitOf("new", {Parameter("d", 2.0, 0.1)});
+  Json other = FitOf("new", Json::array({Parameter("d", 2.0, 0.1)}));
   other["law"] = "thesis";
   other["options"]["starts"] = 8;
   other["mechanism"]["parameters"]["m"] = 1.1;
-  const Json record = Compare({FitOf("old", {Parameter("E", 100.0, 3.0)}), other});
+  const Json record = Compare({FitOf("old", Json::array({Parameter("E", 100.0, 3.0)})), other});
   ASSERT_EQ(record["values"].size(), 2u);
   EXPECT_TRUE(record["values"][0]["runs"][1]["value"].is_null());
   EXPECT_TRUE(record["values"][1]["runs"][0]["value"].is_null());
@@ -110,7 +111,7 @@ TEST(Comparison, WhatOneRunDoesNotHaveIsNullAndWhatDiffersIsListed) {
   for (const Json& each : record["changed"]) changed.push_back(each["key"].get<std::string>());
   EXPECT_EQ(changed, (std::vector<std::string>{"dataset", "law", "dataset", "starts", "m"}))
       << "not E, which one of them fitted";
-  EXPECT_EQ(record["errors"][0]["values"], (Json{1e-3, 1e-3}));
+  EXPECT_EQ(record["errors"][0]["values"], (Json::array({1e-3, 1e-3})));
   const std::string text = ComparisonReport(record, false);
   EXPECT_NE(text.find("thesis"), std::string::npos);
   EXPECT_NE(ComparisonTable(record).find("\nE,Pa,a,100,97,103,,,,\n"), std::string::npos)
@@ -118,23 +119,24 @@ TEST(Comparison, WhatOneRunDoesNotHaveIsNullAndWhatDiffersIsListed) {
 }
 
 TEST(Comparison, OfADiagnosisTheValuesAreThoseOfTheModelWithItsCauses) {
-  Json diagnosis = {{"schema", kRunSchema},
-                    {"command", "diagnose"},
-                    {"status", "ok"},
-                    {"dataset", "new"},
-                    {"verdict", "named"},
-                    {"options", {{"dataset", "new"}}},
-                    {"null", {{"parameters", {Parameter("E", 1.0, 0.1)}}, {"chi2_per_dof", 9.0}}},
-                    {"extension",
-                     {{"parameters", {Parameter("E", 2.0, 0.1)}},
-                      {"chi2_per_dof", 1.0},
-                      {"test_after", {{"rmse", {{"body_y_m", 5e-4}}}}}}},
-                    {"causes",
-                     {{{"name", "air_drag"},
-                       {"share", 0.9},
-                       {"probability", 0.8},
-                       {"parameters", Json::array()}}}}};
-  const Json first = FitOf("old", {Parameter("E", 3.0, 0.1)});
+  Json diagnosis = {
+      {"schema", kRunSchema},
+      {"command", "diagnose"},
+      {"status", "ok"},
+      {"dataset", "new"},
+      {"verdict", "named"},
+      {"options", {{"dataset", "new"}}},
+      {"null", {{"parameters", Json::array({Parameter("E", 1.0, 0.1)})}, {"chi2_per_dof", 9.0}}},
+      {"extension",
+       {{"parameters", Json::array({Parameter("E", 2.0, 0.1)})},
+        {"chi2_per_dof", 1.0},
+        {"test_after", {{"rmse", {{"body_y_m", 5e-4}}}}}}},
+      {"causes",
+       {{{"name", "air_drag"},
+         {"share", 0.9},
+         {"probability", 0.8},
+         {"parameters", Json::array()}}}}};
+  const Json first = FitOf("old", Json::array({Parameter("E", 3.0, 0.1)}));
   const auto value = [&] {
     return Compare({first, diagnosis})["values"][0]["runs"][1]["value"].get<double>();
   };
@@ -147,7 +149,7 @@ TEST(Comparison, OfADiagnosisTheValuesAreThoseOfTheModelWithItsCauses) {
 }
 
 TEST(Comparison, ARunWithoutValuesIsRefusedWithItsPlace) {
-  const Json fit = FitOf("old", {Parameter("E", 100.0, 3.0)});
+  const Json fit = FitOf("old", Json::array({Parameter("E", 100.0, 3.0)}));
   Json sweep = fit, failed = fit;
   sweep["command"] = "sweep";
   failed["status"] = "failed";
