@@ -9,9 +9,9 @@
 #include <optional>
 #include <set>
 
+#include "app/compared_side.h"
 #include "app/csv.h"
 #include "app/quantity.h"
-#include "base/input_error.h"
 #include "base/text.h"
 
 namespace hoplab {
@@ -21,82 +21,12 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLevel = 0.05;  // of all values of a run together
 constexpr double kTwoSided95 = 1.959963984540054;
 
-// What stands at a pointer; null where the record ends before.
-const Json& At(const Json& record, const std::string& pointer) {
-  static const Json kNull = nullptr;
-  const Json::json_pointer path(pointer);
-  return record.contains(path) ? record.at(path) : kNull;
-}
-std::string TextAt(const Json& record, const std::string& pointer) {
-  const Json& value = At(record, pointer);
-  return value.is_string() ? value.get<std::string>() : "";
-}
-double NumberAt(const Json& record, const std::string& pointer) {
-  const Json& value = At(record, pointer);
-  return value.is_number() ? value.get<double>() : kNaN;
-}
-
-// A record of fit or diagnose, read the same way.
-class Side {
- public:
-  explicit Side(const ComparedRun& compared) : record_(compared.run.record) {
-    std::filesystem::path folder = compared.folder;
-    if (!folder.has_filename()) folder = folder.parent_path();
-    name_ = Printable(folder.filename().string(), 60);
-    const std::string place = Printable((folder / "run.json").string(), 200);
-    const std::string command = TextAt(record_, "/command");
-    if (command != "fit" && command != "diagnose") {
-      throw InputError({place, "command = " + Printable(command),
-                        "must be fit or diagnose: other runs have no values to compare",
-                        "Give folders that fit or diagnose wrote."});
-    }
-    const bool named =
-        TextAt(record_, "/verdict") == "named" || TextAt(record_, "/verdict") == "confounded";
-    is_diagnosis_ = command == "diagnose";
-    is_extended_ = is_diagnosis_ && named && At(record_, "/extension").is_object();
-    part_ = is_extended_ ? "/extension" : is_diagnosis_ ? "/null" : "";
-    const Json& parameters = At(record_, part_ + "/parameters");
-    if (TextAt(record_, "/status") == "failed" || !parameters.is_array()) {
-      throw InputError({place, "status = " + Printable(TextAt(record_, "/status")),
-                        "must have a result: there is nothing to compare",
-                        Printable(TextAt(record_, "/message"), 300)});
-    }
-  }
-
-  const std::string& name() const { return name_; }
-  const Json& record() const { return record_; }
-  bool is_diagnosis() const { return is_diagnosis_; }
-  const Json& parameters() const { return At(record_, part_ + "/parameters"); }
-  const Json* parameter(const std::string& name) const {
-    for (const Json& p : parameters()) {
-      if (TextAt(p, "/name") == name) return &p;
-    }
-    return nullptr;
-  }
-  // The interval that counts: between trials where the model misses more than the noise.
-  bool misfit() const { return At(record_, part_ + "/misfit") == Json(true); }
-  const Json& train() const { return At(record_, is_extended_ ? "" : part_ + "/train"); }
-  const Json& test() const {
-    return At(record_, is_extended_ ? "/extension/test_after" : part_ + "/test");
-  }
-  double chi2() const { return NumberAt(record_, part_ + "/chi2_per_dof"); }
-  const Json& trials() const { return At(record_, part_ + "/trials"); }
-  const Json& mechanism() const {
-    return At(record_, is_extended_ ? "/extension/mechanism" : "/mechanism");
-  }
-
- private:
-  const Json& record_;
-  std::string name_, part_;
-  bool is_diagnosis_ = false, is_extended_ = false;
-};
-
 // Whether two runs are of the same recordings: then their errors are common.
-bool SameRecordings(const Side& a, const Side& b) {
+bool SameRecordings(const ComparedSide& a, const ComparedSide& b) {
   if (TextAt(a.record(), "/dataset") != TextAt(b.record(), "/dataset") ||
       TextAt(a.record(), "/options/dataset") != TextAt(b.record(), "/options/dataset"))
     return false;
-  const auto recordings = [](const Side& side) {
+  const auto recordings = [](const ComparedSide& side) {
     std::set<std::string> files;
     for (const Json& trial : side.trials()) {
       const std::string file = TextAt(trial, "/file");
@@ -114,12 +44,12 @@ struct Interval {
   double half() const { return 0.5 * (high - low); }
 };
 
-Interval IntervalOf(const Side& side, const std::string& name) {
+Interval IntervalOf(const ComparedSide& side, const std::string& name) {
   Interval out;
   const Json* p = side.parameter(name);
   if (!p) return out;
   out.value = NumberAt(*p, "/value");
-  out.between_trials = side.misfit() && At(*p, "/ci95_between_trials").is_array();
+  out.between_trials = side.misfit() && JsonAt(*p, "/ci95_between_trials").is_array();
   const std::string key = out.between_trials ? "/ci95_between_trials" : "/ci95";
   out.low = NumberAt(*p, key + "/0");
   out.high = NumberAt(*p, key + "/1");
@@ -167,10 +97,10 @@ void MarkClear(Json& values, std::size_t run) {
   }
 }
 
-Json ValuesRecord(const std::vector<Side>& sides, const std::vector<bool>& independent) {
+Json ValuesRecord(const std::vector<ComparedSide>& sides, const std::vector<bool>& independent) {
   Json out = Json::array();
   std::set<std::string> seen;
-  for (const Side& from : sides) {
+  for (const ComparedSide& from : sides) {
     for (const Json& p : from.parameters()) {
       const std::string name = TextAt(p, "/name");
       if (!seen.insert(name).second) continue;
@@ -193,13 +123,13 @@ std::string UnitOfChannel(const std::string& channel) {
   return suffix == "N_m" ? "N m" : suffix;
 }
 
-Json ErrorsRecord(const std::vector<Side>& sides) {
+Json ErrorsRecord(const std::vector<ComparedSide>& sides) {
   Json out = Json::array();
   const auto add = [&](const std::string& what, const std::string& channel, const std::string& unit,
                        const auto& value_of) {
     Json values = Json::array();
     bool any = false;
-    for (const Side& side : sides) {
+    for (const ComparedSide& side : sides) {
       const double value = value_of(side);
       any = any || std::isfinite(value);
       values.push_back(NumberOrNull(value));
@@ -211,44 +141,44 @@ Json ErrorsRecord(const std::vector<Side>& sides) {
                      {"values", values}});
   };
   std::vector<std::string> channels;
-  for (const Side& side : sides) {
-    for (const auto& [name, value] : At(side.test(), "/rmse").items()) {
+  for (const ComparedSide& side : sides) {
+    for (const auto& [name, value] : JsonAt(side.test(), "/rmse").items()) {
       if (std::find(channels.begin(), channels.end(), name) == channels.end())
         channels.push_back(name);
     }
   }
   for (const std::string& c : channels) {
     add("test error", c, UnitOfChannel(c),
-        [&](const Side& s) { return NumberAt(s.test(), "/rmse/" + c); });
+        [&](const ComparedSide& s) { return NumberAt(s.test(), "/rmse/" + c); });
   }
   for (const std::string& c : channels) {
     add("train error", c, UnitOfChannel(c),
-        [&](const Side& s) { return NumberAt(s.train(), "/rmse/" + c); });
+        [&](const ComparedSide& s) { return NumberAt(s.train(), "/rmse/" + c); });
   }
   add("test nll", "", "nats a sample",
-      [](const Side& s) { return NumberAt(s.test(), "/nll_per_sample"); });
-  add("chi2 per sample", "", "", [](const Side& s) { return s.chi2(); });
+      [](const ComparedSide& s) { return NumberAt(s.test(), "/nll_per_sample"); });
+  add("chi2 per sample", "", "", [](const ComparedSide& s) { return s.chi2(); });
   return out;
 }
 
-Json CausesRecord(const std::vector<Side>& sides) {
+Json CausesRecord(const std::vector<ComparedSide>& sides) {
   Json out = Json::array();
   std::vector<std::string> names;
-  for (const Side& side : sides) {
-    for (const Json& cause : At(side.record(), "/causes")) {
+  for (const ComparedSide& side : sides) {
+    for (const Json& cause : JsonAt(side.record(), "/causes")) {
       const std::string name = TextAt(cause, "/name");
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
   }
   for (const std::string& name : names) {
     Json runs = Json::array();
-    for (const Side& side : sides) {
+    for (const ComparedSide& side : sides) {
       Json found = {{"looked_for", side.is_diagnosis()}, {"found", false}};
-      for (const Json& cause : At(side.record(), "/causes")) {
+      for (const Json& cause : JsonAt(side.record(), "/causes")) {
         if (TextAt(cause, "/name") != name) continue;
         found["found"] = true;
         for (const char* key : {"probability", "share", "parameters"})
-          found[key] = At(cause, std::string("/") + key);
+          found[key] = JsonAt(cause, std::string("/") + key);
       }
       runs.push_back(found);
     }
@@ -258,20 +188,21 @@ Json CausesRecord(const std::vector<Side>& sides) {
 }
 
 // What was set otherwise: law, options, and stated values that no run fitted.
-Json ChangedRecord(const std::vector<Side>& sides) {
+Json ChangedRecord(const std::vector<ComparedSide>& sides) {
   Json out = Json::array();
   const auto add = [&](const std::string& what, const std::string& key, const auto& value_of) {
     Json values = Json::array();
-    for (const Side& side : sides) values.push_back(value_of(side));
+    for (const ComparedSide& side : sides) values.push_back(value_of(side));
     const bool differs = std::any_of(values.begin(), values.end(),
                                      [&](const Json& v) { return v != values.front(); });
     if (differs) out.push_back({{"what", what}, {"key", key}, {"values", values}});
   };
   for (const char* key : {"dataset", "law", "law_variant", "version"})
-    add("run", key, [&](const Side& s) { return At(s.record(), "/" + std::string(key)); });
+    add("run", key,
+        [&](const ComparedSide& s) { return JsonAt(s.record(), "/" + std::string(key)); });
   const auto keys_of = [&](const auto& part_of) {
     std::vector<std::string> keys;
-    for (const Side& side : sides) {
+    for (const ComparedSide& side : sides) {
       const Json& part = part_of(side);
       if (!part.is_object()) continue;
       for (const auto& [key, value] : part.items()) {
@@ -283,37 +214,44 @@ Json ChangedRecord(const std::vector<Side>& sides) {
   const auto entry = [](const Json& part, const std::string& key) {
     return part.is_object() && part.contains(key) ? part.at(key) : Json(nullptr);
   };
-  const auto options = [](const Side& s) -> const Json& { return At(s.record(), "/options"); };
+  const auto options = [](const ComparedSide& s) -> const Json& {
+    return JsonAt(s.record(), "/options");
+  };
   for (const std::string& key : keys_of(options)) {
     // What only one of two commands knows was not set.
-    const bool common = std::all_of(sides.begin(), sides.end(),
-                                    [&](const Side& s) { return options(s).contains(key); });
+    const bool common = std::all_of(sides.begin(), sides.end(), [&](const ComparedSide& s) {
+      return options(s).contains(key);
+    });
     if (!common) continue;
-    add("option", key, [&](const Side& s) { return entry(options(s), key); });
+    const std::string told = key == "dataset" ? "dataset folder" : key;
+    add("option", told, [&](const ComparedSide& s) { return entry(options(s), key); });
   }
-  const auto stated = [](const Side& s) -> const Json& { return At(s.mechanism(), "/parameters"); };
+  const auto stated = [](const ComparedSide& s) -> const Json& {
+    return JsonAt(s.mechanism(), "/parameters");
+  };
   for (const std::string& key : keys_of(stated)) {
-    const bool fitted = std::any_of(sides.begin(), sides.end(),
-                                    [&](const Side& s) { return s.parameter(key) != nullptr; });
-    if (!fitted) add("stated", key, [&](const Side& s) { return entry(stated(s), key); });
+    const bool fitted = std::any_of(sides.begin(), sides.end(), [&](const ComparedSide& s) {
+      return s.parameter(key) != nullptr;
+    });
+    if (!fitted) add("stated", key, [&](const ComparedSide& s) { return entry(stated(s), key); });
   }
   return out;
 }
 
-Json RunsRecord(const std::vector<ComparedRun>& compared, const std::vector<Side>& sides,
+Json RunsRecord(const std::vector<ComparedRun>& compared, const std::vector<ComparedSide>& sides,
                 const std::vector<bool>& independent) {
   Json out = Json::array();
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Json& r = sides[i].record();
     out.push_back({{"name", sides[i].name()},
                    {"folder", compared[i].folder.string()},
-                   {"command", At(r, "/command")},
-                   {"dataset", At(r, "/dataset")},
-                   {"law", At(r, "/law")},
-                   {"status", At(r, "/status")},
-                   {"verdict", At(r, "/verdict")},
-                   {"sentence", At(r, "/sentence")},
-                   {"probability_unlisted", At(r, "/probability_unlisted")},
+                   {"command", JsonAt(r, "/command")},
+                   {"dataset", JsonAt(r, "/dataset")},
+                   {"law", JsonAt(r, "/law")},
+                   {"status", JsonAt(r, "/status")},
+                   {"verdict", JsonAt(r, "/verdict")},
+                   {"sentence", JsonAt(r, "/sentence")},
+                   {"probability_unlisted", JsonAt(r, "/probability_unlisted")},
                    {"other_recordings_than_first", i > 0 && independent[i]}});
   }
   return out;
@@ -365,10 +303,11 @@ std::string Sentence(const Json& record) {
 }  // namespace
 
 Json ComparisonRecord(const std::vector<ComparedRun>& runs) {
-  std::vector<Side> sides;
+  std::vector<ComparedSide> sides;
   for (const ComparedRun& run : runs) sides.emplace_back(run);
   std::vector<bool> independent;
-  for (const Side& side : sides) independent.push_back(!SameRecordings(sides.front(), side));
+  for (const ComparedSide& side : sides)
+    independent.push_back(!SameRecordings(sides.front(), side));
   RecordHeader header;
   header.command = "report";
   Json folders = Json::array();

@@ -1,5 +1,6 @@
 #include "app/commands/report.h"
 
+#include <chrono>
 #include <ostream>
 
 #include "app/comparison_record.h"
@@ -29,10 +30,13 @@ ExitCode WriteAnew(const ReportSettings& settings, Console& console) {
 }
 
 ExitCode Compare(const ReportSettings& settings, Console& console) {
+  const auto begin = std::chrono::steady_clock::now();
   std::vector<ComparedRun> runs;
   for (const std::string& folder : settings.folders)
     runs.push_back({folder, ReadRunFolder(folder)});
-  const Json record = ComparisonRecord(runs);
+  Json record = ComparisonRecord(runs);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  record["seconds"] = took.count();
   const std::string name = record["runs"][0]["name"].get<std::string>();
   const RunFolder folder(RunFolderOptionsOf(settings), name, "comparison");
   const std::filesystem::path written =

@@ -16,7 +16,7 @@ struct MjcfOptions {
 /// chain of rigid arcs on hinges of stiffness E I/s, s the length of an arc, damping tau E I/s, on
 /// a frictional floor; a key for each recorded start. Throws InputError (place `place`) for a leg
 /// that is no beam, and for effects that change the leg beyond what the beam knows.
-std::string MjcfOf(const ExportedModel& model, const MjcfOptions& options,
+std::string MjcfOf(const ExportedModel& given, const MjcfOptions& options,
                    const std::string& place);
 
 }  // namespace hoplab

@@ -109,7 +109,7 @@ TEST(Comparison, WhatOneRunDoesNotHaveIsNullAndWhatDiffersIsListed) {
   EXPECT_TRUE(record["values"][1]["runs"][1]["difference"].is_null());
   std::vector<std::string> changed;
   for (const Json& each : record["changed"]) changed.push_back(each["key"].get<std::string>());
-  EXPECT_EQ(changed, (std::vector<std::string>{"dataset", "law", "dataset", "starts", "m"}))
+  EXPECT_EQ(changed, (std::vector<std::string>{"dataset", "law", "dataset folder", "starts", "m"}))
       << "not E, which one of them fitted";
   EXPECT_EQ(record["errors"][0]["values"], (Json::array({1e-3, 1e-3})));
   const std::string text = ComparisonReport(record, false);
