@@ -152,5 +152,36 @@ TEST_F(Mujoco, ADamperAlongTheChordIsToldAndReplaced) {
   EXPECT_LT(Rms(*model), 5e-3);
 }
 
+// The rig as it is stated: a guide leaves one way, friction of hip and guide is where MuJoCo has
+// it.
+TEST_F(Mujoco, TheRigIsTheOneOfTheRun) {
+  const std::string scenario = std::string(HOPLAB_SOURCE_DIR) + "/experiments/three-drops.yaml";
+  const ProcessResult run =
+      RunHoplab({"simulate", scenario, "--set", "mechanism.guide=vertical", "--with",
+                 "hip_viscous_friction:b_h=0.004", "--with", "guide_coulomb_friction:f_c=0.3",
+                 "--with", "leg_mass:m_leg=0.05", "--out", "run"},
+                temp_.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Model model = Export({"--arcs", "16"});
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->nq, 17);  // up, the hip and 15 hinges
+  EXPECT_EQ(mj_name2id(model.get(), mjOBJ_JOINT, "body_x"), -1);
+  const int up = mj_name2id(model.get(), mjOBJ_JOINT, "body_y");
+  const int hip = mj_name2id(model.get(), mjOBJ_JOINT, "hip");
+  ASSERT_GE(std::min(up, hip), 0);
+  EXPECT_EQ(model->dof_frictionloss[model->jnt_dofadr[up]], 0.3);
+  EXPECT_EQ(model->dof_damping[model->jnt_dofadr[hip]], 0.004);
+  double mass = 0.0;
+  for (int i = 0; i < model->nbody; ++i) mass += model->body_mass[i];
+  EXPECT_NEAR(mass, 1.0, 1e-12);
+  EXPECT_NEAR(mass - model->body_mass[mj_name2id(model.get(), mjOBJ_BODY, "body")], 0.05, 1e-12);
+  // A torque that is positive pushes the hip forward: theta falls (section 4 of the sheet).
+  const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(model.get()), mj_deleteData);
+  data->qpos[0] = 1.0;
+  data->ctrl[0] = 0.01;
+  mj_forward(model.get(), data.get());
+  EXPECT_LT(data->qacc[model->jnt_dofadr[hip]], 0.0);
+}
+
 }  // namespace
 }  // namespace hoplab::testing
