@@ -33,6 +33,7 @@ Eigen::MatrixXd OwnBasis(const TrialProblem& trial, const TrialEvaluation& evalu
   if (free == 0) return own;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(own);
   qr.setThreshold(kRankTolerance);
+  if (qr.rank() == 0) return Eigen::MatrixXd(own.rows(), 0);
   return qr.householderQ() * Eigen::MatrixXd::Identity(own.rows(), qr.rank());
 }
 
