@@ -12,6 +12,7 @@
 #include "app/commands/discover.h"
 #include "app/commands/effects.h"
 #include "app/commands/explain.h"
+#include "app/commands/export.h"
 #include "app/commands/fit.h"
 #include "app/commands/gait.h"
 #include "app/commands/generate.h"
@@ -58,6 +59,7 @@ class CommandLine {
     AddSimulateCommand(app_, invocation_);
     AddGenerateCommand(app_, invocation_);
     AddReportCommand(app_, invocation_);
+    AddExportCommand(app_, invocation_);
     AddLawsCommand(app_, invocation_);
     AddEffectsCommand(app_, invocation_);
     AddExplainCommand(app_, invocation_);

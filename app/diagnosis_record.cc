@@ -183,7 +183,11 @@ Json ExtensionRecord(const Diagnosis& d) {
           {"explained", NumberOrNull(e.explained)},
           {"at_bound", e.at_bound},
           {"chi2_per_dof", NumberOrNull(e.uncertainty.chi2_per_dof)},
-          {"remainder", DetectionRecord(e.remainder)}};
+          {"misfit", e.uncertainty.misfit},
+          {"remainder", DetectionRecord(e.remainder)},
+          {"trials", TrialsRecord(best.problem, e.after.trials)},
+          {"mechanism",
+           FittedMechanismRecord({&best.problem, &best.shared, &e.after.trials, "after"})}};
 }
 
 Json SettingsRecord(const TrialDesign& design) {
@@ -239,7 +243,9 @@ Json NullRecord(const Diagnosis& d) {
           {"train", RoleRecord(d.problem, d.before.trials, TrialRole::kTrain)},
           {"test", HeldOutRecord(d.problem, d.before)},
           {"cost", fitted ? NumberOrNull(d.null.cost) : Json(nullptr)},
-          {"chi2_per_dof", fitted ? NumberOrNull(d.uncertainty.chi2_per_dof) : Json(nullptr)}};
+          {"chi2_per_dof", fitted ? NumberOrNull(d.uncertainty.chi2_per_dof) : Json(nullptr)},
+          {"misfit", fitted ? Json(d.uncertainty.misfit) : Json(nullptr)},
+          {"trials", TrialsRecord(d.problem, d.before.trials)}};
 }
 
 Json GateRecord(const Diagnosis& d) {

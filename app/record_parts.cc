@@ -16,6 +16,13 @@ Json StateRecord(const Eigen::VectorXd& state) {
           {"vy_m_per_s", NumberOrNull(state[3])}};
 }
 
+// Leg angle that the first touch-down of a trial is commanded at [rad].
+double FirstAngle(const TrialProblem& trial) {
+  if (!trial.touchdown_angles.empty()) return trial.touchdown_angles.front();
+  const double first = trial.parameters.start_angle;
+  return std::isnan(first) ? trial.parameters.theta_td : first;
+}
+
 }  // namespace
 
 Json IntervalRecord(const std::optional<std::pair<double, double>>& interval) {
@@ -76,7 +83,8 @@ Json RoleRecord(const FitProblem& problem, const std::vector<TrialErrors>& trial
 
 Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& trials) {
   Json out = Json::array();
-  for (const TrialErrors& trial : trials) {
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const TrialErrors& trial = trials[i];
     Json hops = Json::array();
     for (const HopErrors& hop : trial.hops) {
       hops.push_back(
@@ -92,6 +100,7 @@ Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& tri
                    {"complete", trial.complete},
                    {"end_time_s", NumberOrNull(trial.end_time)},
                    {"start", StateRecord(trial.start)},
+                   {"touchdown_angle_rad", NumberOrNull(FirstAngle(problem.trials[i]))},
                    {"max_flexure", NumberOrNull(trial.max_flexure)},
                    {"hops", hops}});
   }

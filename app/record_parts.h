@@ -39,6 +39,7 @@ Json ParametersRecord(const FittedValues& fitted);
 
 /// Errors over the trials of one role; nulls if no trial was assessed.
 Json RoleRecord(const FitProblem& problem, const std::vector<TrialErrors>& trials, TrialRole role);
+/// `trials` in the problem's order.
 Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& trials);
 
 /// Rows and columns by the shared parameters' names.

@@ -148,11 +148,10 @@ class Pipeline {
     const Linearisation at = LineariseAt(best, all, train_, options_.fit.jobs);
     report.remainder = Detect(at, others, basis_, Seed(kRemainderStream));
     RefitSettings settings = Settings();
-    const Extension white = UnderWhiteNoise(best, settings);
-    report.white_square = white.ok() ? white.white_square : best.white_square;
+    report.white_square = 2.0 * best.cost;
     report.explained = 1.0 - LeftShare(d_.detection, report.white_square, best.parameter_count());
     report.causes = TakeApart(d_.naming,
-                              {.plain_square = d_.plain.white_square,
+                              {.plain_square = 2.0 * d_.plain.cost,
                                .extended_square = report.white_square,
                                .after = &report.after,
                                .material = options_.material,

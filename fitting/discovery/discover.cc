@@ -185,11 +185,11 @@ class Search {
   }
   // Of the plain model's squared misfit beyond noise, what goes when the term leaves the model.
   double ShareOf(std::size_t member) const {
-    const double excess = out_.base.plain.white_square - out_.base.detection.degrees_of_freedom;
+    const double excess = 2.0 * out_.base.plain.cost - out_.base.detection.degrees_of_freedom;
     if (!(excess > 0.0) || member >= out_.naming.without.size()) return 0.0;
     const Extension& without = out_.naming.without[member];
     if (!without.ok()) return 0.0;
-    return std::clamp((without.white_square - out_.naming.best.white_square) / excess, 0.0, 1.0);
+    return std::clamp(2.0 * (without.cost - out_.naming.best.cost) / excess, 0.0, 1.0);
   }
   static FormulaSource WithTypical(FormulaSource source, const std::vector<FoundValue>& values) {
     for (FormulaParameter& p : source.parameters) {
@@ -324,7 +324,8 @@ Discovery DiscoverBeside(const Diagnosis& diagnosis, const DiagnosisOptions& opt
     // Its causes become a part of the model.
     RefitSettings settings = SettingsOf(options, train);
     out.base.null = diagnosis.naming.best;
-    out.base.plain = UnderWhiteNoise(out.base.null, settings);
+    out.base.plain = out.base.null;
+    out.base.plain.problem.noise = {};
     settings.discrepancy = Discrepancy::kNone;
     Settle(out.base.plain, settings);
     out.base.null.members.clear();
