@@ -9,6 +9,7 @@
 #include "app/commands/completion.h"
 #include "app/commands/design.h"
 #include "app/commands/diagnose.h"
+#include "app/commands/discover.h"
 #include "app/commands/effects.h"
 #include "app/commands/explain.h"
 #include "app/commands/export.h"
@@ -47,6 +48,7 @@ class CommandLine {
     AddCheckCommand(app_, invocation_);
     AddFitCommand(app_, invocation_);
     AddDiagnoseCommand(app_, invocation_);
+    AddDiscoverCommand(app_, invocation_);
     AddDesignCommand(app_, invocation_);
     AddCompareCommand(app_, invocation_);
     AddGaitCommand(app_, invocation_);

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "app/formula_words.h"
 #include "app/version.h"
+#include "model/formula/formula_effect.h"
 
 namespace hoplab {
 namespace {
@@ -162,6 +164,28 @@ Json KnownRecord(const FitProblem& problem) {
                    {"unit", p.unit},
                    {"at_most", known.at_most}});
   }
+  return out;
+}
+
+Json FormulaRecord(const Effect& effect) {
+  const FormulaSource& source = *SourceOf(effect);
+  const PlaceInfo& place = InfoOf(effect.formula->place());
+  Json parameters = Json::array();
+  for (const EffectParameter& p : effect.info.parameters)
+    parameters.push_back({{"name", p.name},
+                          {"unit", p.unit},
+                          {p.is_shape ? "value" : "null", p.null},
+                          {"bounds", Json::array({NumberOrNull(p.lower), NumberOrNull(p.upper)})},
+                          {"typical", p.typical}});
+  return {{"name", source.name},         {"acts_as", source.acts_as},
+          {"symbol", place.symbol},      {"unit", place.unit},
+          {"formula", source.formula},   {"mathml", MathMlOf(*effect.formula)},
+          {"sentence", source.sentence}, {"parameters", parameters}};
+}
+
+Json FormulasRecord(const FitProblem& problem) {
+  Json out = Json::array();
+  for (const Effect* effect : problem.formulas) out.push_back(FormulaRecord(*effect));
   return out;
 }
 

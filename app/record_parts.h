@@ -50,6 +50,10 @@ Json ChannelsRecord(const FitProblem& problem);
 /// What the set-up rules out or bounds, one entry a parameter: [{"effect", "parameter", "unit",
 /// "at_most"}]; at_most 0: it is not there.
 Json KnownRecord(const FitProblem& problem);
+/// Effects that are formulas, those simulated and those tried: [{"name", "acts_as", "symbol",
+/// "unit", "formula", "mathml", "sentence", "parameters"}].
+Json FormulasRecord(const FitProblem& problem);
+Json FormulaRecord(const Effect& effect);
 Json ToolsRecord();
 
 /// How a problem was set up and fitted.

@@ -359,6 +359,20 @@ void DesignHeadline(const Json& record, Headline& out) {
   out.figures.push_back(Figure(record, "designs tried", "/designs_tried", ""));
 }
 
+void DiscoveryHeadline(const Json& record, Headline& out) {
+  const std::string verdict = TextAt(record, "/verdict");
+  const std::string words = TextAt(record, "/discovered/0/words");
+  out.sentence = verdict == "found"        ? "Found: " + words + "."
+                 : verdict == "not_needed" ? "No formula is needed."
+                 : verdict.empty()         ? TextAt(record, "/message")
+                                           : "No formula is stable.";
+  out.figures.push_back(Figure(record, "chance of such a misfit", "/detection/p_value", "", 2));
+  out.figures.back().note = "under noise alone";
+  out.figures.push_back(ErrorFigure(record, "test error before", "/held_out/before"));
+  out.figures.push_back(ErrorFigure(record, "test error after", "/held_out/after"));
+  out.figures.push_back(Figure(record, "terms tried", "/library", ""));
+}
+
 void ComparisonHeadline(const Json& record, Headline& out) {
   std::vector<std::string> names;
   for (const Json& run : At(record, "/runs")) names.push_back(TextAt(run, "/name"));
@@ -405,9 +419,10 @@ struct Kind {
   const char* title;
   void (*fill)(const Json&, Headline&);
 };
-constexpr std::array<Kind, 10> kKinds = {{{"check", "Check", CheckHeadline},
+constexpr std::array<Kind, 11> kKinds = {{{"check", "Check", CheckHeadline},
                                           {"fit", "Fit", FitHeadline},
                                           {"diagnose", "Diagnosis", DiagnosisHeadline},
+                                          {"discover", "Formula", DiscoveryHeadline},
                                           {"design", "Trial to record next", DesignHeadline},
                                           {"gait", "Gait", GaitHeadline},
                                           {"optimize", "Optimisation", OptimizeHeadline},

@@ -1,7 +1,7 @@
 // Builds the report of whatever command the run was.
 
 const reports = {
-  check: checkReport, fit: fitReport, diagnose: diagnosisReport, gait: gaitReport, optimize: optimizeReport,
+  check: checkReport, fit: fitReport, diagnose: diagnosisReport, discover: discoveryReport, gait: gaitReport, optimize: optimizeReport,
   sweep: sweepReport, simulate: simulationReport, reproduce: reproductionReport, design: designReport,
   report: comparisonReport,
 };

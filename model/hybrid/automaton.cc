@@ -33,8 +33,9 @@ constexpr EventTraits kEvents[] = {
     {.name = "fall_angle"},
     {.name = "fall_arc"},
     {.name = "switch"},
+    {.name = "corner", .changes_flow = true},
 };
-static_assert(std::size(kEvents) == static_cast<std::size_t>(EventKind::kSwitch) + 1);
+static_assert(std::size(kEvents) == static_cast<std::size_t>(EventKind::kCorner) + 1);
 }  // namespace
 
 const EventTraits& TraitsOf(EventKind kind) { return kEvents[static_cast<std::size_t>(kind)]; }

@@ -22,7 +22,8 @@ enum class EventKind {
   kFallHeight,      // hip below y_min
   kFallAngle,       // chord more than 80 deg from the vertical
   kFallArc,         // contact arc below 0.2 rad: the hip rolls onto the ground
-  kSwitch           // mode change of a piecewise-smooth system without a leg
+  kSwitch,          // mode change of a piecewise-smooth system without a leg
+  kCorner           // a formula is about to go on by another branch
 };
 std::string_view NameOf(EventKind kind);
 
@@ -39,6 +40,8 @@ struct EventTraits {
   bool ends_hop = false;      // ... and complete here, unless the reset says no
   bool is_hop = false;        // each one counts as a hop
   bool meets_ground = false;  // a run cannot start beyond it
+  /// The mode stays, the flow is another one: guards are looked at as where a mode is entered.
+  bool changes_flow = false;
 };
 const EventTraits& TraitsOf(EventKind kind);
 
@@ -75,6 +78,8 @@ struct GuardSpec {
   /// mode is entered. One that ends a stance and is closed by a change of stance fires at once
   /// instead.
   std::optional<Outcome> if_closed = std::nullopt;
+  /// The flow is continuous across it: its instant matters to the solver alone, and it may graze.
+  bool is_smooth = false;
 };
 
 /// What a reset did: the next mode, and the outcome if the run ends there.
@@ -93,7 +98,7 @@ struct GuardCrossing {
 /// |guard|/scale below which a guard counts as at zero: rounding of a state of size one.
 inline constexpr double kAtZero = 1e-11;
 
-inline constexpr int kMaxGuards = 8;
+inline constexpr int kMaxGuards = 24;
 /// Most states of a mechanism, and of what a stepper integrates: with eight sensitivities of each.
 inline constexpr int kMaxStates = 16;
 
