@@ -25,6 +25,11 @@ struct Factor {
   std::optional<TermPower> power = {};
 };
 
+std::string Raised(const std::string& unit, int exponent) {
+  if (exponent == 1 || unit == "1") return unit;
+  return "(" + unit + ")^" + std::to_string(exponent);
+}
+
 // How a power is told.
 std::string PowerWords(const std::string& of, int exponent) {
   if (exponent == 1) return of;
@@ -39,21 +44,21 @@ void AddSigned(std::vector<Factor>& to, const std::string& v, const std::string&
   };
   to.push_back({"sign(" + v + ")", "1", 1.0, "the direction of " + words, v, {}});
   to.push_back({v, unit, size, words, v, power(1)});
-  to.push_back(
-      {"abs(" + v + ") * " + v, unit + "^2", size * size, "the square of " + words, v, power(2)});
+  to.push_back({"abs(" + v + ") * " + v, Raised(unit, 2), size * size, "the square of " + words, v,
+                power(2)});
   to.push_back({v + "^2",
-                unit + "^2",
+                Raised(unit, 2),
                 size * size,
                 "the square of " + words + ", whatever its direction",
                 v,
                 {}});
-  to.push_back({v + "^3", unit + "^3", size * size * size, "the cube of " + words, v, power(3)});
+  to.push_back(
+      {v + "^3", Raised(unit, 3), size * size * size, "the cube of " + words, v, power(3)});
 }
 void AddPositive(std::vector<Factor>& to, const std::string& v, const std::string& unit,
                  double size, const std::string& words) {
   for (int n = 1; n <= 3; ++n) {
-    to.push_back({n == 1 ? v : v + "^" + std::to_string(n),
-                  n == 1 ? unit : unit + "^" + std::to_string(n), std::pow(size, n),
+    to.push_back({n == 1 ? v : v + "^" + std::to_string(n), Raised(unit, n), std::pow(size, n),
                   PowerWords(words, n), v, TermPower{v, "", unit, static_cast<double>(n), size}});
   }
 }
@@ -62,9 +67,7 @@ void AddPlain(std::vector<Factor>& to, const std::string& v, const std::string& 
               const std::string& words) {
   for (int n = 1; n <= 3; ++n)
     to.push_back({n == 1 ? v : v + "^" + std::to_string(n),
-                  unit == "1" ? unit
-                  : n == 1    ? unit
-                              : unit + "^" + std::to_string(n),
+                  Raised(unit, n),
                   std::pow(size, n),
                   PowerWords(words, n),
                   v,
@@ -75,8 +78,7 @@ const Factor kOne{"1", "1", 1.0, "", "", {}};
 
 class Library {
  public:
-  Library(const FitProblem& problem, const NaturalScales& scales)
-      : problem_(problem), s_(scales) {}
+  Library(const FitProblem& problem, const NaturalScales& scales) : problem_(problem), s_(scales) {}
 
   std::vector<Term> Build() {
     BodyForces();
