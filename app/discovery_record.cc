@@ -89,6 +89,12 @@ void AddCurve(const FoundTerm& found, std::size_t place, const NaturalScales& sc
     if (v.unit == "N") return 2.0 * scales.force;
     return v.usual;
   };
+  // What the term is drawn over.
+  const auto range = [&](const VariableInfo& v) {
+    if (v.variable == FormulaVariable::kX && !scales.x.empty()) return scales.x;
+    if (v.variable == FormulaVariable::kY && !scales.y.empty()) return scales.y;
+    return Extent{v.never_negative ? 0.0 : -size(v), size(v)};
+  };
   const std::string& name = found.term.variables.front();
   constexpr int kPoints = 41;
   CornerSides sides;
@@ -101,8 +107,8 @@ void AddCurve(const FoundTerm& found, std::size_t place, const NaturalScales& sc
       const auto k = static_cast<std::size_t>(v.variable);
       values[k] = size(v);
       if (v.name == name) {
-        const double low = v.never_negative ? 0.0 : -1.0;
-        at = values[k] = size(v) * (low + (1.0 - low) * i / (kPoints - 1));
+        const Extent over = range(v);
+        at = values[k] = over.least + (over.most - over.least) * i / (kPoints - 1);
       }
       view[k] = &values[k];
     }
@@ -134,6 +140,7 @@ Json DiscoveryPart(const Discovery& d) {
   for (std::size_t i = 0; i < d.found.size(); ++i) discovered.push_back(TermRecord(d.found[i], i));
   const bool decided = FailureOf(d).empty();
   out["discovered"] = discovered;
+  out["in_place_of_causes"] = d.in_place_of_causes;
   out["alternatives"] = AlternativesRecord(d);
   const bool measured = !d.base.before.trials.empty();
   out["held_out"] = {

@@ -99,8 +99,9 @@ std::string WorstChannel(const Json& record, const std::string& errors) {
   return worst;
 }
 
-HeadlineFigure ErrorFigure(const Json& record, const std::string& what, const std::string& errors) {
-  const std::string channel = WorstChannel(record, errors);
+HeadlineFigure ErrorFigure(const Json& record, const std::string& what, const std::string& errors,
+                           const std::string& worst_in = "") {
+  const std::string channel = WorstChannel(record, worst_in.empty() ? errors : worst_in);
   if (channel.empty()) return {what, kNotComputed, "", "", errors};
   HeadlineFigure figure = Figure(record, what + ", " + WithoutUnit(channel),
                                  errors + "/" + Escaped(channel), UnitOfChannel(channel), 3);
@@ -369,7 +370,8 @@ void DiscoveryHeadline(const Json& record, Headline& out) {
   out.figures.push_back(Figure(record, "chance of such a misfit", "/detection/p_value", "", 2));
   out.figures.back().note = "under noise alone";
   out.figures.push_back(ErrorFigure(record, "test error before", "/held_out/before"));
-  out.figures.push_back(ErrorFigure(record, "test error after", "/held_out/after"));
+  out.figures.push_back(
+      ErrorFigure(record, "test error after", "/held_out/after", "/held_out/before"));
   out.figures.push_back(Figure(record, "terms tried", "/library", ""));
 }
 

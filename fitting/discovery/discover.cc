@@ -392,28 +392,55 @@ Discovery Discover(const Dataset& dataset, const DiagnosisOptions& options) {
   return out;
 }
 
-Discovery DiscoverBeside(const Diagnosis& diagnosis, const DiagnosisOptions& options) {
-  Discovery out;
-  out.base = diagnosis;
-  if (!diagnosis.refusal.empty()) return out;
-  const std::vector<TrialProblem> train = TrialsOf(diagnosis.problem, TrialRole::kTrain);
-  if (diagnosis.extension) {
-    // Its causes become a part of the model.
-    RefitSettings settings = SettingsOf(options, train);
-    out.base.null = diagnosis.naming.best;
-    out.base.plain = out.base.null;
-    out.base.plain.problem.noise = {};
-    settings.discrepancy = Discrepancy::kNone;
-    Settle(out.base.plain, settings);
-    out.base.null.members.clear();
-    out.base.plain.members.clear();
-    NoiseModel noise = out.base.null.problem.noise;
-    out.base.problem = out.base.null.problem;
-    out.base.problem.noise = noise;
+namespace {
+
+// The model a diagnosis ended with, its causes a part of it.
+Diagnosis WithItsCauses(Diagnosis base, const DiagnosisOptions& options,
+                        const std::vector<TrialProblem>& train) {
+  base.null = base.naming.best;
+  base.plain = base.null;
+  base.plain.problem.noise = {};
+  RefitSettings settings = SettingsOf(options, train);
+  settings.discrepancy = Discrepancy::kNone;
+  Settle(base.plain, settings);
+  base.null.members.clear();
+  base.plain.members.clear();
+  base.problem = base.null.problem;
+  return base;
+}
+
+// Mean square of the held-out errors over the channels' noise.
+double HeldOutSquare(const Discovery& d) {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < d.after.test.rmse.size(); ++c) {
+    const double ratio = d.after.test.rmse[c] / d.base.problem.channels[c].sigma;
+    sum += ratio * ratio;
   }
-  Search(options, out).Run(train);
-  out.base.interrupted = options.fit.stop && *options.fit.stop;
-  return out;
+  return sum;
+}
+
+}  // namespace
+
+Discovery DiscoverBeside(const Diagnosis& diagnosis, const DiagnosisOptions& options) {
+  const std::vector<TrialProblem> train = TrialsOf(diagnosis.problem, TrialRole::kTrain);
+  const auto from = [&](const Diagnosis& base) {
+    Discovery out;
+    out.base = base;
+    if (base.refusal.empty()) Search(options, out).Run(train);
+    out.base.interrupted = options.fit.stop && *options.fit.stop;
+    return out;
+  };
+  if (!diagnosis.extension) return from(diagnosis);
+  Discovery beside = from(WithItsCauses(diagnosis, options, train));
+  if (diagnosis.verdict != Verdict::kUnexplained || beside.base.interrupted) return beside;
+  // Causes that do not explain it may only stand in for the formula.
+  Discovery instead = from(diagnosis);
+  instead.in_place_of_causes = true;
+  const bool found = instead.verdict == DiscoveryVerdict::kFound;
+  if (found != (beside.verdict == DiscoveryVerdict::kFound)) return found ? instead : beside;
+  if (instead.after.test.rmse.empty() || beside.after.test.rmse.empty()) return beside;
+  // A few in a hundred decide nothing: then the simpler model does.
+  return HeldOutSquare(instead) < 1.05 * HeldOutSquare(beside) ? instead : beside;
 }
 
 }  // namespace hoplab

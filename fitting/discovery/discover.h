@@ -50,8 +50,9 @@ struct FoundTerm {
 
 /// A search for a formula. What was not reached is empty.
 struct Discovery {
-  Diagnosis base;           // up to its null fits: the model that a formula is sought for
-  std::size_t library = 0;  // terms tried
+  Diagnosis base;                   // up to its null fits: the model that a formula is sought for
+  bool in_place_of_causes = false;  // the diagnosis has causes that this model has not
+  std::size_t library = 0;          // terms tried
   std::vector<Term> terms;  // of these, those that can be told from each other and the model
   Naming naming;
   std::vector<FoundTerm> found;
@@ -68,7 +69,9 @@ struct Discovery {
 /// used. Throws InputError for options that do not suit the dataset.
 Discovery Discover(const Dataset& dataset, const DiagnosisOptions& options);
 
-/// The same for the model that a diagnosis ended with, its causes among it.
+/// The same for the model that a diagnosis ended with, its causes among it. Where these do not
+/// explain the misfit, also for the model without them, and what does better on held-out trials is
+/// told.
 Discovery DiscoverBeside(const Diagnosis& diagnosis, const DiagnosisOptions& options);
 
 }  // namespace hoplab
