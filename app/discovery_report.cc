@@ -81,7 +81,7 @@ std::string DiscoveryReport(const Discovery& d, bool colours) {
   text +=
       "  " + Styled(Upper(verdict), Emphasis::kBold, colours) + ": " + Wrapped(d.reason, 2) + "\n";
   if (d.in_place_of_causes)
-    text += Labelled("model", "without the causes above, which do not explain it", colours);
+    text += Labelled("model", "without the causes above, which may only stand in for it", colours);
   if (d.library > 0)
     text += Labelled(
         "tried", fmt::format("{} terms, {} of them refitted", d.library, d.terms.size()), colours);

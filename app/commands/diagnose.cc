@@ -61,10 +61,10 @@ void ShowProgress(DiagnosisOptions& options, Progress& progress) {
   };
 }
 
-// Something is left that no listed cause explains.
+// Something is left that no listed cause explains, or that is likely.
 bool WantsFormula(const DiagnosisRun& run) {
   const Diagnosis& d = run.diagnosis;
-  return run.Failure().empty() && (d.verdict == Verdict::kUnexplained || d.left.material);
+  return run.Failure().empty() && (d.CausesMayStandIn() || d.left.material);
 }
 
 ExitCode CodeOf(const DiagnosisRun& run) {

@@ -148,6 +148,8 @@ struct Diagnosis {
   /// That something acts that the catalogue does not hold: by cases that looked like this one where
   /// there is an extension, else by the evidence for a discrepancy.
   double UnlistedProbability() const;
+  /// What was named, if anything, may only stand in for something else.
+  bool CausesMayStandIn() const;
 };
 
 /// Diagnoses a dataset. Throws InputError for options that do not suit it.

@@ -154,4 +154,9 @@ double Diagnosis::UnlistedProbability() const {
   return extension ? 1.0 - extension->Probability() : naming.unlisted_probability;
 }
 
+bool Diagnosis::CausesMayStandIn() const {
+  return verdict == Verdict::kUnexplained ||
+         (verdict == Verdict::kConfounded && UnlistedProbability() > 0.5);
+}
+
 }  // namespace hoplab

@@ -432,8 +432,7 @@ Discovery DiscoverBeside(const Diagnosis& diagnosis, const DiagnosisOptions& opt
   };
   if (!diagnosis.extension) return from(diagnosis);
   Discovery beside = from(WithItsCauses(diagnosis, options, train));
-  if (diagnosis.verdict != Verdict::kUnexplained || beside.base.interrupted) return beside;
-  // Causes that do not explain it may only stand in for the formula.
+  if (!diagnosis.CausesMayStandIn() || beside.base.interrupted) return beside;
   Discovery instead = from(diagnosis);
   instead.in_place_of_causes = true;
   const bool found = instead.verdict == DiscoveryVerdict::kFound;
