@@ -21,6 +21,8 @@ struct NamingOptions {
   int max_effects = 5;
   bool in_one_trial = true;  // a cause may act in one trial only
   int picked_from = 0;       // how many the candidates were picked out of; 0: they are all
+  /// Nats by which each is less likely beforehand than the others; empty: all are alike.
+  std::vector<double> prices = {};
   Discrepancy discrepancy = Discrepancy::kMatern;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;

@@ -28,8 +28,12 @@ Refits::Refits(const Extension& plain, const Extension& null,
 // Each cause alike, one expected in all; one trial picked out of many must pay for the picking.
 double Refits::LogPrior(const CandidateSet& set) const {
   double sum = 0.0;
-  for (const int i : set)
+  for (const int i : set) {
     sum -= CandidateAt(i).only_recording.empty() ? naming_.log_odds : naming_.local_log_odds;
+    // Those of single trials stand behind the given ones.
+    if (const auto at = static_cast<std::size_t>(i); at < options_.prices.size())
+      sum -= options_.prices[at];
+  }
   return sum;
 }
 

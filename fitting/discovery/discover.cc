@@ -92,6 +92,7 @@ class Search {
     for (const std::vector<int>& group : groups_) leaders.push_back(group.front());
     const std::vector<int> promising = Promising(library, leaders, white, colored);
     std::vector<Candidate> tried;
+    NamingOptions naming;
     for (const int i : promising) {
       Term term = library[static_cast<std::size_t>(i)];
       if (term.shape) term = Shaped(term, SizeOf(colored, i));
@@ -100,11 +101,11 @@ class Search {
       });
       if (again) continue;
       tried.emplace_back(term.effect);
+      naming.prices.push_back(PriceOf(term, library));
       out_.terms.push_back(std::move(term));
       places_.push_back(i);
     }
     leaders_ = leaders;
-    NamingOptions naming;
     naming.max_effects = kMostTerms;
     naming.in_one_trial = false;
     naming.picked_from = static_cast<int>(leaders.size());
@@ -118,6 +119,15 @@ class Search {
     out_.naming =
         NameCauses({&out_.base.plain, &out_.base.null}, tried,
                    LineariseAt(out_.base.null, tried, *train_, options_.fit.jobs), *train_, naming);
+  }
+
+  // A family of shapes is as likely as one term: its members share that.
+  static double PriceOf(const Term& term, const std::vector<Term>& library) {
+    if (!term.shape) return 0.0;
+    const auto members = std::count_if(library.begin(), library.end(), [&](const Term& t) {
+      return t.shape && t.shape->family == term.shape->family;
+    });
+    return std::log(static_cast<double>(members));
   }
 
   // The size of one column that explains the residuals best.

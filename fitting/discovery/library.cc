@@ -325,8 +325,8 @@ class Library {
         const Held limit{"limit",
                          variable == "s" ? "1" : "m",
                          range.least + k * step,
-                         range.least - 0.5 * width,
-                         range.most,
+                         range.least + 0.5 * step,
+                         range.most - 0.5 * step,
                          step};
         AddShaped(place, force / step, unit, "max(" + variable + " - limit, 0)", {limit},
                   "how far " + words + " is beyond a limit", variable);
