@@ -20,9 +20,10 @@ constexpr int kSingleWidth = 4, kForwardWidth = 3, kPairWidth = 6, kPairsSettled
 constexpr std::size_t kScoreWidth = 4;
 // Nats a further cause must promise by the linear model to be tried.
 constexpr double kWorthATry = 4.0;
-// Share of the misfit beyond noise it must promise. What explains less is a detail of the model,
-// which the discrepancy stands for.
-constexpr double kLeastShare = 1e-3;
+// It must promise this share of the misfit beyond noise, or this in nats a sample (a fiftieth of the
+// noise's square). What explains less than both is a detail of the model, which the discrepancy
+// stands for.
+constexpr double kLeastShare = 1e-3, kLeastPerSample = 0.01;
 // Weights below this share of the best are not told.
 constexpr double kLeastWeight = 1e-4;
 
@@ -155,7 +156,7 @@ class Search {
   // Nats under white noise.
   double LeastGain() const {
     const double misfit = refits_.White({}).cost - 0.5 * null_at_.degrees_of_freedom();
-    return kLeastShare * std::max(misfit, 0.0);
+    return std::min(kLeastShare * std::max(misfit, 0.0), kLeastPerSample * null_at_.samples);
   }
 
   // The pairs that promise most by the linear model at the null fit.
