@@ -41,6 +41,7 @@ struct EffectInfo {
   std::span<const EffectParameter> parameters;
   std::span<const Law> only_laws = {};  // of those mechanisms' laws; empty: all of them
   InputSet needs_inputs = 0;  // means nothing unless one of these drives the run; 0: always does
+  bool for_robot = false;     // applies to a robot, too
 };
 
 /// Motion of the body at one instant, for forces on it. Frame W.
