@@ -14,6 +14,41 @@ std::vector<std::string> LawNames(MechanismKind mechanism) {
   return names;
 }
 
+RobotParameters<double> RobotOfSpec(const RobotSpec& spec,
+                                    const std::optional<ControllerSpec>& controller) {
+  RobotParameters<double> p;
+  p.legs = static_cast<int>(spec.legs.size());
+  p.pitch_inertia = spec.pitch_inertia_kg_m2;
+  p.com_x = spec.com_x_m;
+  p.com_y = spec.com_y_m;
+  if (spec.friction) p.friction = *spec.friction;
+  if (spec.pitch_limit_rad) p.pitch_limit = *spec.pitch_limit_rad;
+  p.rotor_inertia = spec.rotor_inertia_kg_m2;
+  p.motor_kp = spec.kp_N_m_per_rad;
+  p.motor_kd = spec.kd_N_m_s_per_rad;
+  if (spec.torque_limit_N_m) p.torque_limit = *spec.torque_limit_N_m;
+  p.damping = spec.material_damping_s;
+  p.clamp = spec.clamp_m;
+  for (std::size_t i = 0; i < spec.legs.size(); ++i) {
+    p.hip_x[i] = spec.legs[i].hip_x_m;
+    p.hip_y[i] = spec.legs[i].hip_y_m;
+    p.E[i] = spec.legs[i].E_Pa.value_or(spec.E_Pa);
+    p.own_moduli = p.own_moduli || spec.legs[i].E_Pa.has_value();
+  }
+  if (!controller || !controller->motors) return p;
+  const MotorsSpec& motors = *controller->motors;
+  p.control = static_cast<MotorControl>(motors.kind);
+  std::copy(motors.angles_rad.begin(), motors.angles_rad.end(), p.angle.begin());
+  std::copy(motors.phases.begin(), motors.phases.end(), p.phase.begin());
+  if (motors.kind == MotorsSpec::Kind::kClock) {
+    p.period = motors.period_s;
+    p.duty = motors.duty;
+    p.sweep = motors.sweep_rad;
+    p.offset = motors.offset_rad;
+  }
+  return p;
+}
+
 }  // namespace
 
 Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
@@ -23,7 +58,7 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
   p.m = mechanism.body_mass_kg;
   p.g = mechanism.gravity_m_per_s2;
   p.theta_td = touchdown_angle_rad;
-  if (controller) {
+  if (controller && !controller->motors) {
     p.kp = controller->kp_N_s;
     p.v_des = controller->v_des_m_per_s;
     if (controller->torque_limit_N_m) p.torque_limit = *controller->torque_limit_N_m;
@@ -56,6 +91,12 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
       p.restitution = mechanism.ball.restitution;
       p.tangential_loss = mechanism.ball.tangential_loss;
       break;
+    case MechanismType::kRobot:
+      p.r = mechanism.robot.rest_radius_m;
+      p.E = mechanism.robot.E_Pa;
+      p.I = mechanism.robot.second_moment_m4;
+      p.robot = RobotOfSpec(mechanism.robot, controller);
+      break;
   }
   return p;
 }
@@ -77,6 +118,8 @@ MechanismKind MechanismOfSpec(const MechanismSpec& mechanism) {
       return MechanismKind::kStraightLeg;
     case MechanismType::kBall:
       return MechanismKind::kBall;
+    case MechanismType::kRobot:
+      return MechanismKind::kRobot;
   }
   return MechanismKind::kCLeg;
 }
@@ -102,6 +145,10 @@ Mode ModeOfSpec(StartMode mode, MechanismType type) {
 std::vector<double> InitialOf(const StateSpec& s) {
   std::vector<double> initial = {s.x_m, s.y_m, s.vx_m_per_s, s.vy_m_per_s};
   if (s.contact_x_m) initial.push_back(*s.contact_x_m);
+  if (s.pitch_rad || s.pitch_rate_rad_per_s) {
+    initial.push_back(s.pitch_rad.value_or(0.0));
+    initial.push_back(s.pitch_rate_rad_per_s.value_or(0.0));
+  }
   return initial;
 }
 

@@ -48,7 +48,8 @@ TEST_P(ShippedDataset, HasItsTruthBesideIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedDataset,
-                         ::testing::Values("rig-drops", "rig-drops-undamped", "rig-controlled"),
+                         ::testing::Values("rig-drops", "rig-drops-undamped", "rig-controlled",
+                                           "robot-drops"),
                          [](const auto& name) {
                            std::string word = name.param;
                            std::replace(word.begin(), word.end(), '-', '_');
