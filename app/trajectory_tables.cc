@@ -10,10 +10,13 @@ namespace {
 // Where the leg stands.
 constexpr std::array kLegChannels = {Channel::kContactX, Channel::kContactY, Channel::kContactArc};
 
-std::vector<Channel> AllChannels() {
+std::vector<Channel> AllChannels(int robot_legs) {
   std::vector<Channel> channels;
   for (int c = 0; c < kChannelCount; ++c)
     if (static_cast<Channel>(c) != Channel::kContactX) channels.push_back(static_cast<Channel>(c));
+  if (robot_legs > 0) channels.push_back(Channel::kBodyPitch);
+  for (const Channel first : {Channel::kLegAngle1, Channel::kHipTorque1, Channel::kContact1})
+    for (int leg = 0; leg < robot_legs; ++leg) channels.push_back(OfLeg(first, leg));
   return channels;
 }
 
@@ -41,10 +44,14 @@ std::vector<double> Grid(double rate_hz, double end) {
 
 }  // namespace
 
-std::vector<std::string> TrajectoryHeader(const RunLabels& names) {
+int RobotLegsOf(const Parameters<double>& parameters) {
+  return parameters.robot ? parameters.robot->legs : 0;
+}
+
+std::vector<std::string> TrajectoryHeader(const RunLabels& names, int robot_legs) {
   std::vector<std::string> header = names;
   header.emplace_back("time_s");
-  for (const Channel channel : AllChannels()) header.emplace_back(NameOf(channel));
+  for (const Channel channel : AllChannels(robot_legs)) header.emplace_back(NameOf(channel));
   for (const Channel channel : kLegChannels) header.emplace_back(NameOf(channel));
   header.emplace_back("mode");
   return header;
@@ -56,7 +63,7 @@ void AddTrajectoryRows(SimulationRequest request, double rate_hz, const RunLabel
   request.row_times = {};
   request.directions = {};
   const std::vector<double> times = Grid(rate_hz, Simulate(request).end_time);
-  const std::vector<Channel> channels = AllChannels();
+  const std::vector<Channel> channels = AllChannels(RobotLegsOf(request.parameters));
   request.row_times = times;
   request.channels = channels;
   const Trajectory seen = Simulate(request);
@@ -81,17 +88,18 @@ void AddTrajectoryRows(SimulationRequest request, double rate_hz, const RunLabel
   }
 }
 
-std::vector<std::string> EventHeader(const RunLabels& names) {
+std::vector<std::string> EventHeader(const RunLabels& names, int robot_legs) {
   std::vector<std::string> header = names;
   for (const char* name :
        {"time_s", "event", "mode_before", "mode_after", "x_m", "y_m", "vx_m_per_s", "vy_m_per_s",
         "vx_after_m_per_s", "vy_after_m_per_s", "crossing_rate_per_s"})
     header.emplace_back(name);
+  if (robot_legs > 0) header.emplace_back("leg");
   return header;
 }
 
 void AddEventRows(const Trajectory& trajectory, const RunLabels& labels, double time_offset_s,
-                  CsvText& csv) {
+                  CsvText& csv, int robot_legs) {
   for (const Event& e : trajectory.events) {
     for (const std::string& label : labels) csv.Cell(label);
     csv.Cell(e.time + time_offset_s)
@@ -100,6 +108,7 @@ void AddEventRows(const Trajectory& trajectory, const RunLabels& labels, double 
         .Cell(NameOf(e.mode_after));
     for (const double v : {e.x, e.y, e.vx, e.vy, e.vx_after, e.vy_after, e.crossing_rate})
       csv.Cell(v);
+    if (robot_legs > 0) csv.Cell(static_cast<double>(e.leg + 1));
     csv.EndRow();
   }
 }

@@ -123,9 +123,10 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
   record["mechanism"] = MechanismRecord(request);
   const bool useless = IsUseless(run.outcome);
   if (useless) SetFailed(record, std::string(SentenceOf(run.outcome)));
-  CsvText trajectory(TrajectoryHeader({})), events(EventHeader({}));
+  const int legs = RobotLegsOf(request.parameters);
+  CsvText trajectory(TrajectoryHeader({}, legs)), events(EventHeader({}, legs));
   AddTrajectoryRows(request, kTrajectoryRate, {}, 0.0, trajectory);
-  AddEventRows(run, {}, 0.0, events);
+  AddEventRows(run, {}, 0.0, events, legs);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
   const std::filesystem::path written = folder.Write({{"run.json", TextOf(record)},
