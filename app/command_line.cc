@@ -9,8 +9,10 @@
 #include "app/commands/completion.h"
 #include "app/commands/design.h"
 #include "app/commands/diagnose.h"
+#include "app/commands/discover.h"
 #include "app/commands/effects.h"
 #include "app/commands/explain.h"
+#include "app/commands/export.h"
 #include "app/commands/fit.h"
 #include "app/commands/gait.h"
 #include "app/commands/generate.h"
@@ -46,6 +48,7 @@ class CommandLine {
     AddCheckCommand(app_, invocation_);
     AddFitCommand(app_, invocation_);
     AddDiagnoseCommand(app_, invocation_);
+    AddDiscoverCommand(app_, invocation_);
     AddDesignCommand(app_, invocation_);
     AddCompareCommand(app_, invocation_);
     AddGaitCommand(app_, invocation_);
@@ -56,6 +59,7 @@ class CommandLine {
     AddSimulateCommand(app_, invocation_);
     AddGenerateCommand(app_, invocation_);
     AddReportCommand(app_, invocation_);
+    AddExportCommand(app_, invocation_);
     AddLawsCommand(app_, invocation_);
     AddEffectsCommand(app_, invocation_);
     AddExplainCommand(app_, invocation_);

@@ -145,19 +145,6 @@ Json CandidatesRecord(const Diagnosis& d) {
 }
 
 // Errors on the held-out trials; nulls where there are none.
-Json HeldOutRecord(const FitProblem& problem, const HeldOutErrors& errors) {
-  Json record = RoleRecord(problem, errors.trials, TrialRole::kTest);
-  const FeatureErrors& f = errors.features;
-  const auto computed = [&](double value) {
-    return errors.trials.empty() ? Json(nullptr) : NumberOrNull(value);
-  };
-  record["apex_height_rmse_m"] = computed(f.apex_height_rmse);
-  record["apex_time_rmse_s"] = computed(f.apex_time_rmse);
-  record["touchdown_time_rmse_s"] = computed(f.touchdown_time_rmse);
-  record["stance_time_rmse_s"] = computed(f.stance_time_rmse);
-  return record;
-}
-
 Json MovementsRecord(const std::vector<Movement>& movements) {
   Json out = Json::array();
   for (const Movement& m : movements) {
@@ -196,7 +183,11 @@ Json ExtensionRecord(const Diagnosis& d) {
           {"explained", NumberOrNull(e.explained)},
           {"at_bound", e.at_bound},
           {"chi2_per_dof", NumberOrNull(e.uncertainty.chi2_per_dof)},
-          {"remainder", DetectionRecord(e.remainder)}};
+          {"misfit", e.uncertainty.misfit},
+          {"remainder", DetectionRecord(e.remainder)},
+          {"trials", TrialsRecord(best.problem, e.after.trials)},
+          {"mechanism",
+           FittedMechanismRecord({&best.problem, &best.shared, &e.after.trials, "after"})}};
 }
 
 Json SettingsRecord(const TrialDesign& design) {
@@ -227,32 +218,6 @@ Json ExperimentRecord(const Diagnosis& d) {
           {"closest_rival", d.experiment->closest_rival}};
 }
 
-Json ForcesRecord(const std::optional<FreeForces>& free_forces) {
-  if (!free_forces) return nullptr;
-  Json out = Json::array();
-  for (const ReconstructedForce& f : free_forces->forces) {
-    Json points = Json::array(), terms = Json::array();
-    for (const ForcePoint& p : f.points) {
-      points.push_back({{"at", NumberOrNull(p.at)},
-                        {"value", NumberOrNull(p.value)},
-                        {"band95", NumberOrNull(p.band95)}});
-    }
-    for (const RegressionTerm& t : f.terms) {
-      terms.push_back({{"term", t.term},
-                       {"coefficient", NumberOrNull(t.coefficient)},
-                       {"inclusion", NumberOrNull(t.inclusion)}});
-    }
-    out.push_back({{"name", f.group.name},
-                   {"against", TextOrNull(f.group.against)},
-                   {"unit", f.group.unit},
-                   {"score", NumberOrNull(f.score)},
-                   {"p_value", NumberOrNull(f.p_value)},
-                   {"points", points},
-                   {"terms", terms}});
-  }
-  return out;
-}
-
 Json BalanceRecord(const HopBalance& b) {
   return {{"begin_J", NumberOrNull(b.begin)},
           {"end_J", NumberOrNull(b.end)},
@@ -278,7 +243,9 @@ Json NullRecord(const Diagnosis& d) {
           {"train", RoleRecord(d.problem, d.before.trials, TrialRole::kTrain)},
           {"test", HeldOutRecord(d.problem, d.before)},
           {"cost", fitted ? NumberOrNull(d.null.cost) : Json(nullptr)},
-          {"chi2_per_dof", fitted ? NumberOrNull(d.uncertainty.chi2_per_dof) : Json(nullptr)}};
+          {"chi2_per_dof", fitted ? NumberOrNull(d.uncertainty.chi2_per_dof) : Json(nullptr)},
+          {"misfit", fitted ? Json(d.uncertainty.misfit) : Json(nullptr)},
+          {"trials", TrialsRecord(d.problem, d.before.trials)}};
 }
 
 Json GateRecord(const Diagnosis& d) {
@@ -300,6 +267,45 @@ Json ResolvedOptions(const std::string& dataset_argument, const DiagnosisOptions
 }
 
 }  // namespace
+
+Json HeldOutRecord(const FitProblem& problem, const HeldOutErrors& errors) {
+  Json record = RoleRecord(problem, errors.trials, TrialRole::kTest);
+  const FeatureErrors& f = errors.features;
+  const auto computed = [&](double value) {
+    return errors.trials.empty() ? Json(nullptr) : NumberOrNull(value);
+  };
+  record["apex_height_rmse_m"] = computed(f.apex_height_rmse);
+  record["apex_time_rmse_s"] = computed(f.apex_time_rmse);
+  record["touchdown_time_rmse_s"] = computed(f.touchdown_time_rmse);
+  record["stance_time_rmse_s"] = computed(f.stance_time_rmse);
+  return record;
+}
+
+Json ForcesRecord(const std::optional<FreeForces>& free_forces) {
+  if (!free_forces) return nullptr;
+  Json out = Json::array();
+  for (const ReconstructedForce& f : free_forces->forces) {
+    Json points = Json::array(), terms = Json::array();
+    for (const ForcePoint& p : f.points) {
+      points.push_back({{"at", NumberOrNull(p.at)},
+                        {"value", NumberOrNull(p.value)},
+                        {"band95", NumberOrNull(p.band95)}});
+    }
+    for (const RegressionTerm& t : f.terms) {
+      terms.push_back({{"term", t.term},
+                       {"coefficient", NumberOrNull(t.coefficient)},
+                       {"inclusion", NumberOrNull(t.inclusion)}});
+    }
+    out.push_back({{"name", f.group.name},
+                   {"against", TextOrNull(f.group.against)},
+                   {"unit", f.group.unit},
+                   {"score", NumberOrNull(f.score)},
+                   {"p_value", NumberOrNull(f.p_value)},
+                   {"points", points},
+                   {"terms", terms}});
+  }
+  return out;
+}
 
 Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument,
                      const DiagnosisOptions& options, const DiagnosisRun& run) {
@@ -358,6 +364,7 @@ Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument
                                          : std::optional<GradientCertificate>(d.gate.certificate));
   record["channels"] = ChannelsRecord(d.problem);
   record["known"] = KnownRecord(d.problem);
+  if (!d.problem.formulas.empty()) record["formulas"] = FormulasRecord(d.problem);
   const bool determined = !d.uncertainty.parameters.empty();
   record["sentences"] = {
       {"determined",

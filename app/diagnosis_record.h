@@ -10,4 +10,9 @@ namespace hoplab {
 Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument,
                      const DiagnosisOptions& options, const DiagnosisRun& run);
 
+// Parts that the record of a discovery has too.
+
+Json HeldOutRecord(const FitProblem& problem, const HeldOutErrors& errors);
+Json ForcesRecord(const std::optional<FreeForces>& free_forces);
+
 }  // namespace hoplab

@@ -306,6 +306,13 @@ std::string ForceLines(const FreeForces& free_forces, bool colours) {
   return text;
 }
 
+// What no cause of the list explains may have a formula.
+std::string FormulaLine(const Diagnosis& d, bool colours) {
+  if (d.verdict != Verdict::kUnexplained) return "";
+  return Labelled("a formula", "hoplab discover looks for one: diagnose --discover does it at once",
+                  colours);
+}
+
 std::string NoVerdict(const Diagnosis& d, const std::string& failure, bool colours) {
   std::string text = "\n" + Labelled("no verdict", failure, colours);
   for (const GateCheck& c : d.gate.checks)
@@ -343,6 +350,7 @@ std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, boo
     text += Labelled("test error", TestErrorLine(d), colours);
   }
   if (d.free_forces) text += ForceLines(*d.free_forces, colours);
+  text += FormulaLine(d, colours);
   text += ExclusionLines(d, colours);
   if (d.experiment) text += Labelled("next trial", ExperimentLine(d), colours);
   for (const std::string& note : d.notes) text += Labelled("note", note, colours);

@@ -86,14 +86,15 @@ std::string Misfit(const Diagnosis& d) {
   return csv.text();
 }
 
-std::string Residuals(const Diagnosis& d) {
+}  // namespace
+
+std::string ResidualsTable(const Diagnosis& d, const HeldOutErrors* extended) {
   CsvText csv({"trial", "role", "time_s", "channel", "measured", "before", "after", "sigma"});
   const std::size_t width = d.problem.channels.size();
   for (std::size_t i = 0; i < d.before.trials.size(); ++i) {
     const TrialProblem& trial = d.problem.trials[i];
     const std::vector<double>& before = d.before.trials[i].trajectory.samples;
-    const std::vector<double>* after =
-        d.extension ? &d.extension->after.trials[i].trajectory.samples : nullptr;
+    const std::vector<double>* after = extended ? &extended->trials[i].trajectory.samples : nullptr;
     for (std::size_t cell = 0; cell < trial.data.size(); ++cell) {
       csv.Cell(trial.file)
           .Cell(std::string_view(RoleName(trial.role)))
@@ -108,6 +109,8 @@ std::string Residuals(const Diagnosis& d) {
   }
   return csv.text();
 }
+
+namespace {
 
 // Evidence for the effects of the extension at the null fit, row by row and summed up since the
 // trial's first; an effect of one trial only counts there.
@@ -202,7 +205,7 @@ std::map<std::string, std::string> DiagnosisTables(const DiagnosisRun& run) {
   if (!d.naming.candidates.empty()) tables["candidates.csv"] = Candidates(d);
   if (!d.localisation.cells.empty()) tables["misfit.csv"] = Misfit(d);
   if (!d.before.trials.empty()) {
-    tables["residuals.csv"] = Residuals(d);
+    tables["residuals.csv"] = ResidualsTable(d, d.extension ? &d.extension->after : nullptr);
     tables["trajectories.csv"] = Trajectories(d);
     tables["events.csv"] = Events(d);
   }

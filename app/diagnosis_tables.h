@@ -13,4 +13,7 @@ namespace hoplab {
 /// was not reached is left out.
 std::map<std::string, std::string> DiagnosisTables(const DiagnosisRun& run);
 
+/// Measured, simulated before, and with the extended model's errors simulated after.
+std::string ResidualsTable(const Diagnosis& d, const HeldOutErrors* extended);
+
 }  // namespace hoplab

@@ -103,6 +103,7 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
   record["profiles"] = ProfilesRecord(run);
   record["channels"] = ChannelsRecord(run.problem);
   record["known"] = KnownRecord(run.problem);
+  if (!run.problem.formulas.empty()) record["formulas"] = FormulasRecord(run.problem);
   record["sentences"] = FitSentences(run);
   record["mechanism"] =
       run.has_result ? FittedMechanismRecord({&run.problem, &run.fit.shared, &run.trials, ""})

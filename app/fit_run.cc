@@ -43,9 +43,11 @@ void AddProfiles(const FitRunOptions& options, const std::vector<int>& targets, 
   for (const int target : targets) {
     // Where the data say nothing, or the optimum sits on a bound, there is no width to step by.
     const SharedParameter& s = run.problem.shared[target];
-    const double step = run.uncertainty->parameters[target].std_error.value_or(0.1 * s.scale);
+    const ParameterUncertainty& known = run.uncertainty->parameters[target];
+    const double step = known.std_error.value_or(0.1 * s.scale);
     Announce(options, "profile of " + s.name);
-    Profile profile = ComputeProfile(run.problem, run.fit, options.fit, target, step);
+    Profile profile =
+        ComputeProfile(run.problem, run.fit, options.fit, target, step, known.inflation);
     if (options.fit.stop && *options.fit.stop) return;  // this one is cut short
     run.profiles.push_back(std::move(profile));
   }

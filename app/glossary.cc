@@ -235,7 +235,7 @@ constexpr std::array kWords = {
     GlossaryEntry{"profile", "profile-likelihood",
                   "chi-square as a function of one parameter, everything else refitted at"
                   " each value; its 95 % interval ends where chi-square has risen by "
-                  "3.84.",
+                  "3.84, times what a discrepancy adds to the value's variance.",
                   "Exact where the symmetric interval is not: near a bound, or where the "
                   "curve leans. Ask with --profile NAME; it costs some tens of fits."},
     GlossaryEntry{"residual", "",

@@ -20,7 +20,8 @@ void AddProblemOptions(CLI::App& sub, ProblemSettings& settings) {
       ->delimiter(',')
       ->option_text("NAME=VALUE")
       ->allow_extra_args(false);
-  sub.add_option("--with", settings.with, "Effects whose parameters are fitted; see hoplab effects")
+  sub.add_option("--with", settings.with,
+                 "Effects fitted too, by name or a formula's FILE.yaml; see hoplab effects")
       ->delimiter(',')
       ->option_text("EFFECT,...")
       ->allow_extra_args(false);

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "app/formula_words.h"
 #include "app/version.h"
+#include "model/formula/formula_effect.h"
 
 namespace hoplab {
 namespace {
@@ -12,6 +14,13 @@ Json StateRecord(const Eigen::VectorXd& state) {
           {"y_m", NumberOrNull(state[1])},
           {"vx_m_per_s", NumberOrNull(state[2])},
           {"vy_m_per_s", NumberOrNull(state[3])}};
+}
+
+// Leg angle that the first touch-down of a trial is commanded at [rad].
+double FirstAngle(const TrialProblem& trial) {
+  if (!trial.touchdown_angles.empty()) return trial.touchdown_angles.front();
+  const double first = trial.parameters.start_angle;
+  return std::isnan(first) ? trial.parameters.theta_td : first;
 }
 
 }  // namespace
@@ -74,7 +83,8 @@ Json RoleRecord(const FitProblem& problem, const std::vector<TrialErrors>& trial
 
 Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& trials) {
   Json out = Json::array();
-  for (const TrialErrors& trial : trials) {
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const TrialErrors& trial = trials[i];
     Json hops = Json::array();
     for (const HopErrors& hop : trial.hops) {
       hops.push_back(
@@ -90,6 +100,7 @@ Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& tri
                    {"complete", trial.complete},
                    {"end_time_s", NumberOrNull(trial.end_time)},
                    {"start", StateRecord(trial.start)},
+                   {"touchdown_angle_rad", NumberOrNull(FirstAngle(problem.trials[i]))},
                    {"max_flexure", NumberOrNull(trial.max_flexure)},
                    {"hops", hops}});
   }
@@ -153,6 +164,28 @@ Json KnownRecord(const FitProblem& problem) {
                    {"unit", p.unit},
                    {"at_most", known.at_most}});
   }
+  return out;
+}
+
+Json FormulaRecord(const Effect& effect) {
+  const FormulaSource& source = *SourceOf(effect);
+  const PlaceInfo& place = InfoOf(effect.formula->place());
+  Json parameters = Json::array();
+  for (const EffectParameter& p : effect.info.parameters)
+    parameters.push_back({{"name", p.name},
+                          {"unit", p.unit},
+                          {p.is_shape ? "value" : "null", p.null},
+                          {"bounds", Json::array({NumberOrNull(p.lower), NumberOrNull(p.upper)})},
+                          {"typical", p.typical}});
+  return {{"name", source.name},         {"acts_as", source.acts_as},
+          {"symbol", place.symbol},      {"unit", place.unit},
+          {"formula", source.formula},   {"mathml", MathMlOf(*effect.formula)},
+          {"sentence", source.sentence}, {"parameters", parameters}};
+}
+
+Json FormulasRecord(const FitProblem& problem) {
+  Json out = Json::array();
+  for (const Effect* effect : problem.formulas) out.push_back(FormulaRecord(*effect));
   return out;
 }
 

@@ -39,6 +39,7 @@ Json ParametersRecord(const FittedValues& fitted);
 
 /// Errors over the trials of one role; nulls if no trial was assessed.
 Json RoleRecord(const FitProblem& problem, const std::vector<TrialErrors>& trials, TrialRole role);
+/// `trials` in the problem's order.
 Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& trials);
 
 /// Rows and columns by the shared parameters' names.
@@ -49,6 +50,10 @@ Json ChannelsRecord(const FitProblem& problem);
 /// What the set-up rules out or bounds, one entry a parameter: [{"effect", "parameter", "unit",
 /// "at_most"}]; at_most 0: it is not there.
 Json KnownRecord(const FitProblem& problem);
+/// Effects that are formulas, those simulated and those tried: [{"name", "acts_as", "symbol",
+/// "unit", "formula", "mathml", "sentence", "parameters"}].
+Json FormulasRecord(const FitProblem& problem);
+Json FormulaRecord(const Effect& effect);
 Json ToolsRecord();
 
 /// How a problem was set up and fitted.

@@ -359,20 +359,77 @@ void DesignHeadline(const Json& record, Headline& out) {
   out.figures.push_back(Figure(record, "designs tried", "/designs_tried", ""));
 }
 
+void DiscoveryHeadline(const Json& record, Headline& out) {
+  const std::string verdict = TextAt(record, "/verdict");
+  const std::string words = TextAt(record, "/discovered/0/words");
+  out.sentence = verdict == "found"        ? "Found: " + words + "."
+                 : verdict == "not_needed" ? "No formula is needed."
+                 : verdict.empty()         ? TextAt(record, "/message")
+                                           : "No formula is stable.";
+  out.figures.push_back(Figure(record, "chance of such a misfit", "/detection/p_value", "", 2));
+  out.figures.back().note = "under noise alone";
+  out.figures.push_back(ErrorFigure(record, "test error before", "/held_out/before"));
+  out.figures.push_back(ErrorFigure(record, "test error after", "/held_out/after"));
+  out.figures.push_back(Figure(record, "terms tried", "/library", ""));
+}
+
+void ComparisonHeadline(const Json& record, Headline& out) {
+  std::vector<std::string> names;
+  for (const Json& run : At(record, "/runs")) names.push_back(TextAt(run, "/name"));
+  out.title = "Comparison of " + Listed(names);
+  out.sentence = TextAt(record, "/sentence");
+  if (names.empty()) return;
+  const std::size_t last = names.size() - 1;
+  // The value that changed most for its interval; where none has one, the first.
+  std::size_t most = 0;
+  double size = -1.0;
+  for (std::size_t i = 0; i < SizeAt(record, "/values"); ++i) {
+    const double z = std::abs(NumberAt(record, fmt::format("/values/{}/runs/{}/z", i, last)));
+    if (z > size) {
+      size = z;
+      most = i;
+    }
+  }
+  const std::string value = fmt::format("/values/{}", most);
+  const std::string own = fmt::format("{}/runs/{}", value, last);
+  out.figures.push_back(Figure(record, "change of " + TextAt(record, value + "/name"),
+                               own + "/difference", TextAt(record, value + "/unit"), 3));
+  out.figures.back().note =
+      size < 0.0 ? "no interval"
+                 : fmt::format("z = {}", Significant(NumberAt(record, own + "/z"), 2));
+  out.figures.push_back(Figure(record, "clear changes", "/clear_changes", ""));
+  out.figures.back().note = fmt::format("of {} values", SizeAt(record, "/values"));
+  const std::string errors = fmt::format("/errors/0/values/{}", last);
+  const std::string channel = TextAt(record, "/errors/0/channel");
+  const std::string what = TextAt(record, "/errors/0/what"),
+                    unit = TextAt(record, "/errors/0/unit");
+  HeadlineFigure error =
+      Figure(record, what + (channel.empty() ? "" : ", ") + WithoutUnit(channel), errors, unit, 3);
+  if (unit == "m") {  // as the tables say it
+    const std::string text = ErrorText(NumberAt(record, errors), unit);
+    error.value = text.substr(0, text.find(' '));
+    error.unit = "mm";
+  }
+  error.note = "was " + ErrorText(NumberAt(record, "/errors/0/values/0"), unit);
+  out.figures.push_back(error);
+}
+
 struct Kind {
   const char* command;
   const char* title;
   void (*fill)(const Json&, Headline&);
 };
-constexpr std::array<Kind, 9> kKinds = {{{"check", "Check", CheckHeadline},
-                                         {"fit", "Fit", FitHeadline},
-                                         {"diagnose", "Diagnosis", DiagnosisHeadline},
-                                         {"design", "Trial to record next", DesignHeadline},
-                                         {"gait", "Gait", GaitHeadline},
-                                         {"optimize", "Optimisation", OptimizeHeadline},
-                                         {"sweep", "Sweep", SweepHeadline},
-                                         {"simulate", "Simulation", SimulationHeadline},
-                                         {"reproduce", "Reproduction", ReproductionHeadline}}};
+constexpr std::array<Kind, 11> kKinds = {{{"check", "Check", CheckHeadline},
+                                          {"fit", "Fit", FitHeadline},
+                                          {"diagnose", "Diagnosis", DiagnosisHeadline},
+                                          {"discover", "Formula", DiscoveryHeadline},
+                                          {"design", "Trial to record next", DesignHeadline},
+                                          {"gait", "Gait", GaitHeadline},
+                                          {"optimize", "Optimisation", OptimizeHeadline},
+                                          {"sweep", "Sweep", SweepHeadline},
+                                          {"simulate", "Simulation", SimulationHeadline},
+                                          {"report", "Comparison", ComparisonHeadline},
+                                          {"reproduce", "Reproduction", ReproductionHeadline}}};
 
 }  // namespace
 

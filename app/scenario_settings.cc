@@ -1,5 +1,7 @@
 #include "app/scenario_settings.h"
 
+#include <filesystem>
+
 #include "app/usage_error.h"
 #include "base/input_error.h"
 #include "base/text.h"
@@ -27,7 +29,10 @@ void SetEffect(const std::string& text, ScenarioDocument& document) {
     throw InputError({"--with", effect_name + ":" + Printable(parameter),
                       "is not a parameter of this effect", DidYouMean(parameter, known)});
   }
-  document.Set("effects." + effect_name + "." + parameter, text.substr(equals + 1));
+  const std::string name(effect.info.name);
+  if (IsEffectFile(effect_name))
+    document.Set("effects." + name + ".file", std::filesystem::absolute(effect_name).string());
+  document.Set("effects." + name + "." + parameter, text.substr(equals + 1));
 }
 
 }  // namespace

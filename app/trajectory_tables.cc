@@ -120,9 +120,30 @@ Json MechanismRecord(const SimulationRequest& request) {
     parameters[std::string(InfoOf(id).name)] = NumberOrNull(Field(request.parameters, id));
   if (mechanism == MechanismKind::kBall)
     parameters["radius"] = NumberOrNull(request.parameters.radius);
+  if (request.parameters.m_toe > 0.0) {
+    for (const ParameterId id : ToeParameters())
+      parameters[std::string(InfoOf(id).name)] = NumberOrNull(Field(request.parameters, id));
+  }
+  Json effects = Json::array(), driven_by = Json::array();
+  for (const EffectSetting& setting : request.effects) {
+    const EffectInfo& info = setting.effect->info;
+    Json values = Json::object();
+    for (std::size_t i = 0; i < info.parameters.size(); ++i)
+      values[std::string(info.parameters[i].name)] = NumberOrNull(setting.values[i]);
+    effects.push_back({{"name", info.name}, {"parameters", values}});
+  }
+  for (const DrivenInput& input : request.inputs) driven_by.push_back(NameOf(input.kind));
+  const bool at_force = request.liftoff == LiftoffRule::kZeroForce;
   return {{"type", NameOf(mechanism)},
           {"ground_slope_rad", NumberOrNull(GroundSlope(request))},
-          {"parameters", parameters}};
+          {"parameters", parameters},
+          {"law", NameOf(request.law)},
+          {"variant", VariantRecord(request.parameters.variant)},
+          {"liftoff", at_force ? "zero_force" : "rest_length"},
+          {"torque_limit_N_m", NumberOrNull(request.parameters.torque_limit)},
+          {"on_guide", request.parameters.on_guide},
+          {"effects", effects},
+          {"driven_by", driven_by}};
 }
 
 }  // namespace hoplab

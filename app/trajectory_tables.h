@@ -31,7 +31,9 @@ std::vector<std::string> EventHeader(const RunLabels& names, int robot_legs = 0)
 void AddEventRows(const Trajectory& trajectory, const RunLabels& labels, double time_offset_s,
                   CsvText& csv, int robot_legs = 0);
 
-/// What hops, for whoever draws it: {type, ground_slope_rad, parameters: {name: SI value}}.
+/// What hops, for whoever draws it or takes it along: {type, ground_slope_rad, parameters: {name:
+/// SI value}, law, variant, liftoff, torque_limit_N_m (null: none), on_guide, effects: [{name,
+/// parameters}], driven_by: kinds of inputs}.
 Json MechanismRecord(const SimulationRequest& request);
 
 }  // namespace hoplab

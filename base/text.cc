@@ -150,6 +150,14 @@ std::optional<std::string> OnlyWordThatBegins(std::string_view beginning,
 
 }  // namespace
 
+namespace {
+bool SameLetters(std::string a, std::string b) {
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  return a == b;
+}
+}  // namespace
+
 std::optional<std::string> NearestWord(std::string_view word,
                                        const std::vector<std::string>& known) {
   if (word.empty() || word.size() > kLongestWord) return std::nullopt;
@@ -159,7 +167,11 @@ std::optional<std::string> NearestWord(std::string_view word,
     const std::size_t distance = EditDistance(word, candidate);
     const std::size_t allowed =
         std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
-    if (distance <= allowed && distance < best) {
+    // "xeport" is export, not report: letters that changed places are the likelier slip.
+    const bool likelier =
+        distance < best || (distance == best && SameLetters(std::string(word), candidate) &&
+                            !SameLetters(std::string(word), *nearest));
+    if (distance <= allowed && likelier) {
       best = distance;
       nearest = candidate;
     }

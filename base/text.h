@@ -30,8 +30,8 @@ std::string Join(const std::vector<std::string>& words, std::string_view separat
 /// `b`; letters of other case cost nothing.
 std::size_t EditDistance(std::string_view a, std::string_view b);
 
-/// The word of `known` that `word` was probably meant to be: the nearest by EditDistance, the first
-/// of equals; where over a third of its letters differ, the only one that `word` begins, or none.
+/// The word of `known` that `word` was meant to be: the nearest by EditDistance, of equals one of
+/// the same letters, else the first; where a third of its letters differ the only one it begins.
 std::optional<std::string> NearestWord(std::string_view word,
                                        const std::vector<std::string>& known);
 

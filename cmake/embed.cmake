@@ -1,5 +1,9 @@
 # cmake -D OUTPUT=assets.cc -D FILES=name=path,... -P embed.cmake: the files as a C++ source that
-# defines WebAsset (web/assets.h).
+# defines WebAsset (web/assets.h), or the FUNCTION of the HEADER.
+if(NOT DEFINED FUNCTION)
+  set(FUNCTION WebAsset)
+  set(HEADER web/assets.h)
+endif()
 string(REPLACE "," ";" FILES "${FILES}")
 set(texts "")
 set(cases "")
@@ -18,7 +22,7 @@ foreach(entry IN LISTS FILES)
   math(EXPR number "${number} + 1")
 endforeach()
 file(WRITE ${OUTPUT} "// Written by cmake; do not edit.
-#include \"web/assets.h\"
+#include \"${HEADER}\"
 
 #include \"base/check.h\"
 
@@ -28,7 +32,7 @@ namespace {
 ${texts}
 }  // namespace
 
-std::string_view WebAsset(std::string_view name) {
+std::string_view ${FUNCTION}(std::string_view name) {
 ${cases}  HOPLAB_CHECK(false && \"no such asset\");
   return {};
 }

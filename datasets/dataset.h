@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "datasets/channel.h"
+#include "datasets/effect_file.h"
 #include "datasets/input_spec.h"
 #include "datasets/known_spec.h"
 #include "datasets/mechanism_spec.h"
@@ -75,7 +76,8 @@ struct Dataset {
   std::vector<ChannelSpec> channels;
   std::vector<ClockSpec> clocks;
   std::vector<InputSpec> inputs;
-  std::vector<KnownSpec> known;  // of causes, by effect or by its parameters
+  std::vector<KnownSpec> known;     // of causes, by effect or by its parameters
+  std::vector<EffectFile> effects;  // formulas of its own, known by their names
   std::vector<Trial> trials;
   Origin origin = {};  // of dataset.yaml
   bool operator==(const Dataset&) const = default;

@@ -103,7 +103,8 @@ class DatasetReader {
     // The format first: a file of another format has other keys.
     CheckFormat(root_, kFormat);
     root_.AllowOnly({"format", "name", "title", "source", "mechanism", "controller", "initial",
-                     "initial_sigma", "channels", "clocks", "inputs", "known", "trials"});
+                     "initial_sigma", "channels", "clocks", "inputs", "known", "effects",
+                     "trials"});
     CheckNothingIsBlank(root_.node());
     dataset_.origin.place = files_.place + kYamlName;
     dataset_.name = root_.Required("name", "a short name").Name();
@@ -118,6 +119,7 @@ class DatasetReader {
     if (const auto clocks = root_.Optional("clocks")) dataset_.clocks = ReadClocks(*clocks);
     if (const auto inputs = root_.Optional("inputs")) dataset_.inputs = ReadInputs(*inputs);
     if (const auto known = root_.Optional("known")) dataset_.known = ReadKnown(*known);
+    if (const auto effects = root_.Optional("effects")) ReadEffects(*effects);
     ReadTrials();
     CheckChannels();
     CheckRoles(dataset_);
@@ -132,6 +134,26 @@ class DatasetReader {
     dataset_.source.by = source.OptionalText("by");
     dataset_.source.licence = source.OptionalText("licence");
     dataset_.source.note = source.OptionalText("note");
+  }
+
+  // A list of files of formulas, in the dataset's folder, or of formulas themselves.
+  void ReadEffects(const YamlCursor& effects) {
+    constexpr std::size_t kMost = 16;
+    const std::vector<YamlCursor> items = effects.Items(1);
+    if (items.size() > kMost)
+      effects.Fail("must have at most " + std::to_string(kMost) + " items",
+                   "Leave out those that are not asked about.");
+    for (const YamlCursor& item : items) {
+      if (item.node().kind == YamlNode::Kind::kMap) {
+        dataset_.effects.push_back(ReadEffectBlock(item));
+        continue;
+      }
+      const std::string name = ReadFileName(item);
+      if (!IsEffectFile(name))
+        item.Fail("must be a file of the format hoplab-effect/1, as umbilical.yaml",
+                  "Effects of the catalogue are known without being named here.");
+      dataset_.effects.push_back(ParseEffectFile(files_.read(name, item), files_.place + name));
+    }
   }
 
   void ReadTrials() {

@@ -49,14 +49,58 @@ std::vector<NamedNumber> ReadNamedNumbers(const YamlCursor& cursor, std::size_t 
   return numbers;
 }
 
-std::vector<EffectSpec> ReadEffects(const YamlCursor& cursor) {
+// The folder a scenario's file lies in; empty for one that is no file.
+std::filesystem::path FolderOf(const YamlCursor& root) {
+  const std::string& place = root.place();
+  return std::filesystem::path(place.substr(0, place.rfind(':'))).parent_path();
+}
+
+// A formula's file, beside the scenario's, or the formula itself.
+EffectFile ReadFormula(const YamlCursor& file, const std::filesystem::path& folder) {
+  if (file.node().kind == Kind::kMap) return ReadEffectBlock(file);
+  return ReadEffectFile(folder / file.Name());
+}
+
+// The parameters of an effect of the file, `file` of a formula among them.
+EffectSpec ReadEffect(const std::string& name, const YamlCursor& given,
+                      const std::filesystem::path& folder) {
+  EffectSpec effect;
+  effect.name = name;
+  effect.origin.place = given.place();
+  // `torque_bending:` with nothing behind it has no parameters.
+  if (given.node().kind == Kind::kNull) return effect;
+  for (const auto& [key, value] : given.Entries(0)) {
+    if (key != "file") {
+      effect.parameters.push_back(ReadNamedNumber(key, value));
+      continue;
+    }
+    effect.formula = ReadFormula(value, folder);
+    if (effect.formula->source.name != name)
+      value.Fail("is the file of " + effect.formula->source.name + ", and stands under " + name,
+                 "Give the effect the name its file says.");
+  }
+  return effect;
+}
+
+// effects: {air_drag: {c_drag: 0.05}, umbilical: {file: umbilical.yaml, k: 2}}, or a list of files
+// and names, each at its typical size.
+std::vector<EffectSpec> ReadEffects(const YamlCursor& cursor, const std::filesystem::path& folder) {
   std::vector<EffectSpec> effects;
-  for (const auto& [name, parameters] : cursor.Entries(0)) {
+  if (cursor.node().kind != Kind::kSequence) {
+    for (const auto& [name, given] : cursor.Entries(0))
+      effects.push_back(ReadEffect(name, given, folder));
+    return effects;
+  }
+  for (const YamlCursor& item : cursor.Items(1)) {
     EffectSpec effect;
-    effect.name = name;
-    effect.origin.place = parameters.place();
-    // `torque_bending:` with nothing behind it has no parameters.
-    if (parameters.node().kind != Kind::kNull) effect.parameters = ReadNamedNumbers(parameters, 0);
+    const bool block = item.node().kind == Kind::kMap;
+    if (!block) effect.name = item.Name();
+    effect.origin.place = item.place();
+    effect.at_typical = true;
+    if (block || IsEffectFile(effect.name)) {
+      effect.formula = ReadFormula(item, folder);
+      effect.name = effect.formula->source.name;
+    }
     effects.push_back(std::move(effect));
   }
   return effects;
@@ -68,12 +112,6 @@ StopSpec ReadStop(const YamlCursor& cursor) {
   stop.time_s = cursor.OptionalNumber("time_s", kStopTime);
   if (const auto hops = cursor.Optional("hops")) stop.hops = hops->Integer(1, kMaxHops);
   return stop;
-}
-
-// The folder a scenario's file lies in; empty for one that is no file.
-std::filesystem::path FolderOf(const YamlCursor& root) {
-  const std::string& place = root.place();
-  return std::filesystem::path(place.substr(0, place.rfind(':'))).parent_path();
 }
 
 // touchdown_angle_deg: an angle, or a list of them.
@@ -129,7 +167,8 @@ Scenario ReadRun(const YamlCursor& root) {
   }
   CheckDriven(root, scenario);
   if (const auto stop = root.Optional("stop")) scenario.stop = ReadStop(*stop);
-  if (const auto effects = root.Optional("effects")) scenario.effects = ReadEffects(*effects);
+  if (const auto effects = root.Optional("effects"))
+    scenario.effects = ReadEffects(*effects, FolderOf(root));
   return scenario;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "datasets/dataset.h"
+#include "datasets/effect_file.h"
 #include "datasets/mechanism_spec.h"
 
 namespace hoplab {
@@ -27,6 +28,8 @@ struct EffectSpec {
   std::string name;
   std::vector<NamedNumber> parameters;
   Origin origin = {};
+  std::optional<EffectFile> formula = {};  // of an effect that is one
+  bool at_typical = false;                 // no parameters are given: each at its typical size
   bool operator==(const EffectSpec&) const = default;
 };
 

@@ -25,8 +25,8 @@ using Kind = YamlNode::Kind;
 class TreeBuilder : public YAML::EventHandler {
  public:
   using PlaceOf = std::function<std::string(const YAML::Mark&)>;
-  TreeBuilder(PlaceOf place_of, const YamlLimits& limits)
-      : place_of_(std::move(place_of)), limits_(limits) {
+  TreeBuilder(std::string_view text, PlaceOf place_of, const YamlLimits& limits)
+      : text_(text), place_of_(std::move(place_of)), limits_(limits) {
     root_.place = place_of_(YAML::Mark::null_mark());
   }
 
@@ -41,6 +41,13 @@ class TreeBuilder : public YAML::EventHandler {
   void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    // The key `null` of a parameter: the word itself.
+    constexpr std::string_view kNull = "null";
+    const bool is_key =
+        !stack_.empty() && stack_.back().sized.node.kind == Kind::kMap && !stack_.back().has_key;
+    if (is_key && mark.pos >= 0 && static_cast<std::size_t>(mark.pos) < text_.size() &&
+        text_.substr(static_cast<std::size_t>(mark.pos), kNull.size()) == kNull)
+      return OnScalar(mark, "", anchor, std::string(kNull));
     Finish({NewNode(Kind::kNull, mark), {1, 0, 1}}, mark, anchor);
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -190,6 +197,7 @@ class TreeBuilder : public YAML::EventHandler {
     frame.has_key = false;
   }
 
+  std::string_view text_;
   PlaceOf place_of_;
   YamlLimits limits_;
   YamlNode root_;
@@ -217,8 +225,9 @@ std::string WithUnixLineEnds(std::string_view text) {
 
 YamlNode Parse(std::string_view text, const TreeBuilder::PlaceOf& place_of,
                const YamlLimits& limits) {
-  std::istringstream stream(WithUnixLineEnds(text));
-  TreeBuilder builder(place_of, limits);
+  const std::string lines = WithUnixLineEnds(text);
+  std::istringstream stream(lines);
+  TreeBuilder builder(lines, place_of, limits);
   try {
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {

@@ -33,11 +33,13 @@ Eigen::MatrixXd OwnBasis(const TrialProblem& trial, const TrialEvaluation& evalu
   if (free == 0) return own;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(own);
   qr.setThreshold(kRankTolerance);
+  if (qr.rank() == 0) return Eigen::MatrixXd(own.rows(), 0);
   return qr.householderQ() * Eigen::MatrixXd::Identity(own.rows(), qr.rank());
 }
 
-EliminatedTrial EliminateOwn(const TrialProblem& trial, const TrialEvaluation& evaluation,
-                             int shared_count, const std::vector<KeptColumn>& columns) {
+Eigen::MatrixXd ProjectedColumns(const Eigen::MatrixXd& own_basis,
+                                 const TrialEvaluation& evaluation,
+                                 const std::vector<KeptColumn>& columns) {
   const auto n = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd whole(evaluation.residuals.size(), n + 1);
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -45,13 +47,20 @@ EliminatedTrial EliminateOwn(const TrialProblem& trial, const TrialEvaluation& e
     whole.col(k) = evaluation.jacobian.col(c.place) * c.scale;
   }
   whole.col(n) = evaluation.residuals;
+  // Twice is enough: what rounding of the first pass leaves along the basis is taken by the second.
+  for (int pass = 0; pass < 2 && own_basis.cols() > 0; ++pass)
+    whole -= own_basis * (own_basis.transpose() * whole);
+  return whole;
+}
+
+EliminatedTrial EliminateOwn(const TrialProblem& trial, const TrialEvaluation& evaluation,
+                             int shared_count, const std::vector<KeptColumn>& columns) {
+  const auto n = static_cast<Eigen::Index>(columns.size());
   const Eigen::MatrixXd Q = OwnBasis(trial, evaluation, shared_count);
   EliminatedTrial out;
   out.own_rank = static_cast<int>(Q.cols());
   out.own_nats = 0.5 * (Q.transpose() * evaluation.residuals).squaredNorm();
-  // Twice is enough: what rounding of the first pass leaves along Q is taken by the second.
-  for (int pass = 0; pass < 2 && Q.cols() > 0; ++pass) whole -= Q * (Q.transpose() * whole);
-  whole = Compressed(std::move(whole));
+  const Eigen::MatrixXd whole = Compressed(ProjectedColumns(Q, evaluation, columns));
   out.columns = whole.leftCols(n);
   out.residuals = whole.col(n);
   return out;

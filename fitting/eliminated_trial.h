@@ -25,6 +25,12 @@ struct KeptColumn {
   double scale = 1.0;
 };
 
+/// The columns, then the residuals, row by row, with the directions of an orthonormal basis
+/// (OwnBasis) projected out.
+Eigen::MatrixXd ProjectedColumns(const Eigen::MatrixXd& own_basis,
+                                 const TrialEvaluation& evaluation,
+                                 const std::vector<KeptColumn>& columns);
+
 /// Of an evaluated trial with its Jacobian. Own values that are held are not projected out.
 EliminatedTrial EliminateOwn(const TrialProblem& trial, const TrialEvaluation& evaluation,
                              int shared_count, const std::vector<KeptColumn>& columns);

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "fitting/apex_segments.h"
-#include "fitting/discrepancy/refine.h"
+#include "fitting/discrepancy/estimate_discrepancy.h"
 #include "fitting/trial_evaluator.h"
 
 namespace hoplab {
@@ -107,35 +107,18 @@ std::string WhyByHop(const DatasetFit& whole, FitSpan span) {
 
 namespace {
 
-// The noise that suits a fit, and the fit under it.
+// The discrepancy that suits what a fit leaves. The values stay where they are: they are those of
+// least squares, and the discrepancy widens their intervals (docs/decisions/0010).
 void AddDiscrepancy(DatasetFit& fit, const FitOptions& options) {
   FitResult& result = fit.result;
   if (options.discrepancy == Discrepancy::kNone || !result.ok || result.interrupted ||
       !result.stop.complete)
     return;
-  const std::vector<TrialProblem> trials = TrialsOf(fit.problem, TrialRole::kTrain);
-  RefineRequest request;
-  request.trials = &trials;
-  request.shared = result.shared;
-  request.starts = result.starts;
-  request.loss = options.loss;
-  request.max_iterations = options.max_iterations;
-  request.jobs = options.jobs;
-  request.stop = options.stop;
-  const FitProblem white = fit.problem;
-  RefinedFit refined = Refine(fit.problem, request);
-  const bool usable = IsUsable(refined.at.status) && refined.at.complete;
-  if (!usable) {
-    fit.problem = white;
-    return;
-  }
-  result.discrepancy = refined.discrepancy;
-  if (fit.problem.noise.IsWhite()) return;  // nothing has moved
-  result.shared = refined.at.shared;
-  result.starts = refined.at.starts;
-  result.cost = refined.at.cost;
-  result.stop =
-      CheckStop(fit.problem, trials, result.shared, result.starts, options.loss, options.jobs);
+  const RestrictedLikelihood likelihood(fit.problem, TrialsOf(fit.problem, TrialRole::kTrain),
+                                        result.shared, result.starts, options.jobs,
+                                        LikelihoodDetail::Coarse());
+  result.discrepancy = EstimateDiscrepancy(likelihood);
+  fit.problem.noise = result.discrepancy->noise;
 }
 
 DatasetFit FitUnderWhiteNoise(FitProblem problem, const FitOptions& fit_options, FitSpan span) {

@@ -33,9 +33,10 @@ int ParameterNamed(const Effect& effect, const KnownSpec& spec) {
 
 }  // namespace
 
-KnownCauses::KnownCauses(const std::vector<KnownSpec>& specs) {
+KnownCauses::KnownCauses(const std::vector<KnownSpec>& specs,
+                         std::span<const Effect* const> formulas) {
   for (const KnownSpec& spec : specs) {
-    const Effect& effect = ResolveEffect(spec.effect, spec.origin.place);
+    const Effect& effect = ResolveEffect(spec.effect, spec.origin.place, formulas);
     const auto count = static_cast<int>(effect.info.parameters.size());
     if (!spec.parameter.empty()) {
       Add(effect, ParameterNamed(effect, spec), spec);
@@ -86,8 +87,10 @@ std::optional<EffectParameter> KnownCauses::Open(const Effect& effect, int param
 
 std::vector<OpenParameter> KnownCauses::OpenParameters(const Effect& effect) const {
   std::vector<OpenParameter> open;
-  for (int i = 0; i < static_cast<int>(effect.info.parameters.size()); ++i)
-    if (const std::optional<EffectParameter> p = Open(effect, i)) open.push_back({i, *p});
+  for (int i = 0; i < static_cast<int>(effect.info.parameters.size()); ++i) {
+    const std::optional<EffectParameter> p = Open(effect, i);
+    if (p && !p->is_shape) open.push_back({i, *p});
+  }
   return open;
 }
 

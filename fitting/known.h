@@ -28,12 +28,14 @@ class KnownCauses {
  public:
   KnownCauses() = default;
   /// Throws InputError (place: where it was said) for an effect or parameter that does not exist,
-  /// something said twice, or a size for a whole effect that has several parameters.
-  explicit KnownCauses(const std::vector<KnownSpec>& specs);
+  /// something said twice, or a size for a whole effect that has several parameters. `formulas` are
+  /// known beside the catalogue.
+  explicit KnownCauses(const std::vector<KnownSpec>& specs,
+                       std::span<const Effect* const> formulas = {});
 
   const std::vector<KnownParameter>& parameters() const { return parameters_; }
   /// The parameters of `effect` that may be off their null, with the bounds known of them put over
-  /// their physical ones; in the order of the catalogue.
+  /// their physical ones; in the order of the catalogue. One that only shapes it is not among them.
   std::vector<OpenParameter> OpenParameters(const Effect& effect) const;
   /// Every parameter is known to be null.
   bool RulesOut(const Effect& effect) const { return OpenParameters(effect).empty(); }

@@ -4,6 +4,7 @@
 
 #include "base/input_error.h"
 #include "base/text.h"
+#include "model/formula/formula_effect.h"
 
 namespace hoplab {
 namespace {
@@ -180,12 +181,61 @@ void CheckVariant(const ThesisVariant& variant, Law law, const std::string& plac
   }
 }
 
-const Effect& ResolveEffect(const std::string& name, const std::string& place) {
+const Effect& ResolveEffect(const std::string& name, const std::string& place,
+                            std::span<const Effect* const> formulas) {
+  for (const Effect* effect : formulas)
+    if (effect->info.name == name) return *effect;
   if (const Effect* effect = FindEffect(name)) return *effect;
+  if (IsEffectFile(name)) return EffectOfFile(ReadEffectFile(name));
   std::vector<std::string> known;
+  for (const Effect* effect : formulas) known.emplace_back(effect->info.name);
   for (const Effect* effect : AllEffects()) known.emplace_back(effect->info.name);
   throw InputError({place, "effect " + Printable(name), "is not in the catalogue",
                     DidYouMean(name, known) + " `hoplab effects` lists them."});
+}
+
+namespace {
+
+// What is wrong with a formula, where it stands in its file.
+InputError AsInputError(const FormulaError& e, const EffectFile& file) {
+  const FormulaSource& source = file.source;
+  switch (e.of()) {
+    case FormulaError::Of::kFormula: {
+      const std::string picture = e.Picture(source.formula);
+      const std::size_t longest = 80;
+      const bool shown = !picture.empty();
+      const std::string part =
+          shown ? source.formula.substr(e.begin(), std::min(e.end(), source.formula.size()) -
+                                                       std::min(e.begin(), source.formula.size()))
+                : source.formula;
+      return InputError({file.formula_origin.place,
+                         part.empty() ? "formula" : "formula, " + Printable(part, longest),
+                         e.rule(), e.remedy() + (shown ? "\n" + picture : "")});
+    }
+    case FormulaError::Of::kActsAs:
+      return InputError({file.acts_as_origin.place, "acts_as = " + Printable(source.acts_as),
+                         e.rule(), e.remedy()});
+    case FormulaError::Of::kParameter: {
+      const auto i = static_cast<std::size_t>(e.parameter());
+      const std::string place =
+          i < file.parameter_origins.size() ? file.parameter_origins[i].place : file.origin.place;
+      return InputError(
+          {place, "parameters." + Printable(source.parameters[i].name), e.rule(), e.remedy()});
+    }
+    case FormulaError::Of::kSource:
+      break;
+  }
+  return InputError({file.origin.place, "", e.rule(), e.remedy()});
+}
+
+}  // namespace
+
+const Effect& EffectOfFile(const EffectFile& file) {
+  try {
+    return FormulaEffect(file.source);
+  } catch (const FormulaError& e) {
+    throw AsInputError(e, file);
+  }
 }
 
 void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place,
@@ -212,13 +262,27 @@ void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string
                     "`hoplab effects` says which do."});
 }
 
+namespace {
+// Each parameter that has a null a typical size off it.
+EffectSetting AtTypical(const Effect& effect) {
+  EffectSetting setting = EffectSetting::Null(effect);
+  for (std::size_t i = 0; i < effect.info.parameters.size(); ++i) {
+    const EffectParameter& p = effect.info.parameters[i];
+    if (!p.is_shape) setting.values[i] = std::clamp(p.null + p.typical, p.lower, p.upper);
+  }
+  return setting;
+}
+}  // namespace
+
 std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,
                                           LegMass mass, InputSet inputs) {
   std::vector<EffectSetting> settings;
   for (const EffectSpec& spec : specs) {
-    const Effect& effect = ResolveEffect(spec.name, spec.origin.place);
+    const Effect& effect =
+        spec.formula ? EffectOfFile(*spec.formula) : ResolveEffect(spec.name, spec.origin.place);
     CheckApplies(effect, law, mass, spec.origin.place, inputs);
     EffectSetting setting = EffectSetting::Null(effect);
+    if (spec.at_typical) setting = AtTypical(effect);
     for (const NamedNumber& given : spec.parameters) {
       const std::optional<int> index = effect.FindParameter(given.name);
       if (!index) {

@@ -32,8 +32,13 @@ Law ResolveLaw(const std::string& name, MechanismKind mechanism, const std::stri
 /// Throws InputError, place `place`, for a variant of another law than `law`.
 void CheckVariant(const ThesisVariant& variant, Law law, const std::string& place);
 
-/// The effect named `name`; throws InputError with the nearest known name.
-const Effect& ResolveEffect(const std::string& name, const std::string& place);
+/// The effect named `name`: one of `formulas`, one of the catalogue, or the formula in the file of
+/// that name (IsEffectFile). Throws InputError with the nearest known name, or for a bad file.
+const Effect& ResolveEffect(const std::string& name, const std::string& place,
+                            std::span<const Effect* const> formulas = {});
+
+/// The effect in a file; throws InputError with the place in it for what is not right.
+const Effect& EffectOfFile(const EffectFile& file);
 
 /// Throws InputError if the effect means nothing under the law, on a leg with that mass, or without
 /// an input it changes.

@@ -10,7 +10,8 @@ Objective EvaluateObjective(const FitProblem& problem, const std::vector<TrialPr
   std::vector<TrialEvaluation> evaluations(trials.size());
   ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
     const TrialEvaluator evaluator(problem, trials[i]);
-    evaluator.Evaluate({shared, starts[i], true, loss}, evaluations[i]);
+    evaluator.Evaluate({shared, starts[i], true, loss, /*fly_on=*/false, /*whiten=*/false},
+                       evaluations[i]);
   });
 
   Objective out;

@@ -61,7 +61,8 @@ class Builder {
     problem_.law = ResolveLaw(options_.law, mechanism_, "--law");
     problem_.integrator = options_.integrator;
     problem_.clocks = ClocksOf(dataset_);
-    problem_.known = KnownCauses(dataset_.known);
+    AddFormulas();
+    problem_.known = KnownCauses(dataset_.known, problem_.formulas);
     if (const std::string known = problem_.known.Text(); !known.empty())
       problem_.notes.push_back("known of the set-up: " + known);
     AddTrials();
@@ -322,7 +323,7 @@ class Builder {
 
   // Place of an effect's parameter, the effect joining the problem if it is new.
   std::pair<int, int> EffectParameterOf(const ParameterName& name, const std::string& place) {
-    const Effect& effect = ResolveEffect(name.effect, place);
+    const Effect& effect = ResolveEffect(name.effect, place, problem_.formulas);
     const std::optional<int> component = effect.FindParameter(name.parameter);
     if (!component) {
       std::vector<std::string> known;
@@ -332,6 +333,24 @@ class Builder {
                         DidYouMean(name.whole, known)});
     }
     return {EffectIndex(effect, place), *component};
+  }
+
+  // The dataset's formulas, and those that --with names by their files.
+  void AddFormulas() {
+    for (const EffectFile& file : dataset_.effects)
+      AddFormula(EffectOfFile(file), file.origin.place);
+    for (const std::string& name : options_.with_effects)
+      if (IsEffectFile(name)) AddFormula(ResolveEffect(name, "--with"), name);
+  }
+  void AddFormula(const Effect& effect, const std::string& place) {
+    for (const Effect* other : problem_.formulas) {
+      if (other == &effect) return;
+      if (other->info.name == effect.info.name)
+        throw InputError({place, "name = " + std::string(effect.info.name),
+                          "is the name of another formula of this dataset",
+                          "Call one of the two otherwise."});
+    }
+    problem_.formulas.push_back(&effect);
   }
 
   int EffectIndex(const Effect& effect, const std::string& place) {
@@ -355,10 +374,10 @@ class Builder {
       AddSharedNamed(name, place);
     }
     for (const std::string& name : options_.with_effects) {
-      const Effect& effect = ResolveEffect(name, "--with");
+      const Effect& effect = ResolveEffect(name, "--with", problem_.formulas);
       problem_.known.CheckOpen(effect, "--with");
       for (const OpenParameter& p : problem_.known.OpenParameters(effect)) {
-        const std::string whole = name + "." + std::string(p.info.name);
+        const std::string whole = std::string(effect.info.name) + "." + std::string(p.info.name);
         if (!options_.fix.count(whole)) AddSharedNamed(whole, "--with");
       }
     }

@@ -107,6 +107,8 @@ struct FitProblem {
   Law law = Law::kElastica;
   std::vector<SharedParameter> shared;
   std::vector<EffectSetting> effects;  // with their nominal values
+  /// Effects beside the catalogue: the dataset's own formulas and those asked for by their files.
+  std::vector<const Effect*> formulas;
   std::vector<ClockProblem> clocks;
   KnownCauses known;                     // what the set-up rules out or bounds
   std::vector<ChannelProblem> channels;  // without `contact`

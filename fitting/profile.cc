@@ -44,7 +44,7 @@ double Crossing(const ProfilePoint& a, const ProfilePoint& b) {
 }  // namespace
 
 Profile ComputeProfile(const FitProblem& problem, const FitResult& fit, const FitOptions& options,
-                       int parameter, double first_step, int max_points) {
+                       int parameter, double first_step, double inflation, int max_points) {
   const std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
   const Walker walker{problem, trials, options, parameter, fit.cost};
   const SharedParameter& s = problem.shared[parameter];
@@ -61,7 +61,7 @@ Profile ComputeProfile(const FitProblem& problem, const FitResult& fit, const Fi
       if (value == last.value) break;
       SolveResult result = walker.At(value, shared, starts);
       if (!IsUsable(result.status)) break;
-      const ProfilePoint point{value, 2.0 * (result.cost - fit.cost), result.shared};
+      const ProfilePoint point{value, 2.0 * (result.cost - fit.cost) / inflation, result.shared};
       if (last.delta_chi2 < kChi2Level && point.delta_chi2 >= kChi2Level)
         (side < 0.0 ? profile.lower95 : profile.upper95) = Crossing(last, point);
       points.push_back(point);

@@ -58,7 +58,8 @@ class Evaluations : public ceres::EvaluationCallback {
     const Eigen::VectorXd shared = SharedValues();
     ParallelFor(static_cast<int>(trials_.size()), request_.jobs, [&](int i) {
       const OwnValues own = OwnValuesOf(i);
-      evaluators_[i].Evaluate({shared, own, jacobians, request_.loss, /*fly_on=*/true},
+      evaluators_[i].Evaluate({shared, own, jacobians, request_.loss, /*fly_on=*/true,
+                               /*whiten=*/false},
                               evaluations_[i]);
       if (evaluations_[i].evaluated)
         reduced_[i].Reduce(evaluations_[i], jacobians, ColumnScales(trials_[i]));

@@ -64,7 +64,7 @@ StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& 
   ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
     const TrialEvaluator evaluator(problem, trials[i]);
     TrialEvaluation e;
-    evaluator.Evaluate({shared, starts[i], true, loss, /*fly_on=*/true}, e);
+    evaluator.Evaluate({shared, starts[i], true, loss, /*fly_on=*/true, /*whiten=*/false}, e);
     if (!e.complete) {
       broken[i] = trials[i].file +
                   (IsComplete(e.trajectory.outcome)

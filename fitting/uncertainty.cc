@@ -24,20 +24,41 @@ struct Reduced {
   EliminatedTrial trial;
   int samples = 0;    // of data; 0: the simulation ends before them
   double chi2 = 0.0;  // of data over the channels' sigma, and of priors
+  /// columns' K columns, K the discrepancy's covariance of the trial's rows in units of sigma;
+  /// empty under white noise.
+  Eigen::MatrixXd smooth;
 };
+
+Eigen::MatrixXd SmoothSpread(const TrialEvaluator& evaluator, const NoiseModel& noise,
+                             const Eigen::MatrixXd& columns) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+  const std::vector<ChannelRows>& channels = evaluator.channel_rows();
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const double ratio = noise.AmplitudeOf(c);
+    if (ratio > 0.0)
+      sum += MaternProduct(channels[c].times, channels[c].rows, ratio, noise.time_scale, columns);
+  }
+  return sum;
+}
 
 Reduced ReduceTrial(const FitProblem& problem, const TrialProblem& trial,
                     const Eigen::VectorXd& shared, const OwnValues& start, const Loss& loss,
                     const std::vector<KeptColumn>& columns) {
   const TrialEvaluator evaluator(problem, trial);
   TrialEvaluation e;
-  evaluator.Evaluate({shared, start, true, loss}, e);
+  evaluator.Evaluate({shared, start, true, loss, /*fly_on=*/false, /*whiten=*/false}, e);
   Reduced out;
   if (!e.complete) return out;
   out.samples = e.data_residuals;
   const Eigen::Index priors = e.residuals.size() - e.data_residuals;
   out.chi2 = e.white_square + e.residuals.tail(priors).squaredNorm();
   out.trial = EliminateOwn(trial, e, problem.shared_count(), columns);
+  if (!problem.noise.IsWhite()) {
+    const Eigen::MatrixXd Q = OwnBasis(trial, e, problem.shared_count());
+    const auto n = static_cast<Eigen::Index>(columns.size());
+    out.smooth =
+        SmoothSpread(evaluator, problem.noise, ProjectedColumns(Q, e, columns).leftCols(n));
+  }
   return out;
 }
 
@@ -126,6 +147,13 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
   Eigen::VectorXd unseen_share = Eigen::VectorXd::Zero(m);
   for (int j = id.rank; j < m; ++j) unseen_share += V.col(j).cwiseAbs2();
 
+  // The values are those of least squares; a discrepancy of covariance K beside the white noise
+  // spreads them by C S'(I + K) S C instead of C = (S'S)^-1.
+  Eigen::MatrixXd spread = C;
+  for (const Reduced& r : reduced) {
+    if (r.smooth.size() > 0) spread += C * r.smooth * C;
+  }
+
   // Between trials: C (sum of trial scores squared) C, the scores being what each trial pulls.
   Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(m, m);
   for (const EliminatedTrial& trial : parts) {
@@ -140,7 +168,8 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
     const SharedParameter& s = problem.shared[active[a]];
     ParameterUncertainty& p = out.parameters[active[a]];
     const double value = shared[active[a]];
-    p.std_error = s.scale * std::sqrt(C(a, a));
+    p.std_error = s.scale * std::sqrt(spread(a, a));
+    p.inflation = spread(a, a) / C(a, a);
     p.ci95 = CutInterval(value, kNormal975 * *p.std_error, s);
     if (used >= 3) {
       p.std_error_between_trials = s.scale * std::sqrt(between(a, a));
@@ -149,8 +178,9 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
     }
     for (int b = 0; b < m; ++b) {
       if (unseen_share[b] > 1e-10) continue;
-      out.covariance(active[a], active[b]) = C(a, b) * s.scale * problem.shared[active[b]].scale;
-      out.correlation(active[a], active[b]) = C(a, b) / std::sqrt(C(a, a) * C(b, b));
+      const double scale = s.scale * problem.shared[active[b]].scale;
+      out.covariance(active[a], active[b]) = spread(a, b) * scale;
+      out.correlation(active[a], active[b]) = spread(a, b) / std::sqrt(spread(a, a) * spread(b, b));
     }
   }
   return out;

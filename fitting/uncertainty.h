@@ -12,13 +12,16 @@ namespace hoplab {
 
 /// How well one shared value is known. Absent where the data do not determine it.
 struct ParameterUncertainty {
-  std::optional<double> std_error;                // own unit, from the stated noise
+  /// Own unit, of least squares under the problem's noise: white, and the discrepancy there is.
+  std::optional<double> std_error;
   std::optional<std::pair<double, double>> ci95;  // value -+ 1.96 std_error, cut at the bounds
   /// The same from the scatter between trials (sandwich estimate, Student's t): what counts when
   /// the model misses more than noise. Absent with fewer than 3 trials.
   std::optional<double> std_error_between_trials;
   std::optional<std::pair<double, double>> ci95_between_trials;
   bool at_bound = false;
+  /// The square of `std_error` over what white noise alone would give.
+  double inflation = 1.0;
 };
 
 /// A combination of shared values the data say little about: moving along it by its loadings

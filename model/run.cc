@@ -171,7 +171,7 @@ class RowSink final : public RowReader<T> {
       if (accelerations_) ReadAccelerations(mode, time, z, seen);
     }
     frame_.BodyToWorld(seen);
-    effects_.ChangeObservation(seen);
+    effects_.ChangeObservation(time + parameters_.time_origin, seen);
     const int channels = static_cast<int>(request_.channels.size());
     const int width = static_cast<int>(request_.directions.size());
     for (int c = 0; c < channels; ++c) {

@@ -243,6 +243,7 @@ function diagnosisReport() {
       el('div', {class: 'pair'}, misfitBars(list(run.misfit_by_hop), 'hop', 'The same by hop.'), misfitBars(list(run.misfit_by_trial), 'trial', 'The same by trial.')), evidencePlot());
   }
   groupPart();
+  formulaPart();
   forcesPart();
   if (extension || run.energy) {
     section('What it does to the rest', movementPart(list(extension?.movements)), energyPlot(run.energy), explained('extension', 'standard-error', 'energy-ledger'));

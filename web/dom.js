@@ -56,3 +56,20 @@ function choices(label, names, choose, start = names[0]) {
 
 // A colour and what it stands for, as in a legend.
 const swatch = (kind, text) => el('span', {class: 'swatch'}, el('i', {class: kind}), text);
+
+// A formula as the program typeset it; nothing else is taken for one.
+function typeset(mathml) {
+  if (typeof mathml !== 'string' || !mathml.startsWith('<math ')) return undefined;
+  const parsed = new DOMParser().parseFromString(mathml, 'text/html').querySelector('math');
+  return parsed ? el('div', {class: 'formula'}, document.importNode(parsed, true)) : undefined;
+}
+
+// Effects that were given, or found, as formulas.
+function formulaPart() {
+  const formulas = list(run.formulas);
+  if (!formulas.length) return undefined;
+  return section('Formulas', formulas.map((f) => [
+    el('h3', {}, words(f.name)), paragraph(`${f.sentence.replace(/^./, (c) => c.toUpperCase())}.`), typeset(f.mathml),
+    definitionList([['acts on', `${words(f.acts_as)} [${f.unit}]`], ['as written', el('code', {}, f.formula)]]),
+  ]));
+}

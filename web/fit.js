@@ -72,6 +72,7 @@ function fitReport() {
     paragraph(run.sentences?.determined ? `Determined: ${run.sentences.determined}.` : `Identifiability: ${notComputed}.`),
     weakDirections(run.identifiability), correlationPlot(run.correlation), ...profilePlots(run.profiles, parameters),
     explained(run.law, 'confidence-interval', 'between-trials', 'misfit', 'identifiability', 'condition-number', 'weak-direction', 'profile'));
+  formulaPart();
   const {channels, cell} = errorTable(run.test ?? run.train);
   const errorRows = [['fitted trials', run.train], ['held-out trials', run.test]].map(([name, errors]) =>
     [name, String(errors?.trials ?? notComputed), ...channels.map((c) => cell(errors, c)), significant(errors?.nll_per_sample, 4)]);

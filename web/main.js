@@ -1,8 +1,9 @@
 // Builds the report of whatever command the run was.
 
 const reports = {
-  check: checkReport, fit: fitReport, diagnose: diagnosisReport, gait: gaitReport, optimize: optimizeReport,
+  check: checkReport, fit: fitReport, diagnose: diagnosisReport, discover: discoveryReport, gait: gaitReport, optimize: optimizeReport,
   sweep: sweepReport, simulate: simulationReport, reproduce: reproductionReport, design: designReport,
+  report: comparisonReport,
 };
 
 // Draws every plot; the page says when all of them stand, and in which colours.

@@ -81,6 +81,7 @@ Json RecordOf(const Dataset& dataset, const CheckSettings& settings, const FitPr
   record["warnings"] = check.warnings;
   record["notes"] = check.notes;
   record["known"] = KnownRecord(problem);
+  if (!problem.formulas.empty()) record["formulas"] = FormulasRecord(problem);
   record["trials"] = Json::array();
   for (const TrialCheck& t : check.trials) record["trials"].push_back(TrialRecord(t));
   record["noise"] = Json::array();

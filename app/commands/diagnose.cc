@@ -7,6 +7,7 @@
 #include "app/diagnosis_record.h"
 #include "app/diagnosis_report.h"
 #include "app/diagnosis_tables.h"
+#include "app/discovery_record.h"
 #include "app/help_text.h"
 #include "app/interrupt.h"
 #include "app/problem_settings.h"
@@ -28,6 +29,7 @@ struct DiagnoseSettings : RunSettings {
   std::uint64_t seed = 1;
   std::string span = "whole_else_hops";
   std::string discrepancy = "matern";
+  bool discover = false;
 };
 
 DiagnosisOptions OptionsOf(const DiagnoseSettings& settings) {
@@ -59,6 +61,12 @@ void ShowProgress(DiagnosisOptions& options, Progress& progress) {
   };
 }
 
+// Something is left that no listed cause explains.
+bool WantsFormula(const DiagnosisRun& run) {
+  const Diagnosis& d = run.diagnosis;
+  return run.Failure().empty() && (d.verdict == Verdict::kUnexplained || d.left.material);
+}
+
 ExitCode CodeOf(const DiagnosisRun& run) {
   if (run.diagnosis.interrupted) return ExitCode::kInterrupted;
   return run.Failure().empty() ? ExitCode::kDone : ExitCode::kNoResult;
@@ -75,9 +83,13 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
   options.fit.stop = interrupt.flag();
   ShowProgress(options, progress);
   const DiagnosisRun run = RunDiagnosis(dataset, options);
+  std::optional<Discovery> discovery;
+  if (settings.discover && WantsFormula(run)) discovery = DiscoverBeside(run.diagnosis, options);
   progress.Clear();
 
   Json record = DiagnosisRecord(dataset, settings.problem.dataset, options, run);
+  if (settings.discover)
+    record["discovery"] = discovery ? DiscoveryPart(*discovery) : Json(nullptr);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
   // Before the null fit is over there is nothing worth keeping of an interrupted run.
@@ -85,13 +97,18 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
   std::string kept = "nothing was written";
   if (keep) {
     std::map<std::string, std::string> files = DiagnosisTables(run);
+    if (discovery) files.merge(DiscoveryFiles(*discovery));  // the diagnosis' tables stay
     files["run.json"] = TextOf(record);
     kept = folder.Write(files).string();
   }
   if (settings.json) {
     console.out << TextOf(record);
   } else {
-    console.out << DiagnosisReport(dataset, run, console.out_colours)
+    console.out << DiagnosisReport(dataset, run, console.out_colours);
+    if (discovery) console.out << '\n' << DiscoveryReport(*discovery, console.out_colours) << '\n';
+    if (settings.discover && !discovery && run.Failure().empty())
+      console.out << "\n  no formula is needed beside what was named\n";
+    console.out
                 << Styled("  run folder   ", Emphasis::kFaint, console.out_colours) << kept << '\n';
   }
   if (!run.Failure().empty()) console.err << "hoplab diagnose: " << run.Failure() << '\n';
@@ -134,6 +151,8 @@ void AddDiagnoseCommand(CLI::App& app, Invocation& invocation) {
                  "whole traces, else single hops where a law falls (default), whole or hops")
       ->check(OneOf({"whole_else_hops", "whole", "hops"}))
       ->option_text("NAME");
+  sub.add_flag("--discover", settings->discover,
+               "Look for a formula too, where the catalogue does not explain the misfit");
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-diagnose-NNN)");
   sub.footer(
       "Examples:\n"

@@ -5,7 +5,9 @@
 
 #include "app/effect_catalogue.h"
 #include "app/effect_words.h"
+#include "app/formula_words.h"
 #include "app/quantity.h"
+#include "app/record_parts.h"
 #include "app/report_text.h"
 #include "app/run_record.h"
 #include "app/text_table.h"
@@ -85,19 +87,22 @@ void PrintList(const std::vector<const Effect*>& effects, Console& console) {
               << "; hoplab effects EFFECT says more of one\n";
 }
 
-void PrintOne(const Effect& effect, Console& console) {
+// `given`: the effect as it was asked for, by name or file.
+void PrintOne(const Effect& effect, const std::string& given, Console& console) {
   const EffectInfo& info = effect.info;
   const bool colours = console.out_colours;
   console.out << Styled(info.name, Emphasis::kBold, colours) << "  " << NameOf(info.kind)
               << "\n\n  " << Wrapped(std::string(info.sentence), 2) << "\n\n"
-              << Labelled("equation", std::string(info.equation), colours);
+              << (effect.formula ? FormulaExplained(effect, colours)
+                                 : Labelled("equation", std::string(info.equation), colours));
   for (const EffectParameter& p : info.parameters) {
-    console.out << Labelled(std::string(p.name),
-                            (p.unit == "-" ? "" : "[" + std::string(p.unit) + "] ") +
-                                "no effect at " + FormatDouble(p.null) + ", typical " +
-                                FormatDouble(p.typical) + ", from " + FormatDouble(p.lower) +
-                                " to " + FormatDouble(p.upper),
-                            colours);
+    console.out << Labelled(
+        std::string(p.name),
+        (p.unit == "-" ? "" : "[" + std::string(p.unit) + "] ") +
+            (p.is_shape ? "held at " : "no effect at ") + FormatDouble(p.null) +
+            (p.is_shape ? " unless freed by name" : ", typical " + FormatDouble(p.typical)) +
+            ", from " + FormatDouble(p.lower) + " to " + FormatDouble(p.upper),
+        colours);
   }
   std::vector<std::string> laws;
   for (const Law law : LawsWith(effect)) laws.emplace_back(NameOf(law));
@@ -107,7 +112,7 @@ void PrintOne(const Effect& effect, Console& console) {
               << Labelled("energy",
                           info.dissipative ? "only ever taken away" : "may be put in or taken away",
                           colours)
-              << Labelled("fit it", "hoplab fit DATASET --with " + std::string(info.name), colours);
+              << Labelled("fit it", "hoplab fit DATASET --with " + given, colours);
 }
 
 std::vector<const Effect*> Chosen(const EffectsSettings& settings) {
@@ -138,14 +143,17 @@ ExitCode RunEffects(const EffectsSettings& settings, Console& console) {
     if (!settings.law.empty()) header.law = settings.law;
     Json record = NewRecord(header);
     record["effects"] = Json::array();
-    for (const Effect* effect : effects) record["effects"].push_back(RecordOf(*effect));
+    for (const Effect* effect : effects) {
+      record["effects"].push_back(RecordOf(*effect));
+      if (effect->formula) record["effects"].back().update(FormulaRecord(*effect));
+    }
     console.out << TextOf(record);
   } else if (settings.markdown) {
     console.out << EffectCatalogue(effects);
   } else if (settings.name.empty()) {
     PrintList(effects, console);
   } else {
-    PrintOne(*effects.front(), console);
+    PrintOne(*effects.front(), settings.name, console);
   }
   return ExitCode::kDone;
 }
@@ -155,13 +163,14 @@ ExitCode RunEffects(const EffectsSettings& settings, Console& console) {
 void AddEffectsCommand(CLI::App& app, Invocation& invocation) {
   auto settings = std::make_shared<EffectsSettings>();
   CLI::App& sub = *app.add_subcommand("effects", "Physical effects that can be added to a model");
-  sub.add_option("EFFECT", settings->name, "One effect, in full");
+  sub.add_option("EFFECT", settings->name, "One effect in full, or a file with a formula: checked");
   sub.add_option("--law", settings->law, "Only those that go with this law")->option_text("LAW");
   sub.add_flag("--markdown", settings->markdown, "As a page of documentation (docs/effects.md)");
   sub.footer(
       "Examples:\n"
       "  hoplab effects --law consistent\n"
       "  hoplab effects air_drag\n"
+      "  hoplab effects umbilical.yaml\n"
       "  hoplab effects --json");
   OnParsed(sub, invocation, settings, RunEffects);
 }

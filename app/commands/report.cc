@@ -1,21 +1,27 @@
 #include "app/commands/report.h"
 
+#include <chrono>
 #include <ostream>
 
+#include "app/comparison_record.h"
 #include "app/report_page.h"
 #include "app/run_folder.h"
+#include "app/run_settings.h"
+#include "app/usage_error.h"
 
 namespace hoplab {
 namespace {
 
-struct ReportSettings {
-  std::string folder;
-  bool json = false;
+struct ReportSettings : RunSettings {
+  std::vector<std::string> folders;
 };
 
-ExitCode RunReport(const ReportSettings& settings, Console& console) {
-  const StoredRun run = ReadRunFolder(settings.folder);
-  const std::filesystem::path written = WriteReport(settings.folder, run);
+ExitCode WriteAnew(const ReportSettings& settings, Console& console) {
+  const std::string& folder = settings.folders.front();
+  if (!settings.out.empty() || settings.force)
+    throw UsageError("--out and --force are for two or more runs, laid side by side");
+  const StoredRun run = ReadRunFolder(folder);
+  const std::filesystem::path written = WriteReport(folder, run);
   if (settings.json)
     console.out << TextOf(run.record);
   else
@@ -23,19 +29,52 @@ ExitCode RunReport(const ReportSettings& settings, Console& console) {
   return ExitCode::kDone;
 }
 
+ExitCode Compare(const ReportSettings& settings, Console& console) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<ComparedRun> runs;
+  for (const std::string& folder : settings.folders)
+    runs.push_back({folder, ReadRunFolder(folder)});
+  Json record = ComparisonRecord(runs);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  record["seconds"] = took.count();
+  const std::string name = record["runs"][0]["name"].get<std::string>();
+  const RunFolder folder(RunFolderOptionsOf(settings), name, "comparison");
+  const std::filesystem::path written =
+      folder.Write({{"run.json", TextOf(record)}, {"values.csv", ComparisonTable(record)}});
+  if (settings.json) {
+    console.out << TextOf(record);
+    return ExitCode::kDone;
+  }
+  console.out << ComparisonReport(record, console.out_colours)
+              << Styled("  run folder   ", Emphasis::kFaint, console.out_colours)
+              << written.string() << '\n';
+  return ExitCode::kDone;
+}
+
+ExitCode RunReport(const ReportSettings& settings, Console& console) {
+  return settings.folders.size() == 1 ? WriteAnew(settings, console) : Compare(settings, console);
+}
+
 }  // namespace
 
 void AddReportCommand(CLI::App& app, Invocation& invocation) {
   auto settings = std::make_shared<ReportSettings>();
-  CLI::App& sub =
-      *app.add_subcommand("report", "Write report.html of a run folder anew, from what is in it");
-  sub.add_option("RUN_DIR", settings->folder, "A folder with run.json and the tables beside it")
+  CLI::App& sub = *app.add_subcommand(
+      "report", "Write report.html of a run anew, or lay several runs side by side");
+  sub.add_option(
+         "RUN_DIR", settings->folders,
+         "A folder with run.json and its tables; two or more fits or diagnoses are compared "
+         "with the first")
       ->required();
+  AddRunFolderOptions(sub, *settings, "Folder of a comparison (default runs/<run>-comparison-NNN)");
   sub.footer(
-      "Every command that writes a run folder writes report.html into it: one file that\n"
-      "opens without a network. This one writes it again, as after an update of hoplab.\n"
-      "Example:\n"
-      "  hoplab report runs/rig-drops-fit-001");
+      "Every command that writes a run folder writes report.html into it: one file\n"
+      "that opens without a network. With one run this one writes it again, as after\n"
+      "an update of hoplab. With several it tells what changed: values with the\n"
+      "intervals of their differences, errors, causes, settings.\n"
+      "Examples:\n"
+      "  hoplab report runs/rig-drops-fit-001\n"
+      "  hoplab report runs/old-bearing-fit-001 runs/new-bearing-fit-001");
   OnParsed(sub, invocation, settings, RunReport);
 }
 

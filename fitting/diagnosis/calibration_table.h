@@ -13,6 +13,6 @@ struct CalibrationTable {
   std::array<double, NameFeatures::kCount> weights;
 };
 inline constexpr CalibrationTable kCalibration = {
-    333, 5.569, {-1.337, -0.3742, -0.04594, -0.2273, -0.6048, -3.432, 1.351, -1.539, -0.2415}};
+    337, 4.028, {-0.8983, -0.2759, -0.05788, -0.2917, -0.6748, -2.487, 1.025, -1.739, -0.1489}};
 
 }  // namespace hoplab

@@ -10,7 +10,7 @@ namespace {
 
 const Effect& Applicable(const FitProblem& problem, const std::string& name,
                          const std::string& place) {
-  const Effect& effect = ResolveEffect(name, place);
+  const Effect& effect = ResolveEffect(name, place, problem.formulas);
   CheckApplies(effect, problem.law, problem.leg_mass(), place, problem.inputs());
   return effect;
 }
@@ -59,7 +59,13 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
     return std::find(list.begin(), list.end(), effect) != list.end();
   };
   std::vector<Candidate> candidates;
-  for (const Effect* effect : AllEffects()) {
+  std::vector<const Effect*> tried(AllEffects().begin(), AllEffects().end());
+  const auto add = [&](const Effect* effect) {
+    if (!holds(tried, effect)) tried.push_back(effect);
+  };
+  std::for_each(problem.formulas.begin(), problem.formulas.end(), add);
+  std::for_each(only.begin(), only.end(), add);  // named by their files
+  for (const Effect* effect : tried) {
     if (!AppliesTo(*effect, problem.law, problem.leg_mass(), problem.inputs()) ||
         IsFitted(problem, *effect) || Simulates(problem, *effect))
       continue;

@@ -10,6 +10,7 @@
 #include "fitting/diagnosis/believe.h"
 #include "fitting/diagnosis/heterogeneity.h"
 #include "fitting/diagnosis/linearise_at.h"
+#include "fitting/diagnosis/null_fit.h"
 #include "fitting/diagnosis/verdict.h"
 
 namespace hoplab {
@@ -18,32 +19,6 @@ namespace {
 // Streams of the seed.
 constexpr std::uint64_t kDetectionStream = 11, kRemainderStream = 12, kBootstrapStream = 13,
                         kForcesStream = 14;
-
-std::vector<Hypothesis> Shifted(std::vector<Hypothesis> hypotheses, int by) {
-  for (Hypothesis& h : hypotheses) h.first += by;
-  return hypotheses;
-}
-
-// All tests of a linearisation whose columns are `candidates`, then the probes.
-Detection Detect(const Linearisation& at, std::span<const Candidate> candidates,
-                 const ProbeBasis& basis, std::uint64_t seed) {
-  std::vector<Hypothesis> hypotheses = HypothesesOf(candidates);
-  const std::vector<Hypothesis> probes = Shifted(basis.hypotheses, ParameterCount(candidates));
-  hypotheses.insert(hypotheses.end(), probes.begin(), probes.end());
-  const ScoreTests tests = TestScores(at, hypotheses, seed);
-  Detection out;
-  out.p_value = tests.global_p;
-  out.chi2 = at.chi2();
-  out.degrees_of_freedom = at.degrees_of_freedom();
-  out.candidates = candidates.size();
-  for (std::size_t i = 0; i < tests.scores.size(); ++i) {
-    const Score& s = tests.scores[i];
-    const std::string name =
-        i < candidates.size() ? candidates[i].Name() : basis.groups[i - candidates.size()].name;
-    out.tests.push_back({name, s.score, s.rank, s.p_value});
-  }
-  return out;
-}
 
 std::vector<Movement> MovementsOf(const Extension& null, const Uncertainty& uncertainty,
                                   const Extension& best) {
@@ -76,7 +51,7 @@ class Pipeline {
       d_.problem = std::move(problem);
       return Finish();
     }
-    FitNull(std::move(problem));
+    FitNull(std::move(problem), options_, d_, train_);
     if (!d_.refusal.empty() || Stopped()) return Finish();
     Look(candidates);
     if (Stopped()) return Finish();
@@ -102,53 +77,7 @@ class Pipeline {
     return std::move(d_);
   }
 
-  // ---- gate
-  void FitNull(FitProblem problem) {
-    d_.notes = CorrectNoise(problem);
-    Stage("fitting the model as it is");
-    FitOptions white = options_.fit;
-    white.discrepancy = Discrepancy::kNone;
-    DatasetFit fit = FitTraces(std::move(problem), white, options_.span);
-    d_.by_hop = fit.by_hop;
-    d_.fit = std::move(fit.result);
-    d_.problem = std::move(fit.problem);
-    d_.notes.insert(d_.notes.begin(), d_.problem.notes.begin(), d_.problem.notes.end());
-    if (!fit.note.empty()) d_.notes.push_back(fit.note);
-    for (const std::string& file : fit.left_out)
-      d_.notes.push_back(file + ": left out, since no values found let it be simulated");
-    if (Stopped()) return;
-    if (!d_.fit.ok) {
-      d_.refusal = "the model without further effects cannot be fitted: " + d_.fit.message;
-      return;
-    }
-    train_ = TrialsOf(d_.problem, TrialRole::kTrain);
-    d_.plain.problem = d_.problem;
-    d_.plain.shared = d_.fit.shared;
-    d_.plain.starts = d_.fit.starts;
-    d_.plain.cost = d_.fit.cost;
-    d_.plain.status = d_.fit.records[static_cast<std::size_t>(d_.fit.best_start)].status;
-    d_.plain.complete = d_.fit.stop.complete;
-    Stage("looking for the noise that suits it");
-    RefitSettings settle = Settings();
-    settle.discrepancy = Discrepancy::kNone;
-    Settle(d_.plain, settle);
-    d_.null = d_.plain;
-    settle.discrepancy = options_.fit.discrepancy;
-    if (settle.discrepancy != Discrepancy::kNone) Settle(d_.null, settle);
-    d_.problem.noise = d_.null.problem.noise;
-    Stage("checking that a diagnosis can be trusted");
-    d_.gate = CheckGate(d_.plain, train_, options_.fit.jobs);
-    d_.refusal = d_.gate.Refusal();
-  }
-
-  RefitSettings Settings() const {
-    RefitSettings settings;
-    settings.train = &train_;
-    settings.jobs = options_.fit.jobs;
-    settings.stop = options_.fit.stop;
-    settings.discrepancy = options_.fit.discrepancy;
-    return settings;
-  }
+  RefitSettings Settings() const { return SettingsOf(options_, train_); }
 
   // ---- detect, localise
   void Look(const std::vector<Candidate>& candidates) {
@@ -219,11 +148,10 @@ class Pipeline {
     const Linearisation at = LineariseAt(best, all, train_, options_.fit.jobs);
     report.remainder = Detect(at, others, basis_, Seed(kRemainderStream));
     RefitSettings settings = Settings();
-    const Extension white = UnderWhiteNoise(best, settings);
-    report.white_square = white.ok() ? white.white_square : best.white_square;
+    report.white_square = 2.0 * best.cost;
     report.explained = 1.0 - LeftShare(d_.detection, report.white_square, best.parameter_count());
     report.causes = TakeApart(d_.naming,
-                              {.plain_square = d_.plain.white_square,
+                              {.plain_square = 2.0 * d_.plain.cost,
                                .extended_square = report.white_square,
                                .after = &report.after,
                                .material = options_.material,

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "fitting/discrepancy/refine.h"
+#include "fitting/discrepancy/restricted_likelihood.h"
 
 namespace hoplab {
 namespace {
@@ -28,10 +28,10 @@ double Inside(const SharedParameter& s, double value) {
   return std::clamp(value, s.lower + room, s.upper - room);
 }
 
-// A search (Solve, Refine) from where a model is.
-template <class Request>
-Request RequestFrom(const Extension& e, const RefitSettings& settings) {
-  Request request;
+// A search from where a model is.
+SolveRequest RequestFrom(const Extension& e, const RefitSettings& settings) {
+  SolveRequest request;
+  request.problem = &e.problem;
   request.trials = settings.train;
   request.shared = e.shared;
   request.starts = e.starts;
@@ -42,9 +42,7 @@ Request RequestFrom(const Extension& e, const RefitSettings& settings) {
   return request;
 }
 
-// `result` is that of Solve, or the solution Refine ends with.
-template <class Result>
-void Take(Extension& e, const Result& result) {
+void Take(Extension& e, const SolveResult& result) {
   e.shared = result.shared;
   e.starts = result.starts;
   e.cost = result.cost;
@@ -54,8 +52,7 @@ void Take(Extension& e, const Result& result) {
 
 void Run(Extension& e, const Eigen::VectorXd& null_values, const RefitSettings& settings,
          double base_cost) {
-  auto request = RequestFrom<SolveRequest>(e, settings);
-  request.problem = &e.problem;
+  SolveRequest request = RequestFrom(e, settings);
   request.give_up_above = std::min(settings.give_up_above, base_cost);
   request.start_below = kFarOff * base_cost;
   const Eigen::Index added = null_values.size(), kept = e.shared.size() - added;
@@ -139,38 +136,22 @@ Extension RefitWithout(const Extension& base, int i, const FitProblem& null_prob
 
 void Settle(Extension& model, const RefitSettings& settings) {
   if (!model.ok()) return;
+  // A trial refit may have stopped short of the minimum.
+  const SolveResult found = Solve(RequestFrom(model, settings));
+  if (IsUsable(found.status) && found.complete && found.cost <= model.cost) Take(model, found);
+  const RestrictedLikelihood coarse(model.problem, *settings.train, model.shared, model.starts,
+                                    settings.jobs, LikelihoodDetail::Coarse());
   if (settings.discrepancy == Discrepancy::kMatern) {
-    auto request = RequestFrom<RefineRequest>(model, settings);
-    request.noise_is_near = !model.problem.noise.IsWhite();
-    FitProblem problem = model.problem;
-    RefinedFit refined = Refine(problem, request);
-    model.complete = refined.at.complete;
-    if (!IsUsable(refined.at.status) || !model.complete) return;
-    model.problem = std::move(problem);
-    Take(model, refined.at);
-    model.discrepancy = std::move(refined.discrepancy);
+    const NoiseModel near = model.problem.noise;
+    model.discrepancy = EstimateDiscrepancy(coarse, near, /*known_only=*/!near.IsWhite());
+    model.problem.noise = model.discrepancy.noise;
   }
   LikelihoodDetail detail;
   detail.prior_widths = PriorWidths(model.problem, model.shared);
   const RestrictedLikelihood likelihood(model.problem, *settings.train, model.shared, model.starts,
                                         settings.jobs, detail);
-  const RestrictedLikelihood coarse(model.problem, *settings.train, model.shared, model.starts,
-                                    settings.jobs, LikelihoodDetail::Coarse());
   model.evidence = EvidenceOf(model.problem, model.shared, likelihood, coarse, model.problem.noise);
-  model.white_square = likelihood.white_square();
   model.settled = true;
-}
-
-Extension UnderWhiteNoise(const Extension& model, const RefitSettings& settings) {
-  if (model.problem.noise.IsWhite() || !model.ok()) return model;
-  Extension white = model;
-  white.problem.noise = {};
-  white.settled = false;
-  auto request = RequestFrom<SolveRequest>(white, settings);
-  request.problem = &white.problem;
-  Take(white, Solve(request));
-  white.white_square = 2.0 * white.cost;
-  return white;
 }
 
 }  // namespace hoplab

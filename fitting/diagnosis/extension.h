@@ -18,8 +18,7 @@ struct Extension {
   FitProblem problem;             // the null problem extended by the members
   Eigen::VectorXd shared;         // fitted: those of the null problem, then the members'
   std::vector<OwnValues> starts;  // of the train trials
-  /// Half the sum of squares under the problem's noise; under one noise its difference is a
-  /// log-likelihood ratio.
+  /// Half the sum of squares of the data over sigma, and of priors: what least squares minimise.
   double cost = 0.0;
   SolveStatus status = SolveStatus::kFailed;
   bool complete = false;  // every train trial is simulated to the end of its data
@@ -27,7 +26,6 @@ struct Extension {
   bool settled = false;
   DiscrepancyEstimate discrepancy;
   Evidence evidence;
-  double white_square = 0.0;  // of the data over sigma, and of priors
 
   bool ok() const { return IsUsable(status) && complete; }
   /// Fitted values of member `i`.
@@ -59,11 +57,8 @@ Extension Refit(const Extension& base, std::span<const Candidate> added,
 Extension RefitWithout(const Extension& base, int i, const FitProblem& null_problem,
                        const RefitSettings& settings);
 
-/// Seeks the noise that suits the model's residuals and fits it under that, from where it is; then
-/// its evidence. With `settings.discrepancy` kNone the noise stays white.
+/// Ends the model's fit, seeks the noise that suits what it leaves, and takes its evidence. With
+/// `settings.discrepancy` kNone the noise stays white.
 void Settle(Extension& model, const RefitSettings& settings);
-
-/// The model fitted under white noise, from where it is.
-Extension UnderWhiteNoise(const Extension& model, const RefitSettings& settings);
 
 }  // namespace hoplab

@@ -59,6 +59,17 @@ class RandomEffect {
   Eigen::VectorXd step_;
 };
 
+// Takes off what one step of all values together explains: the values are those of least squares,
+// not of the noise the rows are whitened by.
+void Centre(std::vector<EliminatedTrial>& parts) {
+  const EliminatedTrial all = Stacked(parts);
+  if (all.residuals.size() == 0) return;
+  const Eigen::VectorXd step = all.columns.completeOrthogonalDecomposition().solve(all.residuals);
+  for (EliminatedTrial& part : parts) {
+    if (!part.empty()) part.residuals -= part.columns * step;
+  }
+}
+
 // The spread of the restricted likelihood's maximum and what it brings; steps in the value's scale.
 void Spread(const std::vector<EliminatedTrial>& parts, int k, double value, double scale,
             double information, Heterogeneity& h) {
@@ -97,6 +108,7 @@ std::vector<Heterogeneity> HeterogeneityOf(const Extension& model,
     TrialEvaluator(model.problem, train[at]).Evaluate({model.shared, model.starts[at], true}, e);
     if (e.complete) parts[at] = EliminateOwn(train[at], e, n, columns);
   });
+  Centre(parts);
   std::vector<Heterogeneity> out(static_cast<std::size_t>(n));
   for (int k = 0; k < n; ++k) {
     double information = 0.0, pull = 0.0, squares = 0.0;

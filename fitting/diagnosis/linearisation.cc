@@ -20,6 +20,7 @@ Eigen::MatrixXd BasisOf(Eigen::MatrixXd columns) {
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   qr.setThreshold(kRankTolerance);
+  if (qr.rank() == 0) return Eigen::MatrixXd(columns.rows(), 0);
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
 }
 

@@ -17,8 +17,12 @@ namespace {
 int CostClass(const Candidate& candidate) {
   const Effect& effect = *candidate.effect;
   if (effect.info.sharp) return 2;
-  if (!effect.hooks0.change_parameters) return 0;
   Parameters<double> p;
+  if (effect.formula) {
+    effect.formula->ChangeParameters(p);
+    return p.law_terms.active ? 1 : 0;
+  }
+  if (!effect.hooks0.change_parameters) return 0;
   const EffectSetting at_null = EffectSetting::Null(effect);
   effect.hooks0.change_parameters(at_null.values.data(), p);
   return p.law_terms.active ? 1 : 0;

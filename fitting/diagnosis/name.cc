@@ -31,7 +31,7 @@ class Search {
         train_(train),
         options_(options),
         refits_(*null.plain, *null.settled, train, options, naming_) {
-    FillPool(naming_, candidates, null_at, train);
+    FillPool(naming_, candidates, null_at, train, options);
   }
 
   Naming Run() {

@@ -19,6 +19,8 @@ using CandidateSet = std::vector<int>;
 
 struct NamingOptions {
   int max_effects = 5;
+  bool in_one_trial = true;  // a cause may act in one trial only
+  int picked_from = 0;       // how many the candidates were picked out of; 0: they are all
   Discrepancy discrepancy = Discrepancy::kMatern;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;

@@ -72,7 +72,7 @@ void AddLocal(Naming& naming, const Linearisation& null_at, const std::vector<Tr
 }  // namespace
 
 void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linearisation& null_at,
-              const std::vector<TrialProblem>& train) {
+              const std::vector<TrialProblem>& train, const NamingOptions& options) {
   const std::vector<Hypothesis> hypotheses = HypothesesOf(candidates);
   int tested = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -92,10 +92,12 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
   std::set<std::string> recordings;
   for (const TrialProblem& t : train) recordings.insert(t.recording);
   // One cause is expected among all: odds of one to the number of others.
-  naming.log_odds = std::log(static_cast<double>(std::max(tested - 1, 1)));
+  naming.log_odds =
+      std::log(static_cast<double>(std::max({tested - 1, options.picked_from - 1, 1})));
   naming.local_log_odds =
       naming.log_odds + std::log(static_cast<double>(std::max<std::size_t>(recordings.size(), 1)));
-  if (recordings.size() > 1) AddLocal(naming, null_at, train, candidates, hypotheses, recordings);
+  if (options.in_one_trial && recordings.size() > 1)
+    AddLocal(naming, null_at, train, candidates, hypotheses, recordings);
 }
 
 }  // namespace hoplab

@@ -10,6 +10,6 @@ namespace hoplab {
 /// Begins a search: the given candidates with their scores at the null fit, then those of single
 /// trials that promise nearly as much as in all, and what a parameter of each must gain.
 void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linearisation& null_at,
-              const std::vector<TrialProblem>& train);
+              const std::vector<TrialProblem>& train, const NamingOptions& options);
 
 }  // namespace hoplab

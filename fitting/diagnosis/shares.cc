@@ -45,10 +45,7 @@ std::vector<CauseReport> TakeApart(const Naming& naming, const SharesRequest& re
       cause.main = true;
       return;
     }
-    RefitSettings alone = settings;
-    alone.jobs = 1;
-    const Extension white = UnderWhiteNoise(without, alone);
-    cause.share = fall > 0.0 ? (white.white_square - request.extended_square) / fall : 0.0;
+    cause.share = fall > 0.0 ? (2.0 * without.cost - request.extended_square) / fall : 0.0;
     const HeldOutErrors errors = MeasureHeldOut(without, 1, /*test_only=*/true);
     if (!errors.test.rmse.empty()) cause.rmse_without = errors.test.rmse;
     cause.gain = CompareHeldOut(without, errors, *request.after, request.seed, nullptr);

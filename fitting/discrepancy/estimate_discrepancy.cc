@@ -8,8 +8,8 @@
 namespace hoplab {
 namespace {
 
-// Amplitudes in units of sigma that a search may reach, and below which one is none.
-constexpr double kLeast = 1e-3, kMost = 1e5, kNone = 0.02;
+// Amplitudes in units of sigma that a search may reach at least, and below which one is none.
+constexpr double kLeast = 1e-3, kNone = 0.02;
 constexpr double kDifference = 1e-3;  // of a logarithm
 
 // Unknowns: logarithms of the amplitudes, then of the time scale.
@@ -32,13 +32,18 @@ class NegativeLikelihood : public ceres::FirstOrderFunction {
   NoiseModel NoiseOf(const double* x) const {
     NoiseModel noise;
     for (std::size_t c = 0; c < likelihood_.channels(); ++c)
-      noise.amplitude.push_back(std::exp(Inside(x[c], std::log(kLeast), std::log(kMost))));
+      noise.amplitude.push_back(std::exp(Inside(x[c], std::log(kLeast), Most(c))));
     noise.time_scale = std::exp(Inside(x[likelihood_.channels()], std::log(likelihood_.shortest()),
                                        std::log(likelihood_.longest())));
     return noise;
   }
 
  private:
+  // A discrepancy is no larger than what is left to see. Without that bound, one that fitted values
+  // imitate grows at no cost: they are moved to cancel it.
+  double Most(std::size_t channel) const {
+    return std::log(std::max(likelihood_.RootMeanSquare(channel), kNone));
+  }
   static double Inside(double x, double low, double high) { return std::clamp(x, low, high); }
   // A gentle slope back into the range.
   static double Outside(double x, double low, double high) {
@@ -49,7 +54,7 @@ class NegativeLikelihood : public ceres::FirstOrderFunction {
     double beyond = Outside(x[likelihood_.channels()], std::log(likelihood_.shortest()),
                             std::log(likelihood_.longest()));
     for (std::size_t c = 0; c < likelihood_.channels(); ++c)
-      beyond += Outside(x[c], std::log(kLeast), std::log(kMost));
+      beyond += Outside(x[c], std::log(kLeast), Most(c));
     return beyond - likelihood_.At(NoiseOf(x));
   }
 

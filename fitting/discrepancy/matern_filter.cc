@@ -97,4 +97,24 @@ double WhitenMatern(std::span<const double> times, std::span<const int> rows, do
   return half_log_det;
 }
 
+Eigen::MatrixXd MaternProduct(std::span<const double> times, std::span<const int> rows,
+                              double ratio, double time_scale, const Eigen::MatrixXd& columns) {
+  const double lambda = std::sqrt(3.0) / time_scale;
+  const Eigen::Index n = columns.cols();
+  Eigen::RowVectorXd s0 = Eigen::RowVectorXd::Zero(n), s1 = s0;
+  Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(n, n), diagonal = lower;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (k > 0) {
+      const double step = lambda * (times[k] - times[k - 1]), decay = std::exp(-step);
+      s1 = decay * (s1 + step * s0);
+      s0 *= decay;
+    }
+    const auto row = columns.row(rows[k]);
+    s0 += row;
+    lower += row.transpose() * (s0 + s1);
+    diagonal += row.transpose() * row;
+  }
+  return ratio * ratio * (lower + lower.transpose() - diagonal);
+}
+
 }  // namespace hoplab

@@ -21,4 +21,10 @@ double WhitenMatern(std::span<const double> times, std::span<const int> rows, do
                     double time_scale, Eigen::Ref<RowMajorMatrix> block,
                     Eigen::VectorXd* log_roots = nullptr);
 
+/// columns' (ratio^2 K) columns, K as above of the rows `rows` of `columns`, by one pass over the
+/// rows: with the sums s0_i = sum_(j<=i) exp(-lambda (t_i - t_j)) c_j and s1_i, the same weighted
+/// by lambda (t_i - t_j), row i of the lower half of K times the columns is s0_i + s1_i.
+Eigen::MatrixXd MaternProduct(std::span<const double> times, std::span<const int> rows,
+                              double ratio, double time_scale, const Eigen::MatrixXd& columns);
+
 }  // namespace hoplab

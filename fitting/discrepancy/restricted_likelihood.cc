@@ -83,7 +83,6 @@ RestrictedLikelihood::RestrictedLikelihood(const FitProblem& problem,
     if (!made[i].complete) continue;
     square += made[i].squares;
     count += made[i].counts;
-    white_square_ += made[i].white_square;
     const std::vector<double>& times = trials[places[i]].row_times;
     longest_ = std::max(longest_, 0.5 * times.back());
     rows += static_cast<double>(times.size());
@@ -114,7 +113,6 @@ RestrictedLikelihood::Made RestrictedLikelihood::Make(const FitProblem& problem,
   evaluator.Evaluate(request, e);
   if (!e.complete) return made;
   made.complete = true;
-  made.white_square = e.residuals.squaredNorm();
   Part& part = made.part;
   part.channels = evaluator.channel_rows();
   part.averaged.assign(part.channels.size(), 1.0);

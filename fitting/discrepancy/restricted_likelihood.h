@@ -60,8 +60,6 @@ class RestrictedLikelihood {
   double shortest() const { return shortest_; }
   /// Shared values that are marginalised.
   int marginalised() const { return static_cast<int>(free_.size()); }
-  /// Sum of squares of the data over sigma, and of priors: what white noise sees.
-  double white_square() const { return white_square_; }
 
  private:
   struct Part {
@@ -74,7 +72,6 @@ class RestrictedLikelihood {
   struct Made {
     Part part;
     bool complete = false;
-    double white_square = 0.0;
     Eigen::ArrayXd squares, counts;  // per channel
   };
   Made Make(const FitProblem& problem, const TrialProblem& trial, const Eigen::VectorXd& shared,
@@ -87,7 +84,7 @@ class RestrictedLikelihood {
   std::vector<int> free_, bound_;  // shared values
   Eigen::VectorXd prior_widths_;   // of these, in this order; empty: flat
   std::vector<double> root_mean_square_;
-  double longest_ = 0.0, shortest_ = 0.0, white_square_ = 0.0;
+  double longest_ = 0.0, shortest_ = 0.0;
   int jobs_;
 };
 

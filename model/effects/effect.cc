@@ -52,7 +52,8 @@ EffectSetting EffectSetting::Null(const Effect& effect) {
 
 bool EffectSetting::IsNull() const {
   for (std::size_t i = 0; i < effect->info.parameters.size(); ++i) {
-    if (values[i] != effect->info.parameters[i].null) return false;
+    const EffectParameter& p = effect->info.parameters[i];
+    if (!p.is_shape && values[i] != p.null) return false;
   }
   return true;
 }

@@ -21,6 +21,9 @@ struct EffectParameter {
   std::string_view unit;
   double null, lower, upper;
   double typical;  // a size one would expect when the effect is present
+  /// It shapes the effect and has no null: it stays at `null`, its given value, unless freed by
+  /// name.
+  bool is_shape = false;
 };
 
 struct EffectInfo {
@@ -59,6 +62,7 @@ struct ChordMotion {
   T stiffness;      // k = 1/C at small load (M3) [N/m]
   T rate;           // what the damper sees [m/s], positive while lengthening
   T compression;    // (l0 - l)/l0 [-]
+  T t;              // time since the first row [s]
 };
 
 /// A driven hip in stance at one instant, for torques on it; a hip that places a toe with a mass is
@@ -69,6 +73,17 @@ struct HipMotion {
   T t;             // time since the first row [s]
   T vx;            // [m/s]
   T lead;          // sine of the chord angle, u/l [-]
+  // Where a formula asks for them.
+  T angle;        // leg angle theta [rad]
+  T rate;         // dtheta/dt (M38) [rad/s]
+  T compression;  // (l0 - l)/l0 [-]
+};
+
+/// A leg on its way to touch-down, for the angle it is placed at.
+template <class T>
+struct PlacementMotion {
+  T vx, vy;  // [m/s]
+  T hop;     // which touch-down of the run comes, the first is 1
 };
 
 /// The hip joint at one instant, for its friction.
@@ -81,9 +96,12 @@ struct JointMotion {
 template <class T>
 struct Landing {
   Vector2<T> chord;  // e, contact to hip, length 1
+  T theta;           // leg angle of a touch-down [rad]
 };
 
-inline constexpr int kMaxEffectParameters = 2;
+inline constexpr int kMaxEffectParameters = 6;
+
+class Formula;
 
 /// The places an effect can plug into; null where it does not. `p` points at its parameters.
 template <class T>
@@ -126,6 +144,8 @@ struct Effect {
   EffectHooks<Jet<1>> hooks1;
   EffectHooks<Jet<kNarrowJet>> hooks_narrow;
   EffectHooks<Jet<kWideJet>> hooks_wide;
+  /// What acts in place of the hooks where the effect is a formula (model/formula).
+  const Formula* formula = nullptr;
 
   template <class T>
   const EffectHooks<T>& Hooks() const {
@@ -156,8 +176,9 @@ const Effect* FindEffect(std::string_view name);
 struct EffectSetting {
   const Effect* effect = nullptr;
   std::array<double, kMaxEffectParameters> values{};
-  /// At its null values.
+  /// At its null values, what has none at its given value.
   static EffectSetting Null(const Effect& effect);
+  /// Every parameter that has a null is at it.
   bool IsNull() const;
 };
 

@@ -36,8 +36,9 @@ constexpr EventTraits kEvents[] = {
     {.name = "slide", .waits_to_open = true},
     {.name = "stick"},
     {.name = "switch"},
+    {.name = "corner", .changes_flow = true},
 };
-static_assert(std::size(kEvents) == static_cast<std::size_t>(EventKind::kSwitch) + 1);
+static_assert(std::size(kEvents) == static_cast<std::size_t>(EventKind::kCorner) + 1);
 }  // namespace
 
 const EventTraits& TraitsOf(EventKind kind) { return kEvents[static_cast<std::size_t>(kind)]; }

@@ -25,7 +25,8 @@ enum class EventKind {
   kFallPitch,       // a robot's body pitches beyond its limit
   kSlide,           // a foot that held begins to slide
   kStick,           // a sliding foot comes to hold
-  kSwitch           // mode change of a piecewise-smooth system without a leg
+  kSwitch,          // mode change of a piecewise-smooth system without a leg
+  kCorner           // a formula is about to go on by another branch
 };
 std::string_view NameOf(EventKind kind);
 
@@ -45,6 +46,8 @@ struct EventTraits {
   bool ends_hop = false;      // ... and complete here, unless the reset says no
   bool is_hop = false;        // each one counts as a hop
   bool meets_ground = false;  // a run cannot start beyond it
+  /// The mode stays, the flow is another one: guards are looked at as where a mode is entered.
+  bool changes_flow = false;
 };
 const EventTraits& TraitsOf(EventKind kind);
 
@@ -82,6 +85,8 @@ struct GuardSpec {
   /// mode is entered. One that ends a stance and is closed by a change of stance fires at once
   /// instead.
   std::optional<Outcome> if_closed = std::nullopt;
+  /// The flow is continuous across it: its instant matters to the solver alone, and it may graze.
+  bool is_smooth = false;
   int leg = 0;  // of a mechanism with several, which one's
 };
 

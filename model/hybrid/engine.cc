@@ -169,13 +169,19 @@ std::optional<Outcome> Engine<T>::FireAtOnce(const GuardRates& at_start, bool be
       if (!traits.ends_stance || last_began_stance_) return *spec.if_closed;
       with_last_event = true;
     } else if (!(at_zero && at_start.rate[i] < (traits.waits_to_open ? -kGrazingRate : 0.0) &&
-                 !traits.is_section)) {
+                 (!traits.is_section || IsMissedSection()))) {
       continue;
     }
     fired = {i, t_};
     return std::nullopt;
   }
   return std::nullopt;
+}
+
+// A section at the very place where the flow changed has not been passed before it.
+template <class T>
+bool Engine<T>::IsMissedSection() const {
+  return flow_changed_ && !(t_ - section_time_ < kSimultaneous);
 }
 
 // Runs to the next crossing (or the horizon: no guard). False: the solver gave up.
@@ -210,8 +216,13 @@ std::optional<Outcome> Engine<T>::Process(int guard, bool with_last_event) {
   watch_.Flow(mode_, t_, z, flow);
   const GuardRates at = watch_.RatesAt(mode_, t_, z, flow);
   const double rate = at.rate[guard];
-  if (!with_last_event && !(std::abs(rate) > kGrazingRate)) return Outcome::kGrazing;
-
+  if (!with_last_event && !(std::abs(rate) > kGrazingRate)) {
+    if (!spec.is_smooth) return Outcome::kGrazing;
+    system_.Touch(mode_, guard);
+    watch_.Follow(system_);
+    entered_ = false;
+    return std::nullopt;
+  }
   const T shift = EventTimeShift(guard, rate, spec.scale, with_last_event);
   const T event_time = t_ + shift;
   for (int i = 0; i < states_; ++i) z_[i] += flow[i] * shift;
@@ -234,7 +245,8 @@ std::optional<Outcome> Engine<T>::Process(int guard, bool with_last_event) {
   const ResetResult result = system_.Reset(mode_, guard, event_time, z_);
   if (!traits.is_section) {
     FinishSegment();
-    out_.least_crossing_rate = std::min(out_.least_crossing_rate, std::abs(rate));
+    if (!spec.is_smooth)
+      out_.least_crossing_rate = std::min(out_.least_crossing_rate, std::abs(rate));
   }
   mode_ = result.next;
   t_ = Value(event_time);
@@ -253,7 +265,9 @@ std::optional<Outcome> Engine<T>::Process(int guard, bool with_last_event) {
   }
   out_.events.push_back(event);
   for (int k = 0; k < kWidth; ++k) event_times_.push_back(Slope(event_time, k));
-  entered_ = mode_ != event.mode_before;
+  flow_changed_ = traits.changes_flow;
+  entered_ = flow_changed_ || mode_ != event.mode_before;
+  if (traits.is_section) section_time_ = t_;
   last_began_stance_ = traits.begins_stance;
   CountHop(traits, result.is_hop);
   return result.end;
@@ -262,9 +276,13 @@ std::optional<Outcome> Engine<T>::Process(int guard, bool with_last_event) {
 template <class T>
 bool Engine<T>::IsSimultaneous(int guard, const GuardRates& at) const {
   const int guards = system_.GuardCount(mode_);
+  const bool section = TraitsOf(system_.Guard(mode_, guard).event).is_section;
   for (int i = 0; i < guards; ++i) {
     if (i == guard || !(std::abs(at.value[i]) <= kSimultaneous * std::abs(at.rate[i]))) continue;
-    if (!TraitsOf(system_.Guard(mode_, i).event).is_section) return true;
+    const EventTraits& other = TraitsOf(system_.Guard(mode_, i).event);
+    // A section changes nothing, whatever flow it lies on.
+    if (section && other.changes_flow) continue;
+    if (!other.is_section && !system_.Guard(mode_, i).is_smooth) return true;
   }
   return false;
 }

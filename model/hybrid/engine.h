@@ -55,6 +55,7 @@ class Engine {
   GuardCrossing PassKnots();
   std::optional<Outcome> FireAtOnce(const GuardRates& at_start, bool begins, GuardCrossing& fired,
                                     bool& with_last_event);
+  bool IsMissedSection() const;
   bool Advance(const GuardRates& at_start, GuardCrossing& crossing);
   std::optional<Outcome> Process(int guard, bool with_last_event);
   T EventTimeShift(int guard, double rate, double scale, bool with_last_event);
@@ -92,7 +93,9 @@ class Engine {
   T z_[kMaxStates];
   mutable T inside_[kMaxStates], rate_[kMaxStates];  // of Derivative
   double t_ = 0.0, segment_begin_ = 0.0, stance_step_ = 0.0;
-  bool entered_ = false;  // the last event led into another mode
+  bool entered_ = false;        // the last event led into another mode, or changed the flow
+  bool flow_changed_ = false;   // it did the latter
+  double section_time_ = -1.0;  // of the last event that was a section
   bool hopped_ = false;
   T event_time_variation_{0.0};  // of the last event; its value is 0
   bool last_began_stance_ = false;

@@ -34,6 +34,8 @@ class HybridSystem {
   virtual void Guards(Mode mode, const T& t, const T* z, T* g) const = 0;
   /// Applies the reset of guard `i` to `z`.
   virtual ResetResult Reset(Mode mode, int i, const T& t, T* z) = 0;
+  /// A smooth guard `i` (GuardSpec::is_smooth) is met and not crossed.
+  virtual void Touch(Mode /*mode*/, int /*i*/) {}
 
   /// Completes the state a run begins with, of which the first `given` components are set.
   virtual void CompleteStart(T* /*z*/, int /*given*/) const {}

@@ -30,32 +30,53 @@ class Ball final : public HybridSystem<T> {
     dz[kVx] = inertia_.gravity_x;
     dz[kVy] = inertia_.gravity_y;
     if (has_body_force_) {
-      Vector2<T> force = effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy]});
+      Vector2<T> force = effects_.BodyForce(MotionAt(t, z));
       AddInputForce(inputs_, p_.slope, t, force);
       if (!inertia_.on_guide) dz[kVx] += force.x / inertia_.mx;
       dz[kVy] += force.y / inertia_.my;
     }
   }
 
-  int GuardCount(Mode) const override { return 2; }
+  int GuardCount(Mode) const override { return kOwnGuards + effects_.corner_count(); }
   GuardSpec Guard(Mode, int i) const override {
+    if (i >= kOwnGuards) return effects_.CornerSpec(i - kOwnGuards);
     return i == 0 ? GuardSpec{EventKind::kBounce, 0.1} : GuardSpec{EventKind::kApex, 1.0};
   }
-  void Guards(Mode, const T&, const T* z, T* g) const override {
+  void Guards(Mode, const T& t, const T* z, T* g) const override {
     g[0] = z[kY] - p_.radius;
     g[1] = z[kVy];
+    if (effects_.corner_count() == 0) return;
+    const BodyMotion<T> body = MotionAt(t, z);
+    effects_.CornerGuards({.body = &body}, g + kOwnGuards);
   }
-  ResetResult Reset(Mode mode, int i, const T&, T* z) override {
+  ResetResult Reset(Mode mode, int i, const T& t, T* z) override {
     if (i == 1) return {mode};
+    if (i >= kOwnGuards) {
+      const BodyMotion<T> body = MotionAt(t, z);
+      effects_.CrossCorner(i - kOwnGuards, {.body = &body});
+      return {mode};
+    }
     z[kVx] *= 1.0 - p_.tangential_loss;
     z[kVy] *= -effects_.Restitution(-z[kVy], p_.restitution);
     const double next_interval = -2.0 * Value(z[kVy]) / Value(inertia_.gravity_y);
     if (!(next_interval >= kRestInterval)) return {mode, Outcome::kCameToRest};
+    Seat(t, z);
     return {mode};
   }
 
-  void SaveDiscreteState(DiscreteState& to) const override { inputs_.Save(to); }
-  void LoadDiscreteState(DiscreteState& from) override { inputs_.Load(from); }
+  void Touch(Mode, int i) override { effects_.TouchCorner(i - kOwnGuards); }
+  Mode Begin(Mode mode, T* z) override {
+    Seat(T(0.0), z);
+    return mode;
+  }
+  void SaveDiscreteState(DiscreteState& to) const override {
+    inputs_.Save(to);
+    effects_.SaveCorners(to);
+  }
+  void LoadDiscreteState(DiscreteState& from) override {
+    inputs_.Load(from);
+    effects_.LoadCorners(from);
+  }
   double NextKnot(Mode) const override { return inputs_.NextKnot(true); }
   std::optional<T> PassKnot(Mode, double t, T*) override { return inputs_.Pass(true, t); }
 
@@ -79,6 +100,17 @@ class Ball final : public HybridSystem<T> {
   T Energy(Mode, const T* z) const override { return inertia_.Energy(z); }
 
  private:
+  static constexpr int kOwnGuards = 2;
+
+  BodyMotion<T> MotionAt(const T& t, const T* z) const {
+    return {t + p_.time_origin, z[kX], z[kY], z[kVx], z[kVy]};
+  }
+  void Seat(const T& t, const T* z) {
+    if (effects_.corner_count() == 0) return;
+    const BodyMotion<T> body = MotionAt(t, z);
+    effects_.SeatCorners({.body = &body});
+  }
+
   Parameters<T> p_;
   ActiveEffects<T> effects_;
   Inertia<T> inertia_;

@@ -59,6 +59,7 @@ class LeggedBody final : public HybridSystem<T> {
   GuardSpec Guard(Mode mode, int i) const override;
   void Guards(Mode mode, const T& t, const T* z, T* g) const override;
   ResetResult Reset(Mode mode, int i, const T& t, T* z) override;
+  void Touch(Mode mode, int i) override { effects_.TouchCorner(i - OwnGuardCount(mode)); }
   /// A start in stance: `z` has the place of its contact and leaves with the leg's coordinate of
   /// it.
   Mode Begin(Mode mode, T* z) override;
@@ -87,13 +88,15 @@ class LeggedBody final : public HybridSystem<T> {
   // What a body on a leg with a toe mass asks, and does otherwise.
 
   /// Guards of stance but for lift-off, g[0].
-  void StanceGuards(Mode mode, const LegLoad<T>& load, const T* z, T* g) const;
+  void StanceGuards(Mode mode, const LegLoad<T>& load, const T& t, const T* z, T* g) const;
   /// Stance begins at leg angle `theta`, the contact `ahead` of where an unloaded leg would have
   /// it.
   ResetResult Land(const T& theta, const T& t, T* z, const T& ahead);
   LegLoad<T> Load(Mode mode, const T& t, const T* z) const;
   /// Force along the chord [N], positive pushes the hip away.
-  T ChordForce(const LegLoad<T>& load) const;
+  T ChordForce(const LegLoad<T>& load, const T& t) const;
+  /// What formulas on the chord see.
+  ChordMotion<T> ChordMotionAt(const LegLoad<T>& load, const T& t) const;
   /// Leg angle the touch-down is commanded at.
   T TouchdownAngle(const T& t, const T* z) const;
   T TouchdownAngle(const T* z) const { return TouchdownAngle(T(0.0), z); }
@@ -101,6 +104,31 @@ class LeggedBody final : public HybridSystem<T> {
   T TouchdownHeight(const T& t, const T* z) const;
   T TouchdownHeight(const T* z) const { return TouchdownHeight(T(0.0), z); }
   Vector2<T> BodyForce(Mode mode, const T& t, const T* z) const;
+  BodyMotion<T> BodyMotionAt(Mode mode, const T& t, const T* z) const {
+    return {SinceFirstRow(t), z[kX], z[kY], z[kVx], z[kVy], mode != Mode::kFlight};
+  }
+  PlacementMotion<T> PlacementAt(const T* z) const { return {z[kVx], z[kVy], T(landings_ + 1.0)}; }
+  T SinceFirstRow(const T& t) const { return t + p_.time_origin; }
+
+  // Corners of formulas; `chord` and `hip` where the leg pushes, else null.
+
+  int corner_count() const { return effects_.corner_count(); }
+  GuardSpec CornerSpec(int i) const { return effects_.CornerSpec(i); }
+  /// Calls `act` with what the body and the leg do.
+  template <class Act>
+  void WithMotions(Mode mode, const T& t, const T* z, const ChordMotion<T>* chord,
+                   const HipMotion<T>* hip, const Act& act) const {
+    const BodyMotion<T> body = BodyMotionAt(mode, t, z);
+    const PlacementMotion<T> placement = PlacementAt(z);
+    act(Motions<T>{&body, chord, hip, mode == Mode::kFlight ? &placement : nullptr});
+  }
+  /// The same for a body in flight or on a massless leg.
+  template <class Act>
+  void WithMotionsAt(Mode mode, const T& t, const T* z, const Act& act) const;
+  void CornerGuards(const Motions<T>& motions, T* g) const { effects_.CornerGuards(motions, g); }
+  void SeatCorners(const Motions<T>& motions) { effects_.SeatCorners(motions); }
+  void TouchCorner(int i) { effects_.TouchCorner(i); }
+  void CrossCorner(int i, const Motions<T>& motions) { effects_.CrossCorner(i, motions); }
   /// What a lift-off does to the velocity.
   void ApplyLiftoff(const LegLoad<T>& load, T* z) const;
 
@@ -116,20 +144,25 @@ class LeggedBody final : public HybridSystem<T> {
   T Lead(const T& theta) const;
   Mode PlaceContact(Mode mode, T* z);
   T HipTorque(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const;
-  T WithTorqueEffects(T torque, const LegLoad<T>& load, const T& t, const T* z) const;
+  T WithTorqueEffects(Mode mode, T torque, const LegLoad<T>& load, const T& t, const T* z) const;
+  HipMotion<T> HipMotionAt(Mode mode, const T& torque, const LegLoad<T>& load, const T& t,
+                           const T* z) const;
+  ResetResult ResetOwn(Mode mode, int i, const T& t, T* z);
+  int OwnGuardCount(Mode mode) const;
+  void Seat(Mode mode, const T& t, const T* z);
   void ApplyLanding(const T& theta, T* z) const;
   LegInertia<T> InertiaOfLeg(const LegLoad<T>& load) const;
   LegLoad<T> Placed(const T& theta) const;
   Vector2<T> HeavyAcceleration(const LegLoad<T>& load, const Vector2<T>& force, const T* z) const;
   void TakeLegAlong(const LegLoad<T>& load, T* z) const;
   void LeaveWithLeg(const LegLoad<T>& load, const T& t, T* z) const;
-  Vector2<T> HipForce(const LegLoad<T>& load, const T& torque) const;
+  Vector2<T> HipForce(const LegLoad<T>& load, const T& torque, const T& t) const;
 
   Parameters<T> p_;
   ActiveEffects<T> effects_;
   LiftoffRule liftoff_;
-  bool lagged_, has_body_force_, has_chord_force_, has_hip_torque_, has_joint_torque_, is_driven_,
-      has_quick_lag_, flies_freely_, extended_;
+  bool lagged_, has_body_force_, has_chord_force_, has_hip_torque_, has_hip_formula_,
+      has_joint_torque_, is_driven_, has_quick_lag_, flies_freely_, extended_;
   bool is_bar_, has_leg_mass_, has_foot_friction_, damps_along_arc_;
   bool may_pull_;       // for a moment after touch-down, bent by the hip torque
   double torque_lift_;  // sign of the torque's vertical force: 1, or -1 (M37)

@@ -18,12 +18,14 @@ LeggedBody<T, LegT>::LeggedBody(const MechanismSetup<T>& setup)
       has_body_force_(effects_.HasBodyForce() || setup.inputs.HasForce()),
       has_chord_force_(effects_.HasChordForce()),
       has_hip_torque_(effects_.HasHipTorque()),
+      has_hip_formula_(effects_.HasHipFormula()),
       has_joint_torque_(effects_.HasJointTorque()),
       is_driven_(has_hip_torque_ || has_joint_torque_ || lagged_ || !IsZero(p_.kp) ||
                  setup.inputs.Has(InputKind::kHipTorque)),
       has_quick_lag_(!lagged_ && !IsZero(p_.torque_lag)),
       // The touch-down angle moves in flight if it depends on a speed that does.
       flies_freely_(!has_body_force_ && !setup.inputs.Has(InputKind::kLegAngle) &&
+                    !effects_.TouchdownAngleFalls() &&
                     (IsZero(p_.slope) || !effects_.HasTouchdownAngle())),
       extended_(p_.law_terms.active),
       is_bar_(setup.law == Law::kStraightLeg),
@@ -61,6 +63,7 @@ void LeggedBody<T, LegT>::SaveDiscreteState(DiscreteState& to) const {
   to.Put(landings_);
   to.Put(sinks_ ? 1.0 : 0.0);
   if (driven_) inputs_.Save(to);
+  effects_.SaveCorners(to);
 }
 template <class T, class LegT>
 void LeggedBody<T, LegT>::LoadDiscreteState(DiscreteState& from) {
@@ -69,15 +72,36 @@ void LeggedBody<T, LegT>::LoadDiscreteState(DiscreteState& from) {
   landings_ = static_cast<int>(from.Take());
   sinks_ = from.Take() > 0.5;
   if (driven_) inputs_.Load(from);
+  effects_.LoadCorners(from);
 }
 
 template <class T, class LegT>
 Mode LeggedBody<T, LegT>::Begin(Mode mode, T* z) {
   sinks_ = Value(z[kVy]) <= 0.0;
-  if (mode == Mode::kFlight) return mode;
-  controller_.Enter(Value(z[kVx]));
-  if (lagged_) z[kMotorTorque] = CommandedTorque(T(0.0), z);
-  return PlaceContact(mode, z);
+  if (mode != Mode::kFlight) {
+    controller_.Enter(Value(z[kVx]));
+    if (lagged_) z[kMotorTorque] = CommandedTorque(T(0.0), z);
+    mode = PlaceContact(mode, z);
+  }
+  Seat(mode, T(0.0), z);
+  return mode;
+}
+
+// ---- corners of formulas -------------------------------------------------------------------
+
+template <class T, class LegT>
+template <class Act>
+void LeggedBody<T, LegT>::WithMotionsAt(Mode mode, const T& t, const T* z, const Act& act) const {
+  if (mode == Mode::kFlight) return WithMotions(mode, t, z, nullptr, nullptr, act);
+  const LegLoad<T> load = Load(mode, t, z);
+  const ChordMotion<T> chord = ChordMotionAt(load, t);
+  const HipMotion<T> hip = HipMotionAt(mode, MotorTorque(t, z), load, t, z);
+  WithMotions(mode, t, z, &chord, &hip, act);
+}
+template <class T, class LegT>
+void LeggedBody<T, LegT>::Seat(Mode mode, const T& t, const T* z) {
+  if (effects_.corner_count() == 0) return;
+  WithMotionsAt(mode, t, z, [&](const Motions<T>& m) { effects_.SeatCorners(m); });
 }
 
 // M54: the contact coordinate for which the contact lies where z[kContact] says. First in values,
@@ -132,6 +156,7 @@ std::optional<T> LeggedBody<T, LegT>::PassKnot(Mode mode, double t, T* z) {
     const T normal = missed / (load.l * load.l);
     if (!inertia_.on_guide) z[kVx] -= normal * load.y / inertia_.mx;
     z[kVy] -= torque_lift_ * normal * load.u / inertia_.my;
+    Seat(mode, T(t), z);
   }
   return inputs_.Pass(flight, t);
 }
@@ -143,7 +168,7 @@ void LeggedBody<T, LegT>::Derivative(Mode mode, const T& t, const T* z, T* dz) c
   LegLoad<T> load;
   if (mode != Mode::kFlight) {
     load = Load(mode, t, z);
-    const Vector2<T> force = HipForce(load, HipTorque(mode, load, t, z));
+    const Vector2<T> force = HipForce(load, HipTorque(mode, load, t, z), t);
     fx = force.x;
     fy = force.y;
     contact_rate = load.contact_rate;
@@ -172,9 +197,14 @@ void LeggedBody<T, LegT>::Derivative(Mode mode, const T& t, const T* z, T* dz) c
 
 // Guards in flight: touch-down, apex, the ground under a hip whose leg is not placed. Guards in
 // stance: lift-off, the leg's own, fall by height, fall by angle, a foot that slips
-// away, torque limit. Of two at one instant the first fires first.
+// away, torque limit. Behind both the corners of formulas. Of two at one instant the first fires
+// first.
 template <class T, class LegT>
 int LeggedBody<T, LegT>::GuardCount(Mode mode) const {
+  return OwnGuardCount(mode) + effects_.corner_count();
+}
+template <class T, class LegT>
+int LeggedBody<T, LegT>::OwnGuardCount(Mode mode) const {
   if (mode == Mode::kFlight) return 3;
   return 3 + leg_->OwnGuardCount(mode) + (has_foot_friction_ ? 1 : 0) +
          (controller_.limited() ? 1 : 0);
@@ -182,6 +212,7 @@ int LeggedBody<T, LegT>::GuardCount(Mode mode) const {
 
 template <class T, class LegT>
 GuardSpec LeggedBody<T, LegT>::Guard(Mode mode, int i) const {
+  if (const int corner = i - OwnGuardCount(mode); corner >= 0) return effects_.CornerSpec(corner);
   const double weight = Value(p_.m) * std::max(Value(p_.g), 1.0), length = leg_->Size();
   if (mode == Mode::kFlight) {
     if (i == 0) return {EventKind::kTouchdown, length};
@@ -214,15 +245,20 @@ void LeggedBody<T, LegT>::Guards(Mode mode, const T& t, const T* z, T* g) const 
     g[0] = sinks_ ? T(z[kY] - touchdown) : T(1.0);
     g[1] = z[kVy];
     g[2] = FallsBelow(touchdown) ? T(z[kY] - y_min_) : T(1.0);
+    if (effects_.corner_count() > 0)
+      WithMotions(mode, t, z, nullptr, nullptr,
+                  [&](const Motions<T>& m) { effects_.CornerGuards(m, g + 3); });
     return;
   }
   const LegLoad<T> load = Load(mode, t, z);
-  g[0] = liftoff_ == LiftoffRule::kZeroForce ? ChordForce(load) : T(leg_->RestChord(load) - load.l);
-  StanceGuards(mode, load, z, g);
+  g[0] =
+      liftoff_ == LiftoffRule::kZeroForce ? ChordForce(load, t) : T(leg_->RestChord(load) - load.l);
+  StanceGuards(mode, load, t, z, g);
 }
 
 template <class T, class LegT>
-void LeggedBody<T, LegT>::StanceGuards(Mode mode, const LegLoad<T>& load, const T* z, T* g) const {
+void LeggedBody<T, LegT>::StanceGuards(Mode mode, const LegLoad<T>& load, const T& t, const T* z,
+                                       T* g) const {
   leg_->OwnGuards(mode, load, g + 1);
   g += 1 + leg_->OwnGuardCount(mode);
   g[0] = z[kY] - y_min_;
@@ -232,11 +268,27 @@ void LeggedBody<T, LegT>::StanceGuards(Mode mode, const LegLoad<T>& load, const 
     const T slope = load.u / load.y;
     *g++ = 1.0 - p_.law_terms.foot_friction * (Value(slope) < 0.0 ? T(-slope) : slope);
   }
-  if (controller_.limited()) *g = controller_.Guard(z[kVx]);
+  if (controller_.limited()) *g++ = controller_.Guard(z[kVx]);
+  if (effects_.corner_count() == 0) return;
+  const ChordMotion<T> chord = ChordMotionAt(load, t);
+  const HipMotion<T> hip = HipMotionAt(mode, MotorTorque(t, z), load, t, z);
+  WithMotions(mode, t, z, &chord, &hip, [&](const Motions<T>& m) { effects_.CornerGuards(m, g); });
 }
 
 template <class T, class LegT>
 ResetResult LeggedBody<T, LegT>::Reset(Mode mode, int i, const T& t, T* z) {
+  if (const int corner = i - OwnGuardCount(mode); corner >= 0) {
+    WithMotionsAt(mode, t, z, [&](const Motions<T>& m) { effects_.CrossCorner(corner, m); });
+    return {mode};
+  }
+  const bool is_section = TraitsOf(Guard(mode, i).event).is_section;
+  const ResetResult result = ResetOwn(mode, i, t, z);
+  if (!is_section && !result.end) Seat(result.next, t, z);
+  return result;
+}
+
+template <class T, class LegT>
+ResetResult LeggedBody<T, LegT>::ResetOwn(Mode mode, int i, const T& t, T* z) {
   const EventKind event = Guard(mode, i).event;
   switch (event) {
     case EventKind::kTouchdown:
@@ -306,7 +358,7 @@ Observation<T> LeggedBody<T, LegT>::Observe(Mode mode, const T& t, const T* z) c
   }
   const LegLoad<T> load = Load(mode, t, z);
   const T torque = HipTorque(mode, load, t, z);
-  const Vector2<T> force = HipForce(load, torque);
+  const Vector2<T> force = HipForce(load, torque, t);
   seen[Channel::kLegAngle] = leg_->ShownAngle(mode, load);
   seen[Channel::kLegLength] = load.l;
   seen[Channel::kGroundForceX] = force.x;
@@ -452,17 +504,20 @@ LegLoad<T> LeggedBody<T, LegT>::Load(Mode mode, const T& t, const T* z) const {
 }
 
 template <class T, class LegT>
-T LeggedBody<T, LegT>::ChordForce(const LegLoad<T>& load) const {
+ChordMotion<T> LeggedBody<T, LegT>::ChordMotionAt(const LegLoad<T>& load, const T& t) const {
+  const T rest = leg_->RestChord(load);
+  return {load.elastic_force, leg_->Stiffness(load), load.damping_rate, T((rest - load.l) / rest),
+          SinceFirstRow(t)};
+}
+
+template <class T, class LegT>
+T LeggedBody<T, LegT>::ChordForce(const LegLoad<T>& load, const T& t) const {
   T force = load.elastic_force - p_.d * load.damping_rate;  // M6, M12
   if (damps_along_arc_)
     force += (load.y * load.viscous_y - load.u * load.viscous_x) / load.l;
   else if (p_.law_terms.material_damping_active)
     force -= p_.law_terms.material_damping * leg_->Stiffness(load) * load.damping_rate;
-  if (has_chord_force_) {
-    const T rest = leg_->RestChord(load);
-    force += effects_.ChordForce(
-        {load.elastic_force, leg_->Stiffness(load), load.damping_rate, T((rest - load.l) / rest)});
-  }
+  if (has_chord_force_) force += effects_.ChordForce(ChordMotionAt(load, t));
   return force;
 }
 
@@ -475,7 +530,7 @@ T LeggedBody<T, LegT>::TouchdownAngle(const T& t, const T* z) const {
   } else if (!angles_.empty()) {
     commanded = angles_[std::min(static_cast<std::size_t>(landings_), angles_.size() - 1)];
   }
-  return effects_.TouchdownAngle(z[kVx], commanded) - p_.slope;
+  return effects_.TouchdownAngle(PlacementAt(z), commanded) - p_.slope;
 }
 template <class T, class LegT>
 T LeggedBody<T, LegT>::TouchdownHeight(const T& t, const T* z) const {
@@ -513,7 +568,7 @@ T LeggedBody<T, LegT>::Lead(const T& theta) const {
 }
 template <class T, class LegT>
 Vector2<T> LeggedBody<T, LegT>::BodyForce(Mode mode, const T& t, const T* z) const {
-  Vector2<T> force = effects_.BodyForce({t, z[kX], z[kY], z[kVx], z[kVy], mode != Mode::kFlight});
+  Vector2<T> force = effects_.BodyForce(BodyMotionAt(mode, t, z));
   AddInputForce(inputs_, p_.slope, t, force);
   return force;
 }
@@ -537,7 +592,7 @@ bool LeggedBody<T, LegT>::FallsBelow(const T& touchdown) const {
 template <class T, class LegT>
 LegConditions<T> LeggedBody<T, LegT>::Conditions(const T& t, const T* z) const {
   T torque = MotorTorque(t, z);
-  if (has_hip_torque_) effects_.AddHipTorque({torque, t, z[kVx]}, torque);
+  if (has_hip_torque_) effects_.AddHipTorque({torque, SinceFirstRow(t), z[kVx]}, torque, false);
   return {t, torque};
 }
 // What the motor gives: its command, or with a lag long enough to integrate a state.
@@ -556,22 +611,31 @@ template <class T, class LegT>
 T LeggedBody<T, LegT>::HipTorque(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const {
   if (!is_driven_) return T(0.0);
   const T motor = MotorTorque(t, z);
-  if (!has_quick_lag_) return WithTorqueEffects(motor, load, t, z);
+  if (!has_quick_lag_) return WithTorqueEffects(mode, motor, load, t, z);
   // A lag too short to integrate, to its first order: T_cmd - t_lag dT_cmd/dt.
-  T fx = HipForce(load, WithTorqueEffects(motor, load, t, z)).x;
+  T fx = HipForce(load, WithTorqueEffects(mode, motor, load, t, z), t).x;
   if (has_body_force_) fx += BodyForce(mode, t, z).x;
   const T rate = inputs_.Has(InputKind::kHipTorque)
                      ? inputs_.of(InputKind::kHipTorque).Rate()
                      : controller_.TorqueRate(fx / inertia_.mx + inertia_.gravity_x);
-  return WithTorqueEffects(motor - p_.torque_lag * rate, load, t, z);
+  return WithTorqueEffects(mode, motor - p_.torque_lag * rate, load, t, z);
 }
 template <class T, class LegT>
-T LeggedBody<T, LegT>::WithTorqueEffects(T torque, const LegLoad<T>& load, const T& t,
-                                         const T* z) const {
-  if (has_hip_torque_) {
-    const HipMotion<T> hip{torque, t, z[kVx], load.u / load.l};
-    effects_.AddHipTorque(hip, torque);
+HipMotion<T> LeggedBody<T, LegT>::HipMotionAt(Mode mode, const T& torque, const LegLoad<T>& load,
+                                              const T& t, const T* z) const {
+  HipMotion<T> hip{torque, SinceFirstRow(t), z[kVx], load.u / load.l};
+  if (has_hip_formula_) {
+    const T rest = leg_->RestChord(load);
+    hip.angle = leg_->ShownAngle(mode, load);
+    hip.rate = load.angle_rate;
+    hip.compression = (rest - load.l) / rest;
   }
+  return hip;
+}
+template <class T, class LegT>
+T LeggedBody<T, LegT>::WithTorqueEffects(Mode mode, T torque, const LegLoad<T>& load, const T& t,
+                                         const T* z) const {
+  if (has_hip_torque_) effects_.AddHipTorque(HipMotionAt(mode, torque, load, t, z), torque);
   if (has_joint_torque_) torque += effects_.JointTorque({load.angle_rate});
   return torque;
 }
@@ -582,14 +646,15 @@ void LeggedBody<T, LegT>::ApplyLanding(const T& theta, T* z) const {
   using std::sin;
   const T alpha = leg_->ChordAngle(theta);
   Vector2<T> velocity{z[kVx], z[kVy]};
-  effects_.ChangeLandingVelocity({{-sin(alpha), cos(alpha)}}, velocity);
+  effects_.ChangeLandingVelocity({{-sin(alpha), cos(alpha)}, theta}, velocity);
   z[kVx] = velocity.x;
   z[kVy] = velocity.y;
 }
 // F e + (T/l) n, the bracket of M13 and M14 (M37); by reaction, the ground's force on the leg.
 template <class T, class LegT>
-Vector2<T> LeggedBody<T, LegT>::HipForce(const LegLoad<T>& load, const T& torque) const {
-  const T chord = ChordForce(load) / load.l;
+Vector2<T> LeggedBody<T, LegT>::HipForce(const LegLoad<T>& load, const T& torque,
+                                         const T& t) const {
+  const T chord = ChordForce(load, t) / load.l;
   Vector2<T> force{-chord * load.u, chord * load.y};
   if (is_driven_) {
     const T normal = torque / (load.l * load.l);

@@ -8,7 +8,7 @@ namespace hoplab {
 
 /// Room for any mechanism.
 template <class T>
-using SystemStorage = InPlace<HybridSystem<T>, 8192 + 512 * sizeof(T)>;
+using SystemStorage = InPlace<HybridSystem<T>, 16384 + 1024 * sizeof(T)>;
 
 /// A mechanism in every scalar type: how to make one.
 struct Mechanism {

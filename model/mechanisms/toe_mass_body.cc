@@ -15,7 +15,8 @@ ToeMassBody<T>::ToeMassBody(const MechanismSetup<T>& setup)
       extended_(p_.law_terms.active),
       // Nothing tells hip and toe apart while a relaxed leg falls.
       falls_freely_(!setup.effects.HasBodyForce() && !setup.effects.HasHipTorque() &&
-                    !setup.effects.HasJointTorque() && IsZero(p_.inertia_x) &&
+                    !setup.effects.HasJointTorque() && !setup.effects.HasChordFormula() &&
+                    !setup.effects.TouchdownAngleFalls() && IsZero(p_.inertia_x) &&
                     IsZero(p_.inertia_y) &&
                     (IsZero(p_.slope) || !setup.effects.HasTouchdownAngle())),
       gravity_x_(-body_.inertia().weight_along / p_.m),
@@ -39,6 +40,26 @@ void ToeMassBody<T>::LoadDiscreteState(DiscreteState& from) {
   swing_->LoadDiscreteState(from);
   flight_ = static_cast<Flight>(static_cast<int>(from.Take()));
   may_pull_ = from.Take() != 0.0;
+}
+
+template <class T>
+Mode ToeMassBody<T>::Begin(Mode mode, T* z) {
+  Seat(mode, T(0.0), z);
+  return mode;
+}
+
+template <class T>
+template <class Act>
+void ToeMassBody<T>::WithMotionsAt(Mode mode, const T& t, const T* z, const Act& act) const {
+  if (mode != Mode::kFlight) return body_.WithMotionsAt(mode, t, z, act);
+  const Swing s = SwingAt(t, z);
+  const ChordMotion<T> chord = body_.ChordMotionAt(s.load, t);
+  body_.WithMotions(mode, t, z, &chord, &s.hip, act);
+}
+template <class T>
+void ToeMassBody<T>::Seat(Mode mode, const T& t, const T* z) {
+  if (body_.corner_count() == 0) return;
+  WithMotionsAt(mode, t, z, [&](const Motions<T>& m) { body_.SeatCorners(m); });
 }
 
 template <class T>
@@ -89,6 +110,10 @@ void ToeMassBody<T>::Derivative(Mode mode, const T& t, const T* z, T* dz) const 
 template <class T>
 int ToeMassBody<T>::GuardCount(Mode mode) const {
   if (mode != Mode::kFlight) return body_.GuardCount(mode);
+  return FlightGuardCount() + body_.corner_count();
+}
+template <class T>
+int ToeMassBody<T>::FlightGuardCount() const {
   return std::array{4, 2, 3, 1}[static_cast<std::size_t>(flight_)];
 }
 
@@ -101,6 +126,7 @@ GuardSpec ToeMassBody<T>::Guard(Mode mode, int i) const {
     spec.if_closed = may_pull_ ? std::nullopt : std::optional(Outcome::kNoSupport);
     return spec;
   }
+  if (i >= FlightGuardCount()) return body_.CornerSpec(i - FlightGuardCount());
   const double length = body_.leg().Size();
   switch (FlightEvent(i)) {
     case EventKind::kTouchdown:
@@ -118,12 +144,12 @@ template <class T>
 void ToeMassBody<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
   if (mode != Mode::kFlight) {
     const LegLoad<T> load = body_.Load(mode, t, z);
-    g[0] = LiftoffGuard(load);
-    body_.StanceGuards(mode, load, z, g);
+    g[0] = LiftoffGuard(load, t);
+    body_.StanceGuards(mode, load, t, z, g);
     return;
   }
   using std::cos;
-  const int count = GuardCount(mode);
+  const int count = FlightGuardCount();
   for (int i = 0; i < count; ++i) {
     switch (FlightEvent(i)) {
       case EventKind::kTouchdown:
@@ -139,10 +165,25 @@ void ToeMassBody<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
         g[i] = cos(body_.leg().ChordAngle(LegAngle(z))) - kFallCosine;
     }
   }
+  if (body_.corner_count() > 0)
+    WithMotionsAt(mode, t, z, [&](const Motions<T>& m) { body_.CornerGuards(m, g + count); });
 }
 
 template <class T>
 ResetResult ToeMassBody<T>::Reset(Mode mode, int i, const T& t, T* z) {
+  const EventKind event = Guard(mode, i).event;
+  if (event == EventKind::kCorner) {
+    const int own = OwnGuardCount(mode);
+    WithMotionsAt(mode, t, z, [&](const Motions<T>& m) { body_.CrossCorner(i - own, m); });
+    return {mode};
+  }
+  const ResetResult result = ResetOwn(mode, i, t, z);
+  if (!TraitsOf(event).is_section && !result.end) Seat(result.next, t, z);
+  return result;
+}
+
+template <class T>
+ResetResult ToeMassBody<T>::ResetOwn(Mode mode, int i, const T& t, T* z) {
   switch (Guard(mode, i).event) {
     case EventKind::kTouchdown:
       return TouchDown(t, z);
@@ -303,17 +344,16 @@ template <class T>
 typename ToeMassBody<T>::Swing ToeMassBody<T>::SwingAt(const T& t, const T* z) const {
   using std::atan2;
   const HipOverToe over = Relative(z);
-  Swing s{SwingLoad(t, over), atan2(over[kContact], over[kY]), T(0.0), {}};
+  Swing s{SwingLoad(t, over), atan2(over[kContact], over[kY]), T(0.0), {}, {}};
   const LegLoad<T>& load = s.load;
   // dtheta/dt
   const T rate = -(load.y * over[kVx] + load.u * over[kVy]) / (load.l * load.l);
   s.torque = p_.kd_place * rate - p_.kp_place * (body_.TouchdownAngle(z) - s.theta);  // M41
-  if (body_.effects().HasHipTorque()) {
-    const HipMotion<T> hip{s.torque, t, z[kVx], load.u / load.l};
-    body_.effects().AddHipTorque(hip, s.torque);
-  }
+  s.hip = {s.torque, body_.SinceFirstRow(t), z[kVx], load.u / load.l, s.theta,
+           rate,     1.0 - load.l / length_};
+  if (body_.effects().HasHipTorque()) body_.effects().AddHipTorque(s.hip, s.torque);
   s.torque += body_.effects().JointTorque({rate});
-  const T chord = body_.ChordForce(load) / load.l, normal = s.torque / (load.l * load.l);
+  const T chord = body_.ChordForce(load, t) / load.l, normal = s.torque / (load.l * load.l);
   s.force = {normal * load.y - chord * load.u, chord * load.y + normal * load.u};
   return s;
 }
@@ -328,8 +368,8 @@ T ToeMassBody<T>::ReachDown(const T* z) const {
 
 // M45: the chord lifts the toe's weight.
 template <class T>
-T ToeMassBody<T>::LiftoffGuard(const LegLoad<T>& load) const {
-  return body_.ChordForce(load) * load.y / load.l - p_.m_toe * gravity_y_;
+T ToeMassBody<T>::LiftoffGuard(const LegLoad<T>& load, const T& t) const {
+  return body_.ChordForce(load, t) * load.y / load.l - p_.m_toe * gravity_y_;
 }
 
 // M44: the toe's velocity is lost, the contact is where the leg touches.
@@ -345,7 +385,7 @@ ResetResult ToeMassBody<T>::TouchDown(const T& t, T* z) {
   for (int i = kToeY; i < kToeStateSize; ++i) z[i] = T(0.0);
   may_pull_ = true;
   const LegLoad<T> now = body_.Load(landed.next, t, z);
-  if (Value(LiftoffGuard(now)) <= 0.0 && Value(now.damping_rate) >= 0.0)
+  if (Value(LiftoffGuard(now, t)) <= 0.0 && Value(now.damping_rate) >= 0.0)
     return {landed.next, Outcome::kNoSupport};
   return landed;
 }

@@ -20,6 +20,7 @@ class ToeMassBody final : public HybridSystem<T> {
   void SaveDiscreteState(DiscreteState& to) const override;
   void LoadDiscreteState(DiscreteState& from) override;
   void StartSearch(Mode mode, const double* z) override;
+  Mode Begin(Mode mode, T* z) override;
   /// A run begins with the toe of a leg at rest against the hip, relaxed at the touch-down angle.
   void CompleteStart(T* z, int given) const override;
 
@@ -30,6 +31,7 @@ class ToeMassBody final : public HybridSystem<T> {
   void Guards(Mode mode, const T& t, const T* z, T* g) const override;
 
   ResetResult Reset(Mode mode, int i, const T& t, T* z) override;
+  void Touch(Mode mode, int i) override { body_.TouchCorner(i - OwnGuardCount(mode)); }
 
   /// The first flight, of a relaxed leg, is in closed form.
   bool IsBallistic(Mode mode) const override;
@@ -67,6 +69,7 @@ class ToeMassBody final : public HybridSystem<T> {
     T theta;           // leg angle [rad]
     T torque;          // on the hip, positive pushes it forward [N m]
     Vector2<T> force;  // of the leg on the hip; on the toe its opposite [N]
+    HipMotion<T> hip;  // before what effects add
   };
 
   static Parameters<T> InTheAir(Parameters<T> p);
@@ -83,7 +86,17 @@ class ToeMassBody final : public HybridSystem<T> {
   static T LegAngle(const T* z);
   Swing SwingAt(const T& t, const T* z) const;
   T ReachDown(const T* z) const;
-  T LiftoffGuard(const LegLoad<T>& load) const;
+  T LiftoffGuard(const LegLoad<T>& load, const T& t) const;
+
+  int FlightGuardCount() const;
+  int OwnGuardCount(Mode mode) const {
+    return mode == Mode::kFlight ? FlightGuardCount()
+                                 : body_.GuardCount(mode) - body_.corner_count();
+  }
+  ResetResult ResetOwn(Mode mode, int i, const T& t, T* z);
+  template <class Act>
+  void WithMotionsAt(Mode mode, const T& t, const T* z, const Act& act) const;
+  void Seat(Mode mode, const T& t, const T* z);
 
   ResetResult TouchDown(const T& t, T* z);
   ResetResult LiftOff(Mode mode, const T& t, T* z);

@@ -107,6 +107,12 @@ TEST(EditDistance, CountsInsertionsDeletionsReplacementsAndSwaps) {
 TEST(NearestWord, FindsTheMisspeltOne) {
   EXPECT_EQ(NearestWord("thicknes_m", {"width_m", "thickness_m"}), "thickness_m");
   EXPECT_EQ(NearestWord("tets", {"train", "test"}), "test");
+  // Both one slip away: letters that changed places go before one that was replaced.
+  for (const std::vector<std::string>& known :
+       {std::vector<std::string>{"report", "export"}, {"export", "report"}}) {
+    EXPECT_EQ(NearestWord("xeport", known), "export");
+    EXPECT_EQ(NearestWord("erport", known), "report");
+  }
 }
 
 TEST(NearestWord, GoesOnWithABeginningThatIsOneWordsAlone) {

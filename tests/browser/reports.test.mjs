@@ -19,6 +19,7 @@ const kinds = {
   optimize: {hover: /\bdeg\b/, moves: true},
   sweep: {hover: /\b(s|GPa)\b/, moves: false},
   simulate: {hover: /\b(m|s)\b/, moves: true},
+  report: {hover: /GPa|N s\/m/, moves: false},
   reproduce: {hover: /\bs\b|%|\bdeg\b/, moves: true},
 };
 

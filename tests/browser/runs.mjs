@@ -15,6 +15,8 @@ export function makeRuns() {
   hoplab('check', join(source, 'datasets/rig-drops'), '--out', 'check');
   hoplab('fit', join(source, 'datasets/rig-drops'), '--profile', 'E', '--quiet', '--out', 'fit');
   hoplab('generate', scenario('three-drops'), '--with', 'air_drag:c_drag=0.05', '--seed', '7', '--out', 'windy');
+  hoplab('fit', 'windy', '--quiet', '--out', 'windy-fit');
+  hoplab('report', 'fit', 'windy-fit', '--out', 'report');
   hoplab('diagnose', 'windy', '--effects', 'air_drag,guide_viscous_friction,ground_slope,sensor_delay', '--quiet', '--out', 'diagnose');
   hoplab('design', join(source, 'datasets/rig-drops'), '--sharpen', 'E', '--budget', '60', '--map', '5', '--quiet', '--out', 'design');
   hoplab('gait', scenario('controlled-hopping'), '--along', 'theta_td=0.6:0.8', '--quiet', '--out', 'gait');

@@ -67,7 +67,7 @@ TEST(KnownCauses, ABoundHoldsForTestsAndForTheRefit) {
   const FitProblem p = ProblemKnowing({{"camera_roll", "", 0.002}});
   const std::vector<Candidate> candidates = CandidatesOf(p, {.only = {"camera_roll"}});
   ASSERT_EQ(candidates.size(), 1u);
-  const SharedParameter& s = Extend(p, candidates).shared.back();
+  const SharedParameter s = Extend(p, candidates).shared.back();
   EXPECT_EQ(s.lower, -0.002);
   EXPECT_EQ(s.upper, 0.002);
   EXPECT_LE(s.scale, 0.002);

@@ -1,6 +1,5 @@
 #include "model/laws/elastica/energy.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -41,7 +40,11 @@ struct Spot {
         x((phi - kPhiBegin) * kPhiRate - i),
         y((z - kLoadBegin) * kLoadRate - j) {}
 
-  static int CellOf(double x, int cells) { return std::clamp(static_cast<int>(x), 0, cells - 1); }
+  // Of what is no number, the first: the place in it is no number either.
+  static int CellOf(double x, int cells) {
+    if (!(x > 0.0)) return 0;
+    return x < cells ? static_cast<int>(x) : cells - 1;
+  }
 };
 
 // From derivatives by the place in a cell to those by (phi, z).

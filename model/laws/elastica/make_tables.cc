@@ -292,8 +292,8 @@ int Main() {
     SolveDense(by_phi, turned);
     return turned;
   };
-  std::printf("const double kCoefficients[kSplineCount][kPhiCount * kLoadCount] = {\n");
-  for (int table = 0; table < kSplineCount; ++table) {
+  std::printf("const double kCoefficients[kTableCount][kPhiCount * kLoadCount] = {\n");
+  for (int table = 0; table < kTableCount; ++table) {
     const auto c = splines_of(table);
     std::printf("{");
     for (std::size_t i = 0; i < phis.size(); ++i) {

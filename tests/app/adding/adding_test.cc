@@ -57,6 +57,7 @@ class Adding : public ::testing::Test {
     WriteFiles("effect.md", "cpp", tree_->path());
     WriteFiles("mechanism.md", "cpp", tree_->path());
     WriteFiles("experiment.md", "yaml", tree_->path());
+    WriteFiles("formula.md", "yaml", tree_->path());
     const std::vector<std::vector<std::string>> steps = {
         {HOPLAB_CMAKE, "-S", ".", "-B", "build", "-G", HOPLAB_GENERATOR,
          "-DHOPLAB_SOURCE=" + kSource.string(), "-DHOPLAB_BUILD=" HOPLAB_BUILD_DIR,
@@ -136,6 +137,14 @@ TEST_F(Adding, AnExperimentGivesTheTableThatStandsThere) {
   const std::string table = Blocks("experiment.md", "text").at(0);
   EXPECT_NE(printed[1].find(table), std::string::npos) << printed[1];
   EXPECT_EQ(printed[3].find(table), std::string::npos) << "another law, other numbers";
+}
+
+TEST_F(Adding, AFormulaIsCheckedGeneratedAndFitted) {
+  const std::vector<std::string> printed = RunCommands("formula.md");
+  ASSERT_EQ(printed.size(), 4u);
+  EXPECT_NE(printed[0].find("-k max(x - x_end, 0)"), std::string::npos) << printed[0];
+  EXPECT_NE(printed[2].find("cable.k"), std::string::npos) << printed[2];
+  EXPECT_NE(printed[3].find("cable.x_end"), std::string::npos) << printed[3];
 }
 
 }  // namespace

@@ -79,5 +79,21 @@ TEST(WhitenMatern, WithoutAmplitudeChangesNothing) {
   EXPECT_EQ(s.block, before);
 }
 
+TEST(MaternProduct, IsTheCovarianceBetweenColumns) {
+  for (const double scale : {0.003, 0.05, 1.0}) {
+    for (const double ratio : {0.1, 3.0, 50.0}) {
+      const Series s(80, 7);
+      Eigen::MatrixXd own(80, 4);
+      for (int k = 0; k < 80; ++k) own.row(k) = s.block.row(s.rows[k]);
+      const Eigen::MatrixXd K =
+          Covariance(s.times, ratio, scale) - Eigen::MatrixXd::Identity(80, 80);
+      const Eigen::MatrixXd expected = own.transpose() * K * own;
+      const Eigen::MatrixXd found = MaternProduct(s.times, s.rows, ratio, scale, s.block);
+      EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff())
+          << scale << ' ' << ratio;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hoplab

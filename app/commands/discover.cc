@@ -1,0 +1,95 @@
+#include "app/commands/discover.h"
+
+#include <chrono>
+#include <ostream>
+
+#include "app/discovery_record.h"
+#include "app/help_text.h"
+#include "app/interrupt.h"
+#include "app/problem_settings.h"
+#include "app/progress.h"
+#include "app/report_text.h"
+#include "app/run_folder.h"
+#include "app/run_settings.h"
+#include "base/text.h"
+#include "datasets/read_dataset.h"
+
+namespace hoplab {
+namespace {
+
+struct DiscoverSettings : RunSettings {
+  ProblemSettings problem;
+  std::uint64_t seed = 1;
+  std::string span = "whole_else_hops";
+  std::string discrepancy = "matern";
+};
+
+DiagnosisOptions OptionsOf(const DiscoverSettings& settings) {
+  DiagnosisOptions options;
+  options.problem = ProblemOptionsOf(settings.problem);
+  options.fit.seed = settings.seed;
+  options.fit.jobs = JobsOf(settings.problem.jobs);
+  options.fit.discrepancy = *FindDiscrepancy(settings.discrepancy);
+  options.span = *FindSpan(settings.span);
+  return options;
+}
+
+ExitCode RunDiscover(const DiscoverSettings& settings, Console& console) {
+  const auto begin = std::chrono::steady_clock::now();
+  DiagnosisOptions options = OptionsOf(settings);
+  const Dataset dataset = ReadDataset(settings.problem.dataset);
+  const RunFolder folder(RunFolderOptionsOf(settings), dataset.name, "discover");
+
+  const InterruptGuard interrupt;
+  Progress progress(console, settings.quiet);
+  options.fit.stop = interrupt.flag();
+  options.stage = [&](std::string_view stage) { progress.Stage(std::string(stage)); };
+  options.step = [&](const std::string& text, int done, int of) { progress.Step(text, done, of); };
+  const Discovery found = Discover(dataset, options);
+  progress.Clear();
+
+  Json record = DiscoveryRecord(dataset, settings.problem.dataset, options, found);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  record["seconds"] = took.count();
+  std::map<std::string, std::string> files = DiscoveryFiles(found);
+  files["run.json"] = TextOf(record);
+  const std::string kept = folder.Write(files).string();
+  if (settings.json) {
+    console.out << TextOf(record);
+  } else {
+    console.out << Styled(Printable(dataset.name, 100), Emphasis::kBold, console.out_colours) << "\n\n";
+    for (const std::string& note : found.base.notes)
+      console.out << Labelled("note", note, console.out_colours);
+    console.out << DiscoveryReport(found, console.out_colours)
+                << Styled("\n  run folder   ", Emphasis::kFaint, console.out_colours) << kept
+                << '\n';
+  }
+  const std::string failure = FailureOf(found);
+  if (!failure.empty()) console.err << "hoplab discover: " << failure << '\n';
+  if (found.base.interrupted) return ExitCode::kInterrupted;
+  return failure.empty() ? ExitCode::kDone : ExitCode::kNoResult;
+}
+
+}  // namespace
+
+void AddDiscoverCommand(CLI::App& app, Invocation& invocation) {
+  auto settings = std::make_shared<DiscoverSettings>();
+  CLI::App& sub = *app.add_subcommand(
+      "discover", "Look for a formula of what the simulation lacks and no listed cause explains");
+  AddProblemOptions(sub, settings->problem);
+  AddDiscrepancyOption(sub, settings->discrepancy);
+  AddSeedOption(sub, settings->seed, "Of noise draws, resamples and bootstraps");
+  sub.add_option("--span", settings->span,
+                 "whole traces, else single hops where a law falls (default), whole or hops")
+      ->check(OneOf({"whole_else_hops", "whole", "hops"}))
+      ->option_text("NAME");
+  AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-discover-NNN)");
+  sub.footer(
+      "Examples:\n"
+      "  hoplab discover my-hops\n"
+      "  hoplab discover my-hops --with air_drag --jobs 4\n"
+      "  hoplab fit my-hops --with runs/my-hops-discover-001/discovered.yaml");
+  OnParsed(sub, invocation, settings, RunDiscover);
+}
+
+}  // namespace hoplab

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "app/command.h"
+
+namespace hoplab {
+
+/// `hoplab export`.
+void AddExportCommand(CLI::App& app, Invocation& invocation);
+
+}  // namespace hoplab

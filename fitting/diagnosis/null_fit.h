@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+#include "fitting/diagnosis/diagnosis.h"
+
+namespace hoplab {
+
+/// The first part of a diagnosis, and of a search for a formula: `problem` corrected, fitted as it
+/// is under white noise and under the noise that suits it, and whether that can be trusted. Fills
+/// problem, by_hop, notes, fit, plain, null, gate and, if it went wrong, refusal; `train` gets the
+/// train trials.
+void FitNull(FitProblem problem, const DiagnosisOptions& options, Diagnosis& d,
+             std::vector<TrialProblem>& train);
+
+/// What the refits of a diagnosis share.
+RefitSettings SettingsOf(const DiagnosisOptions& options, const std::vector<TrialProblem>& train);
+
+/// All tests of a linearisation whose columns are `candidates`, then the probes.
+Detection Detect(const Linearisation& at, std::span<const Candidate> candidates,
+                 const ProbeBasis& basis, std::uint64_t seed);
+
+}  // namespace hoplab

@@ -1,0 +1,342 @@
+#include "fitting/discovery/discover.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/text.h"
+#include "datasets/suspect_things.h"
+#include "fitting/diagnosis/linearise_at.h"
+#include "fitting/diagnosis/null_fit.h"
+#include "fitting/discovery/stability.h"
+
+namespace hoplab {
+namespace {
+
+// Streams of the seed.
+constexpr std::uint64_t kDetectionStream = 21, kResampleStream = 22, kBootstrapStream = 23,
+                        kForcesStream = 24;
+// Terms that are refitted one by one: the most promising by the linear model.
+constexpr int kRefitted = 16;
+// Of them picked beside each other, under each of the two noises.
+constexpr int kPicked = 4;
+// Nats the exponent must gain to be told as another number than the whole one.
+constexpr double kExponentPays = 3.0;
+
+class Search {
+ public:
+  Search(const DiagnosisOptions& options, Discovery& out) : options_(options), out_(out) {}
+
+  void Run(const std::vector<TrialProblem>& train) {
+    train_ = &train;
+    Stage("laying out the terms");
+    const std::vector<Term> library = TermLibrary(out_.base.problem, ScalesOf(out_.base.problem));
+    out_.library = library.size();
+    if (!SomethingIsMissing(library)) return;
+    Stage("refitting with the terms that promise most");
+    Fit(library);
+    if (Stopped()) return;
+    Stage("measuring on held-out trials");
+    out_.base.before = MeasureHeldOut(out_.base.null, options_.fit.jobs);
+    if (!out_.naming.best.members.empty()) Describe(library);
+    Judge();
+    const ProbeBasis basis = ProbesOf(out_.base.problem.law);
+    out_.free_forces =
+        Reconstruct(LineariseAt(out_.base.plain, basis.probes, train, options_.fit.jobs), basis,
+                    Seed(kForcesStream));
+  }
+
+ private:
+  bool Stopped() const { return options_.fit.stop && *options_.fit.stop; }
+  void Stage(std::string_view text) const {
+    if (options_.stage) options_.stage(text);
+  }
+  std::uint64_t Seed(std::uint64_t stream) const { return options_.fit.seed * 64 + stream; }
+  static std::vector<Candidate> CandidatesOf(const std::vector<Term>& terms) {
+    std::vector<Candidate> candidates;
+    for (const Term& t : terms) candidates.emplace_back(t.effect);
+    return candidates;
+  }
+  // What a further term must gain to be picked by the linear model: its prior odds.
+  double LeastGain() const { return std::log(static_cast<double>(out_.library)); }
+
+  bool SomethingIsMissing(const std::vector<Term>& library) {
+    const std::vector<Candidate> all = CandidatesOf(library);
+    const ProbeBasis basis = ProbesOf(out_.base.problem.law);
+    std::vector<Candidate> tested = all;
+    tested.insert(tested.end(), basis.probes.begin(), basis.probes.end());
+    const Linearisation at = LineariseAt(out_.base.plain, tested, *train_, options_.fit.jobs);
+    out_.base.detection = Detect(at, all, basis, Seed(kDetectionStream));
+    if (out_.base.detection.p_value <= kDetectionLevel) return true;
+    out_.verdict = DiscoveryVerdict::kNotNeeded;
+    out_.reason = "nothing is missing that these data could show (p = " +
+                  FormatDouble(std::round(1e4 * out_.base.detection.p_value) / 1e4) + ")";
+    return false;
+  }
+
+  // ---- search
+
+  void Fit(const std::vector<Term>& library) {
+    const std::vector<Candidate> all = CandidatesOf(library);
+    const Linearisation white = LineariseAt(out_.base.plain, all, *train_, options_.fit.jobs);
+    const Linearisation colored = LineariseAt(out_.base.null, all, *train_, options_.fit.jobs);
+    groups_ = EqualColumns(white);
+    std::vector<int> leaders;
+    for (const std::vector<int>& group : groups_) leaders.push_back(group.front());
+    const std::vector<int> promising = Promising(leaders, white, colored);
+    std::vector<Candidate> tried;
+    for (const int i : promising) {
+      out_.terms.push_back(library[static_cast<std::size_t>(i)]);
+      tried.push_back(all[static_cast<std::size_t>(i)]);
+      places_.push_back(i);
+    }
+    leaders_ = leaders;
+    NamingOptions naming;
+    naming.max_effects = kMostTerms;
+    naming.in_one_trial = false;
+    naming.picked_from = static_cast<int>(leaders.size());
+    naming.discrepancy = options_.fit.discrepancy;
+    naming.jobs = options_.fit.jobs;
+    naming.stop = options_.fit.stop;
+    if (options_.step)
+      naming.progress = [this](int refits, int of, std::string_view) {
+        options_.step("refit " + std::to_string(refits) + " of " + std::to_string(of), refits, of);
+      };
+    out_.naming =
+        NameCauses({&out_.base.plain, &out_.base.null}, tried,
+                   LineariseAt(out_.base.null, tried, *train_, options_.fit.jobs), *train_, naming);
+  }
+
+  // What is picked beside each other under either noise, then what scores best alone.
+  static std::vector<int> Promising(const std::vector<int>& leaders, const Linearisation& white,
+                                    const Linearisation& colored) {
+    std::vector<int> promising;
+    const auto add = [&](int column) {
+      if (static_cast<int>(promising.size()) < kRefitted &&
+          std::find(promising.begin(), promising.end(), column) == promising.end())
+        promising.push_back(column);
+    };
+    for (const Linearisation* at : {&white, &colored})
+      for (const LinearPick& pick : PickForward(*at, leaders, kPicked, 0.0)) add(pick.column);
+    std::vector<std::pair<double, int>> alone;
+    for (const int j : leaders) {
+      double best = 0.0;
+      for (const Linearisation* at : {&white, &colored}) {
+        const double square = at->columns.col(j).squaredNorm();
+        const double along = at->columns.col(j).dot(at->r);
+        // Under each noise in its own nats.
+        if (square > 0.0) best = std::max(best, 0.5 * along * along / square / at->chi2());
+      }
+      alone.emplace_back(-best, j);
+    }
+    std::stable_sort(alone.begin(), alone.end());
+    for (const auto& [gain, j] : alone) add(j);
+    std::sort(promising.begin(), promising.end());
+    return promising;
+  }
+
+  // ---- what was found
+
+  void Describe(const std::vector<Term>& library) {
+    const Extension& best = out_.naming.best;
+    out_.uncertainty = AssessUncertainty(best.problem, *train_, best.shared, best.starts,
+                                         options_.fit.loss, options_.fit.jobs);
+    out_.after = MeasureHeldOut(best, options_.fit.jobs);
+    out_.gain = CompareHeldOut(out_.base.null, out_.base.before, out_.after, Seed(kBootstrapStream),
+                               &out_.left_out);
+    std::vector<std::vector<int>> wanted;
+    int place = best.problem.shared_count() - best.parameter_count();
+    for (std::size_t m = 0; m < best.members.size(); ++m) {
+      const int i = out_.naming.best_set[m];
+      FoundTerm found;
+      found.term = out_.terms[static_cast<std::size_t>(i)];
+      for (int k = 0; k < best.members[m].parameter_count(); ++k, ++place)
+        found.values.push_back(ValueAt(best, out_.uncertainty, place));
+      const int column = places_[static_cast<std::size_t>(i)];
+      wanted.push_back({});
+      for (const std::vector<int>& group : groups_) {
+        if (group.front() != column) continue;
+        wanted.back() = group;
+        for (const int j : group)
+          if (j != column) found.equal.push_back(library[static_cast<std::size_t>(j)].effect);
+      }
+      for (const int rival : out_.naming.groups[m]) {
+        if (rival == i) continue;
+        found.as_good.push_back(out_.terms[static_cast<std::size_t>(rival)].effect);
+        wanted.back().push_back(places_[static_cast<std::size_t>(rival)]);
+      }
+      found.share = ShareOf(m);
+      found.source = WithTypical(*SourceOf(*found.term.effect), found.values);
+      out_.found.push_back(std::move(found));
+    }
+    Resample(library, wanted);
+    for (std::size_t m = 0; m < out_.found.size(); ++m) FreeExponent(m);
+    std::stable_sort(out_.found.begin(), out_.found.end(),
+                     [](const FoundTerm& a, const FoundTerm& b) { return a.share > b.share; });
+  }
+
+  static FoundValue ValueAt(const Extension& e, const Uncertainty& u, int place) {
+    const SharedParameter& s = e.problem.shared[static_cast<std::size_t>(place)];
+    const ParameterUncertainty& known = u.parameters[static_cast<std::size_t>(place)];
+    const bool between = u.misfit && known.ci95_between_trials;
+    return {s.name.substr(s.name.rfind('.') + 1), s.unit, e.shared[place],
+            between ? known.ci95_between_trials : known.ci95};
+  }
+  // Of the plain model's squared misfit beyond noise, what goes when the term leaves the model.
+  double ShareOf(std::size_t member) const {
+    const double excess = 2.0 * out_.base.plain.cost - out_.base.detection.degrees_of_freedom;
+    if (!(excess > 0.0) || member >= out_.naming.without.size()) return 0.0;
+    const Extension& without = out_.naming.without[member];
+    if (!without.ok()) return 0.0;
+    return std::clamp(2.0 * (without.cost - out_.naming.best.cost) / excess, 0.0, 1.0);
+  }
+  static FormulaSource WithTypical(FormulaSource source, const std::vector<FoundValue>& values) {
+    for (FormulaParameter& p : source.parameters) {
+      for (const FoundValue& v : values)
+        if (v.name == p.name && v.value != 0.0 && p.null && *p.null == 0.0) p.typical = v.value;
+    }
+    return source;
+  }
+
+  // How often the terms are picked when trials are drawn anew, under the noise of the model that
+  // has them: where they are missing they would be part of the noise.
+  void Resample(const std::vector<Term>& library, const std::vector<std::vector<int>>& wanted) {
+    Extension base = out_.base.plain;
+    base.problem.noise = out_.naming.best.problem.noise;
+    const Linearisation at = LineariseAt(base, CandidatesOf(library), *train_, options_.fit.jobs);
+    const std::vector<double> share = ShareOfResamples(
+        at, leaders_, wanted, static_cast<int>(wanted.size()), LeastGain(), Seed(kResampleStream));
+    for (std::size_t m = 0; m < share.size(); ++m) out_.found[m].selected_in = share[m];
+  }
+
+  // The model with the exponent of one term free.
+  void FreeExponent(std::size_t m) {
+    FoundTerm& found = out_.found[m];
+    if (!found.term.power || Stopped()) return;
+    const Extension& best = out_.naming.best;
+    RefitSettings settings = SettingsOf(options_, *train_);
+    Extension rest = best;
+    int place = static_cast<int>(m);
+    if (best.members.size() > 1) {
+      rest = RefitWithout(best, place, out_.base.plain.problem, settings);
+    } else {
+      rest = out_.base.plain;
+      rest.problem.noise = best.problem.noise;
+    }
+    const Candidate freed(&FormulaEffect(WithFreeExponent(found.term)));
+    const TermPower& power = *found.term.power;
+    Eigen::VectorXd sizes(2);
+    sizes << found.values.front().value * std::pow(power.scale, power.exponent), 0.0;
+    rest.cost = std::numeric_limits<double>::infinity();
+    const Extension with = Refit(rest, std::span(&freed, 1), sizes, settings);
+    if (!with.ok()) return;
+    const Uncertainty u = AssessUncertainty(with.problem, *train_, with.shared, with.starts,
+                                            options_.fit.loss, options_.fit.jobs);
+    FreedExponent exponent;
+    exponent.taken = power.exponent;
+    exponent.value = ValueAt(with, u, with.problem.shared_count() - 1);
+    exponent.gain = best.cost - with.cost;
+    const bool other = exponent.gain > kExponentPays && exponent.value.ci95 &&
+                       (exponent.value.ci95->first > power.exponent ||
+                        exponent.value.ci95->second < power.exponent);
+    if (other) {
+      FormulaSource source = *SourceOf(*freed.effect);
+      source.parameters[0].typical = with.shared[with.problem.shared_count() - 2];
+      source.parameters[1].null.reset();
+      source.parameters[1].value = exponent.value.value;
+      source.parameters[1].typical.reset();
+      found.source = source;
+      found.values = {ValueAt(with, u, with.problem.shared_count() - 2), exponent.value};
+    }
+    found.exponent = exponent;
+  }
+
+  // ---- verdict
+
+  void Judge() {
+    out_.verdict = DiscoveryVerdict::kNothingStable;
+    if (out_.found.empty()) {
+      out_.reason = "something is missing, and no formula of the library pays for itself";
+      return;
+    }
+    const FoundTerm& first = out_.found.front();
+    if (first.selected_in && *first.selected_in < kStable) {
+      out_.reason = "the best formula is picked in " +
+                    FormatDouble(std::round(100.0 * *first.selected_in)) +
+                    " % of the resamples of the trials only";
+      return;
+    }
+    if (out_.gain.ci95 && out_.gain.ci95->second < 0.0) {
+      out_.reason = "the best formula makes held-out trials worse";
+      return;
+    }
+    out_.verdict = DiscoveryVerdict::kFound;
+    out_.reason = first.selected_in
+                      ? "picked in " + FormatDouble(std::round(100.0 * *first.selected_in)) +
+                            " % of the resamples of the trials"
+                      : "with one fitted trial nothing says whether another would show the same";
+  }
+
+  const DiagnosisOptions& options_;
+  Discovery& out_;
+  const std::vector<TrialProblem>* train_ = nullptr;
+  std::vector<std::vector<int>> groups_;  // of equal columns of the library
+  std::vector<int> leaders_;              // the first of each
+  std::vector<int> places_;               // of out_.terms in the library
+};
+
+}  // namespace
+
+std::string_view NameOf(DiscoveryVerdict verdict) {
+  switch (verdict) {
+    case DiscoveryVerdict::kFound:
+      return "found";
+    case DiscoveryVerdict::kNothingStable:
+      return "nothing_stable";
+    case DiscoveryVerdict::kNotNeeded:
+      return "not_needed";
+  }
+  return "";
+}
+
+Discovery Discover(const Dataset& dataset, const DiagnosisOptions& options) {
+  Discovery out;
+  FitProblem problem = MakeProblem(dataset, options.problem);
+  out.base.refusal = UnreadableTimes(dataset);
+  std::vector<TrialProblem> train;
+  if (out.base.refusal.empty())
+    FitNull(std::move(problem), options, out.base, train);
+  else
+    out.base.problem = std::move(problem);
+  const auto stopped = [&] { return options.fit.stop && *options.fit.stop; };
+  if (out.base.refusal.empty() && !stopped()) Search(options, out).Run(train);
+  out.base.interrupted = stopped();
+  return out;
+}
+
+Discovery DiscoverBeside(const Diagnosis& diagnosis, const DiagnosisOptions& options) {
+  Discovery out;
+  out.base = diagnosis;
+  if (!diagnosis.refusal.empty()) return out;
+  const std::vector<TrialProblem> train = TrialsOf(diagnosis.problem, TrialRole::kTrain);
+  if (diagnosis.extension) {
+    // Its causes become a part of the model.
+    RefitSettings settings = SettingsOf(options, train);
+    out.base.null = diagnosis.naming.best;
+    out.base.plain = out.base.null;
+    out.base.plain.problem.noise = {};
+    settings.discrepancy = Discrepancy::kNone;
+    Settle(out.base.plain, settings);
+    out.base.null.members.clear();
+    out.base.plain.members.clear();
+    NoiseModel noise = out.base.null.problem.noise;
+    out.base.problem = out.base.null.problem;
+    out.base.problem.noise = noise;
+  }
+  Search(options, out).Run(train);
+  out.base.interrupted = options.fit.stop && *options.fit.stop;
+  return out;
+}
+
+}  // namespace hoplab

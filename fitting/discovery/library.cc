@@ -1,0 +1,338 @@
+#include "fitting/discovery/library.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/check.h"
+#include "base/text.h"
+
+namespace hoplab {
+namespace {
+
+// Part of a natural size that a missing term is expected to have.
+constexpr double kExpected = 0.05;
+// Bounds of a coefficient, in expected sizes.
+constexpr double kBound = 1e3;
+
+// One factor of a term: a power of a variable, with its unit and size.
+struct Factor {
+  std::string text;  // "vx^2"
+  std::string unit;
+  double size = 1.0;
+  std::string words;     // "the square of speed"
+  std::string variable;  // empty: none
+  std::optional<TermPower> power = {};
+};
+
+// How a power is told.
+std::string PowerWords(const std::string& of, int exponent) {
+  if (exponent == 1) return of;
+  return (exponent == 2 ? "the square of " : "the cube of ") + of;
+}
+
+// v, |v| v, v^2, ... : odd powers keep the direction.
+void AddSigned(std::vector<Factor>& to, const std::string& v, const std::string& unit, double size,
+               const std::string& words) {
+  const auto power = [&](double exponent) {
+    return TermPower{"abs(" + v + ")", "sign(" + v + ")", unit, exponent, size};
+  };
+  to.push_back({"sign(" + v + ")", "1", 1.0, "the direction of " + words, v, {}});
+  to.push_back({v, unit, size, words, v, power(1)});
+  to.push_back(
+      {"abs(" + v + ") * " + v, unit + "^2", size * size, "the square of " + words, v, power(2)});
+  to.push_back({v + "^2",
+                unit + "^2",
+                size * size,
+                "the square of " + words + ", whatever its direction",
+                v,
+                {}});
+  to.push_back({v + "^3", unit + "^3", size * size * size, "the cube of " + words, v, power(3)});
+}
+void AddPositive(std::vector<Factor>& to, const std::string& v, const std::string& unit,
+                 double size, const std::string& words) {
+  for (int n = 1; n <= 3; ++n) {
+    to.push_back({n == 1 ? v : v + "^" + std::to_string(n),
+                  n == 1 ? unit : unit + "^" + std::to_string(n), std::pow(size, n),
+                  PowerWords(words, n), v, TermPower{v, "", unit, static_cast<double>(n), size}});
+  }
+}
+// v, v^2, v^3 of a place or an angle.
+void AddPlain(std::vector<Factor>& to, const std::string& v, const std::string& unit, double size,
+              const std::string& words) {
+  for (int n = 1; n <= 3; ++n)
+    to.push_back({n == 1 ? v : v + "^" + std::to_string(n),
+                  unit == "1" ? unit
+                  : n == 1    ? unit
+                              : unit + "^" + std::to_string(n),
+                  std::pow(size, n),
+                  PowerWords(words, n),
+                  v,
+                  {}});
+}
+
+const Factor kOne{"1", "1", 1.0, "", "", {}};
+
+class Library {
+ public:
+  Library(const FitProblem& problem, const NaturalScales& scales)
+      : problem_(problem), s_(scales) {}
+
+  std::vector<Term> Build() {
+    BodyForces();
+    if (problem_.law == Law::kBall) {
+      Impacts();
+    } else {
+      ChordForces();
+      if (IsDriven()) HipTorques();
+      Landings();
+    }
+    Readings();
+    return std::move(terms_);
+  }
+
+ private:
+  bool IsDriven() const {
+    return std::any_of(problem_.trials.begin(), problem_.trials.end(), [](const TrialProblem& t) {
+      return t.parameters.kp > 0.0 || !t.inputs.empty();
+    });
+  }
+
+  struct Phase {
+    std::string text, words;
+  };
+
+  void Add(const std::string& place, double expected, const Factor& a, const Phase& phase = {},
+           const Factor& b = kOne) {
+    const double size = expected / (a.size * b.size);
+    const Unit unit =
+        *ParseUnit(FindPlace(place)->unit) / (*ParseUnit(a.unit) * *ParseUnit(b.unit));
+    std::string text = "c";
+    for (const std::string& factor : {a.text, b.text, phase.text})
+      if (!factor.empty() && factor != "1") text += " * " + factor;
+    if (!seen_.insert(place + text).second) return;
+    FormulaSource source;
+    source.name = "term_" + std::to_string(terms_.size() + 1);
+    source.acts_as = place;
+    source.formula = text;
+    source.parameters = {{"c", TextOf(unit) == "-" ? "1" : TextOf(unit), 0.0, std::nullopt,
+                          -kBound * size, kBound * size, size}};
+    Term term;
+    term.words = a.words.empty() && b.words.empty() ? "" : Words(a, b);
+    term.phase = phase.words;
+    for (const Factor* f : {&a, &b})
+      if (!f->variable.empty() && std::find(term.variables.begin(), term.variables.end(),
+                                            f->variable) == term.variables.end())
+        term.variables.push_back(f->variable);
+    source.sentence =
+        term.words.empty() ? "a term that is always there" : "a term with " + term.words;
+    if (a.power && b.text == "1") {
+      term.power = a.power;
+      if (!phase.text.empty())
+        term.power->rest += (term.power->rest.empty() ? "" : " * ") + phase.text;
+    }
+    term.effect = &FormulaEffect(source);
+    terms_.push_back(std::move(term));
+  }
+  static std::string Words(const Factor& a, const Factor& b) {
+    if (a.words.empty()) return b.words;
+    return b.words.empty() ? a.words : a.words + " times " + b.words;
+  }
+
+  // ---- places -------------------------------------------------------------------------------
+
+  std::vector<Phase> FlightAndStance() const {
+    if (problem_.law == Law::kBall) return {{}};
+    return {{}, {"(1 - in_stance)", "in flight"}, {"in_stance", "in stance"}};
+  }
+
+  void BodyForces() {
+    const double force = kExpected * s_.force;
+    const bool guide = std::any_of(problem_.trials.begin(), problem_.trials.end(),
+                                   [](const TrialProblem& t) { return t.parameters.on_guide; });
+    std::vector<Factor> vx, vy, speed, x, y, t;
+    AddSigned(vx, "vx", "m/s", s_.speed, "the speed forward");
+    AddSigned(vy, "vy", "m/s", s_.speed, "the speed upward");
+    AddPositive(speed, "speed", "m/s", s_.speed, "the speed");
+    AddPlain(x, "x", "m", s_.length, "the place");
+    AddPlain(y, "y", "m", s_.length, "the height");
+    AddPlain(t, "t", "s", s_.time, "time");
+    for (const Phase& phase : FlightAndStance()) {
+      for (const std::string place : {"body_force_x", "body_force_y"}) {
+        const bool forward = place == "body_force_x";
+        if (forward && guide) continue;
+        Add(place, force, kOne, phase);
+        for (const Factor& f : forward ? vx : vy) Add(place, force, f, phase);
+        for (const Factor& f : forward ? x : y) Add(place, force, f, phase);
+        Add(place, force, forward ? vy[1] : vx[1], phase);
+        Add(place, force, t[0], phase);
+        // Products of place and speed.
+        Add(place, force, forward ? x[0] : y[0], phase, forward ? vx[1] : vy[1]);
+      }
+      Add("body_force_along", force, kOne, phase);
+      for (const Factor& f : speed) Add("body_force_along", force, f, phase);
+      Add("body_force_along", force, speed[0], phase, y[0]);
+      for (const Factor& f : speed) Add("body_force_across", force, f, phase);
+    }
+  }
+
+  void ChordForces() {
+    const double force = kExpected * 2.0 * s_.force;
+    constexpr double kCompression = 0.1;
+    std::vector<Factor> s, rate, t;
+    AddPositive(s, "s", "1", kCompression, "the compression");
+    AddSigned(rate, "rate", "m/s", s_.speed, "the rate of the chord");
+    AddPlain(t, "t", "s", s_.time, "time");
+    const Factor elastic{"elastic", "N", 2.0 * s_.force, "the elastic force", "elastic", {}};
+    const std::vector<Phase> phases = {
+        {}, {"loading", "while the leg is loaded"}, {"(1 - loading)", "while the leg is unloaded"}};
+    for (const Phase& phase : phases) {
+      Add("chord_force", force, kOne, phase);
+      for (const Factor& f : s) Add("chord_force", force, f, phase);
+      Add("chord_force", force, elastic, phase);
+      Add("chord_force", force, elastic, phase, s[0]);
+    }
+    for (const Factor& f : rate) {
+      Add("chord_force", force, f);
+      Add("chord_force", force, f, {}, s[0]);
+    }
+    Add("chord_force", force, rate[0], {}, elastic);
+    Add("chord_force", force, rate[1], {}, elastic);
+    Add("chord_force", force, rate[1], {}, s[1]);
+    Add("chord_force", force, elastic, {}, t[0]);
+    Add("chord_force", force, s[0], {}, t[0]);
+  }
+
+  void HipTorques() {
+    const double torque = kExpected * s_.force * s_.length;
+    std::vector<Factor> rate, vx, t, angle;
+    const double turn = s_.speed / s_.length;
+    AddSigned(rate, "rate", "1/s", turn, "the rate of the leg's angle");
+    AddSigned(vx, "vx", "m/s", s_.speed, "the speed forward");
+    AddPlain(t, "t", "s", s_.time, "time");
+    AddPlain(angle, "angle", "1", 1.0, "the leg's angle");
+    const Factor motor{"motor", "N m", s_.force * s_.length, "the motor's torque", "motor", {}};
+    const Factor sign{"sign(motor)", "1", 1.0, "the direction of the motor's torque", "motor", {}};
+    Add("hip_torque", torque, kOne);
+    for (const Factor& f : rate) Add("hip_torque", torque, f);
+    for (const Factor& f : vx) Add("hip_torque", torque, f);
+    for (const Factor& f : angle) Add("hip_torque", torque, f);
+    Add("hip_torque", torque, motor);
+    Add("hip_torque", torque, sign);
+    Add("hip_torque", torque, motor, {}, t[0]);
+    Add("hip_torque", torque, t[0]);
+  }
+
+  void Landings() {
+    const double speed = 0.4 * kExpected * s_.speed;
+    std::vector<Factor> along, across, vx, hop;
+    AddSigned(along, "along", "m/s", s_.speed, "the speed along the chord");
+    AddSigned(across, "across", "m/s", s_.speed, "the speed across the chord");
+    AddSigned(vx, "vx", "m/s", s_.speed, "the speed forward");
+    AddPlain(hop, "hop", "1", 3.0, "the number of the hop");
+    for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
+      Add("landing_velocity_along", speed, along[i]);
+      Add("landing_velocity_across", speed, across[i]);
+    }
+    Add("landing_velocity_along", speed, across[1]);
+    Add("landing_velocity_across", speed, along[1]);
+    constexpr double kAngle = 0.02;
+    Add("touchdown_angle", kAngle, kOne);
+    Add("touchdown_angle", kAngle, vx[1]);
+    Add("touchdown_angle", kAngle, vx[3]);
+    Add("touchdown_angle", kAngle, hop[0]);
+  }
+
+  void Impacts() {
+    std::vector<Factor> speed;
+    AddPositive(speed, "speed", "m/s", s_.speed, "the speed of the impact");
+    for (const Factor& f : speed) Add("restitution", 0.4 * kExpected, f);
+  }
+
+  void Readings() {
+    const double length = kExpected * s_.length;
+    std::vector<Factor> x, y, vx, vy, t;
+    AddPlain(x, "x", "m", s_.length, "the place");
+    AddPlain(y, "y", "m", s_.length, "the height");
+    AddSigned(vx, "vx", "m/s", s_.speed, "the speed forward");
+    AddSigned(vy, "vy", "m/s", s_.speed, "the speed upward");
+    AddPlain(t, "t", "s", s_.time, "time");
+    for (const std::string place : {"reading_x", "reading_y"}) {
+      const bool forward = place == "reading_x";
+      if (!Measures(forward ? Channel::kBodyX : Channel::kBodyY)) continue;
+      const std::vector<Factor>&own = forward ? x : y, &other = forward ? y : x;
+      Add(place, length, kOne);
+      Add(place, length, own[0]);
+      Add(place, length, own[1]);
+      Add(place, length, other[0]);
+      Add(place, length, forward ? vx[1] : vy[1]);
+      Add(place, length, t[0]);
+      Add(place, length, t[1]);
+    }
+  }
+  bool Measures(Channel channel) const {
+    return std::any_of(problem_.channels.begin(), problem_.channels.end(),
+                       [&](const ChannelProblem& c) { return c.channel == channel; });
+  }
+
+  const FitProblem& problem_;
+  const NaturalScales& s_;
+  std::set<std::string> seen_;
+  std::vector<Term> terms_;
+};
+
+// One significant digit, so that a formula is readable.
+double Rounded(double value) {
+  const double digit = std::pow(10.0, std::floor(std::log10(value)));
+  return std::max(1.0, std::round(value / digit)) * digit;
+}
+
+}  // namespace
+
+NaturalScales ScalesOf(const FitProblem& problem) {
+  NaturalScales s;
+  const auto height =
+      std::find_if(problem.channels.begin(), problem.channels.end(),
+                   [](const ChannelProblem& c) { return c.channel == Channel::kBodyY; });
+  double least = 1e300, most = -1e300, longest = 0.0;
+  for (const TrialProblem& t : problem.trials) {
+    if (!t.row_times.empty()) longest = std::max(longest, t.row_times.back());
+    if (height == problem.channels.end()) continue;
+    const auto column = static_cast<std::size_t>(height - problem.channels.begin());
+    for (std::size_t i = column; i < t.data.size(); i += problem.channels.size()) {
+      if (std::isnan(t.data[i])) continue;
+      least = std::min(least, t.data[i]);
+      most = std::max(most, t.data[i]);
+    }
+  }
+  const Parameters<double>& p = problem.trials.front().parameters;
+  if (most > least) s.length = Rounded(most - least);
+  s.speed = Rounded(std::sqrt(2.0 * p.g * s.length));
+  if (longest > 0.0) s.time = Rounded(longest);
+  s.force = p.m * p.g;
+  return s;
+}
+
+std::vector<Term> TermLibrary(const FitProblem& problem, const NaturalScales& scales) {
+  return Library(problem, scales).Build();
+}
+
+FormulaSource WithFreeExponent(const Term& term) {
+  HOPLAB_CHECK(term.power.has_value());
+  const TermPower& power = *term.power;
+  FormulaSource source = *SourceOf(*term.effect);
+  const FormulaParameter c = source.parameters.front();
+  const std::string unit(FindPlace(source.acts_as)->unit);
+  const double size = *c.typical * std::pow(power.scale, power.exponent);
+  source.name += "_power";
+  source.formula =
+      "c * " + (power.rest.empty() ? "" : power.rest + " * ") + "(" + power.base + "/u)^p";
+  source.parameters = {
+      {"c", unit == "-" ? "1" : unit, 0.0, std::nullopt, -kBound * size, kBound * size, size},
+      {"p", "1", power.exponent, std::nullopt, 0.3, 4.0, 0.5},
+      {"u", power.unit, std::nullopt, power.scale, 0.5 * power.scale, 2.0 * power.scale,
+       std::nullopt}};
+  return source;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "base/random.h"
+#include "datasets/read_scenario.h"
+#include "fitting/discovery/discover.h"
+#include "fitting/discovery/stability.h"
+#include "fitting/generate.h"
+#include "tests/support/hop_scenarios.h"
+
+namespace hoplab {
+namespace {
+
+using namespace testing;
+
+// ---- the linear model behind it -----------------------------------------------------------------
+
+// Trials of noise with columns of their own: `planted` of them times `size` in the residuals.
+Linearisation Synthetic(int trials, int rows, int columns, int planted, double size) {
+  Linearisation at;
+  const int all = trials * rows;
+  RandomStream random(3, 1);
+  at.columns.resize(all, columns);
+  for (Eigen::Index i = 0; i < at.columns.size(); ++i) at.columns.data()[i] = random.Normal();
+  at.columns.col(columns - 1) = -2.0 * at.columns.col(0);  // the first again
+  at.r.resize(all);
+  for (Eigen::Index i = 0; i < all; ++i) at.r[i] = random.Normal();
+  at.r -= size * at.columns.col(planted);
+  at.fitted_basis.resize(all, 0);
+  at.along_fitted.resize(0, columns);
+  at.length = at.columns.colwise().norm();
+  for (int t = 0; t < trials; ++t)
+    for (int i = 0; i < rows; ++i) {
+      RowLabel label;
+      label.trial = t;
+      at.labels.push_back(label);
+    }
+  return at;
+}
+
+TEST(Stability, EqualColumnsAreOneGroup) {
+  const auto groups = EqualColumns(Synthetic(4, 30, 6, 2, 0.0));
+  ASSERT_EQ(groups.size(), 5u);
+  EXPECT_EQ(groups[0], (std::vector<int>{0, 5}));
+}
+
+TEST(Stability, AStrongTermIsPickedFirstAndInEveryResample) {
+  const Linearisation at = Synthetic(6, 40, 6, 2, 0.5);
+  const std::vector<int> columns = {0, 1, 2, 3, 4};
+  const auto picks = PickForward(at, columns, 3, 5.0);
+  ASSERT_EQ(picks.size(), 1u);
+  EXPECT_EQ(picks[0].column, 2);
+  // Half of the square of what lies along it.
+  const double along = at.columns.col(2).dot(at.r);
+  EXPECT_NEAR(picks[0].gain, 0.5 * along * along / at.columns.col(2).squaredNorm(), 1e-9);
+  EXPECT_NEAR(ShareOfResamples(at, columns, {{2}, {3}}, 1, 5.0, 1)[0], 1.0, 1e-9);
+  EXPECT_EQ(ShareOfResamples(at, columns, {{2}, {3}}, 1, 5.0, 1)[1], 0.0);
+}
+
+TEST(Stability, NoiseAloneIsSeldomPicked) {
+  const Linearisation at = Synthetic(6, 40, 6, 2, 0.0);
+  EXPECT_TRUE(PickForward(at, {0, 1, 2, 3, 4}, 3, 6.0).empty());
+  EXPECT_TRUE(ShareOfResamples(Synthetic(1, 40, 6, 2, 0.5), {0, 1, 2}, {{2}}, 1, 5.0, 1).empty())
+      << "one trial cannot be drawn anew";
+}
+
+// What the fitted values explain counts for no term.
+TEST(Stability, TheFittedPartIsTakenOutOfEachResample) {
+  Linearisation at = Synthetic(6, 40, 6, 2, 0.5);
+  const Eigen::VectorXd fitted = at.columns.col(2).normalized();
+  at.along_fitted = fitted.transpose() * at.columns;
+  at.columns -= fitted * at.along_fitted;
+  at.r -= fitted * fitted.dot(at.r);
+  at.fitted_basis = fitted;
+  for (const double share : ShareOfResamples(at, {0, 1, 2, 3, 4}, {{2}}, 1, 3.0, 1))
+    EXPECT_LT(share, 0.05);
+}
+
+// ---- the library
+// ---------------------------------------------------------------------------------
+
+Dataset HopDataset() { return GenerateDataset(HopScenario(2), {.seed = 2}).dataset; }
+
+TEST(TermLibrary, HasEachFormulaOnceAndItsCoefficientInFront) {
+  const FitProblem problem = MakeProblem(HopDataset(), {});
+  const std::vector<Term> terms = TermLibrary(problem, ScalesOf(problem));
+  EXPECT_GT(terms.size(), 80u);
+  EXPECT_LT(terms.size(), 400u);
+  std::set<std::string> seen;
+  std::set<std::string> places;
+  for (const Term& t : terms) {
+    const FormulaSource& source = *SourceOf(*t.effect);
+    EXPECT_TRUE(seen.insert(source.acts_as + source.formula).second) << source.formula;
+    EXPECT_EQ(source.formula.substr(0, 1), "c");
+    EXPECT_EQ(source.parameters.size(), 1u);
+    places.insert(source.acts_as);
+    if (t.power) {
+      EXPECT_NO_THROW(FormulaEffect(WithFreeExponent(t))) << source.formula;
+    }
+  }
+  EXPECT_TRUE(places.contains("chord_force") && places.contains("body_force_along") &&
+              places.contains("reading_y") && places.contains("touchdown_angle"));
+  EXPECT_FALSE(places.contains("restitution")) << "that is of a ball";
+}
+
+// With its exponent where it was, a term with a free one is the same term.
+TEST(TermLibrary, AFreeExponentBeginsAtTheTerm) {
+  const FitProblem problem = MakeProblem(HopDataset(), {});
+  for (const Term& t : TermLibrary(problem, ScalesOf(problem))) {
+    if (!t.power) continue;
+    const FormulaSource freed = WithFreeExponent(t);
+    const Formula whole(*SourceOf(*t.effect)), broken(freed);
+    std::array<double, kFormulaVariables> values;
+    values.fill(0.8);
+    values[static_cast<std::size_t>(FormulaVariable::kVy)] = -0.6;
+    values[static_cast<std::size_t>(FormulaVariable::kChordRate)] = -0.3;
+    FormulaView<double> view{};
+    for (std::size_t i = 0; i < values.size(); ++i) view[i] = &values[i];
+    CornerSides sides;
+    sides.fill(kFreeSide);
+    const std::array<double, kMaxEffectParameters> one = {1.0};
+    const std::array<double, kMaxEffectParameters> three = {
+        std::pow(t.power->scale, t.power->exponent), t.power->exponent, t.power->scale};
+    EXPECT_NEAR(whole.Evaluate(one.data(), view, sides), broken.Evaluate(three.data(), view, sides),
+                1e-12)
+        << freed.formula;
+  }
+}
+
+// ---- the whole way
+// ---------------------------------------------------------------------------------
+
+// Balls thrown up from 2 m and falling 25 m, with this drag.
+Dataset Balls(double quadratic, std::uint64_t seed) {
+  std::string yaml =
+      "format: hoplab-scenario/1\nname: balls\n"
+      "mechanism:\n  type: ball\n  body_mass_kg: 0.05\n  gravity_m_per_s2: 9.81\n"
+      "  ball: {radius_m: 0.03, restitution: 0.7, tangential_loss: 0}\n"
+      "initial: {x_m: 0, y_m: 26, vx_m_per_s: 0, vy_m_per_s: 0}\n"
+      "stop: {time_s: 2.1}\n"
+      "effects: {air_drag: {c_drag: " +
+      std::to_string(quadratic) +
+      "}}\n"
+      "dataset:\n  sample_rate_hz: 50\n  channels: {body_y_m: {sigma: 0.01}}\n"
+      "  initial_sigma: {x_m: 1.0e-9, y_m: 0.05, vx_m_per_s: 1.0e-9, vy_m_per_s: 0.1}\n  trials:\n";
+  for (const char* start : {"25", "26", "27", "28"})
+    yaml += std::string("    - {role: train, initial: {y_m: ") + start + "}}\n";
+  yaml += "    - {role: test, initial: {y_m: 26.5}}\n";
+  return GenerateDataset(ScenarioDocument::FromText(yaml, "balls.yaml").Read(), {.seed = seed})
+      .dataset;
+}
+
+TEST(Discover, DragOfABallWithItsExponent) {
+  const double c = 0.0005;
+  const Discovery d = Discover(Balls(c, 1), {});
+  ASSERT_EQ(d.verdict, DiscoveryVerdict::kFound) << d.reason;
+  ASSERT_EQ(d.found.size(), 1u);
+  const FoundTerm& found = d.found.front();
+  ASSERT_TRUE(found.exponent);
+  EXPECT_NEAR(found.exponent->value.value, 2.0, 0.2);
+  ASSERT_TRUE(found.exponent->value.ci95);
+  EXPECT_LT(found.exponent->value.ci95->first, 2.0);
+  EXPECT_GT(found.exponent->value.ci95->second, 2.0);
+  EXPECT_NEAR(std::abs(found.values.front().value), c, 0.1 * c);
+  EXPECT_GT(*found.selected_in, kStable);
+  EXPECT_TRUE(d.gain.IsClaim());
+  // A ball that falls straight down cannot tell along its way from down.
+  EXPECT_FALSE(found.equal.empty());
+  // What is written is an effect again, at the size found.
+  const Effect& again = FormulaEffect(found.source);
+  EXPECT_EQ(again.info.parameters[0].typical, found.values.front().value);
+}
+
+TEST(Discover, NothingWhereNothingIsMissing) {
+  int needed = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    needed += Discover(Balls(0.0, seed), {}).verdict != DiscoveryVerdict::kNotNeeded;
+  EXPECT_EQ(needed, 0);
+}
+
+}  // namespace
+}  // namespace hoplab
