@@ -20,6 +20,15 @@ std::vector<Channel> AllChannels(int robot_legs) {
   return channels;
 }
 
+// Where the leg stands; of a robot, each of its legs.
+std::vector<Channel> StandingChannels(int robot_legs) {
+  std::vector<Channel> channels(kLegChannels.begin(), kLegChannels.end());
+  for (const Channel first : {Channel::kLegContactX1, Channel::kLegContactY1, Channel::kLegArc1,
+                              Channel::kLegForceX1, Channel::kLegForceY1})
+    for (int leg = 0; leg < robot_legs; ++leg) channels.push_back(OfLeg(first, leg));
+  return channels;
+}
+
 double GroundSlope(const SimulationRequest& request) {
   double slope = request.parameters.slope;
   for (const EffectSetting& setting : request.effects) {
@@ -52,7 +61,7 @@ std::vector<std::string> TrajectoryHeader(const RunLabels& names, int robot_legs
   std::vector<std::string> header = names;
   header.emplace_back("time_s");
   for (const Channel channel : AllChannels(robot_legs)) header.emplace_back(NameOf(channel));
-  for (const Channel channel : kLegChannels) header.emplace_back(NameOf(channel));
+  for (const Channel channel : StandingChannels(robot_legs)) header.emplace_back(NameOf(channel));
   header.emplace_back("mode");
   return header;
 }
@@ -72,7 +81,8 @@ void AddTrajectoryRows(SimulationRequest request, double rate_hz, const RunLabel
   std::erase_if(physical,
                 [](const auto& e) { return e.effect->info.kind == EffectKind::kObservation; });
   request.effects = physical;
-  request.channels = kLegChannels;
+  const std::vector<Channel> standing = StandingChannels(RobotLegsOf(request.parameters));
+  request.channels = standing;
   const Trajectory truth = Simulate(request);
   for (std::size_t row = 0; row < times.size(); ++row) {
     for (const std::string& label : labels) csv.Cell(label);
@@ -81,9 +91,9 @@ void AddTrajectoryRows(SimulationRequest request, double rate_hz, const RunLabel
       csv.Cell(seen.samples[row * channels.size() + c]);
     const Mode mode = ModeAt(truth, times[row]);
     // In flight it stands nowhere, though a trace may tell where it would.
-    for (std::size_t c = 0; c < kLegChannels.size(); ++c)
+    for (std::size_t c = 0; c < standing.size(); ++c)
       csv.Cell(mode == Mode::kFlight ? std::numeric_limits<double>::quiet_NaN()
-                                     : truth.samples[row * kLegChannels.size() + c]);
+                                     : truth.samples[row * standing.size() + c]);
     csv.Cell(NameOf(mode)).EndRow();
   }
 }
@@ -134,16 +144,24 @@ Json MechanismRecord(const SimulationRequest& request) {
   }
   for (const DrivenInput& input : request.inputs) driven_by.push_back(NameOf(input.kind));
   const bool at_force = request.liftoff == LiftoffRule::kZeroForce;
-  return {{"type", NameOf(mechanism)},
-          {"ground_slope_rad", NumberOrNull(GroundSlope(request))},
-          {"parameters", parameters},
-          {"law", NameOf(request.law)},
-          {"variant", VariantRecord(request.parameters.variant)},
-          {"liftoff", at_force ? "zero_force" : "rest_length"},
-          {"torque_limit_N_m", NumberOrNull(request.parameters.torque_limit)},
-          {"on_guide", request.parameters.on_guide},
-          {"effects", effects},
-          {"driven_by", driven_by}};
+  Json record = {{"type", NameOf(mechanism)},
+                 {"ground_slope_rad", NumberOrNull(GroundSlope(request))},
+                 {"parameters", parameters},
+                 {"law", NameOf(request.law)},
+                 {"variant", VariantRecord(request.parameters.variant)},
+                 {"liftoff", at_force ? "zero_force" : "rest_length"},
+                 {"torque_limit_N_m", NumberOrNull(request.parameters.torque_limit)},
+                 {"on_guide", request.parameters.on_guide},
+                 {"effects", effects},
+                 {"driven_by", driven_by}};
+  if (request.parameters.robot) {
+    const RobotParameters<double>& robot = *request.parameters.robot;
+    Json hips = Json::array();
+    for (int leg = 0; leg < robot.legs; ++leg)
+      hips.push_back({NumberOrNull(robot.hip_x[leg]), NumberOrNull(robot.hip_y[leg])});
+    record["hips_m"] = hips;
+  }
+  return record;
 }
 
 }  // namespace hoplab

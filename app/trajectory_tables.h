@@ -15,7 +15,7 @@ using RunLabels = std::vector<std::string>;
 
 /// Columns of a simulated run: labels, time_s, every channel, then how the leg stands: contact_x_m,
 /// contact_y_m, contact_arc_rad, mode. A robot with that many legs has pitch, motor angles, torques
-/// and contacts before these.
+/// and contacts before these, and of each leg contact point, arc and force after them.
 std::vector<std::string> TrajectoryHeader(const RunLabels& names, int robot_legs = 0);
 /// Legs of a robot; 0 of any other mechanism.
 int RobotLegsOf(const Parameters<double>& parameters);

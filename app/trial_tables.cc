@@ -41,8 +41,7 @@ void AddTrialTrajectories(const AssessedModel& model, CsvText& csv) {
   for (std::size_t i = 0; i < model.trials->size(); ++i) {
     WithRequest(model, i, [&](const SimulationRequest& request) {
       AddTrajectoryRows(request, kTrajectoryRate, LabelsOf(model, i),
-                        model.problem->trials[i].begin_s, csv,
-                        RobotLegsOf(model.problem->trials[i].parameters));
+                        model.problem->trials[i].begin_s, csv);
     });
   }
 }

@@ -169,8 +169,9 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
       trials.begin(), trials.end(),
       [](const GenerateTrial& trial) { return LegMassOfSpec(trial.mechanism) == LegMass::kAtToe; });
   const std::vector<DrivenInput> inputs = DrivenInputsOf(scenario);
-  const std::vector<EffectSetting> effects = ResolveEffects(
-      scenario.effects, law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone, KindsOf(inputs));
+  const std::vector<EffectSetting> effects =
+      ResolveEffects(scenario.effects, law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone,
+                     KindsOf(inputs), RobotLegsOfSpec(scenario.mechanism));
   const std::vector<ChannelSpec> channels = ChannelsOf(scenario, options);
   const double horizon = HorizonOf(scenario);
   const double rate =

@@ -238,9 +238,18 @@ const Effect& EffectOfFile(const EffectFile& file) {
   }
 }
 
+int RobotLegsOfSpec(const MechanismSpec& mechanism) {
+  return static_cast<int>(mechanism.robot.legs.size());
+}
+
 void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place,
-                  InputSet inputs) {
-  if (AppliesTo(effect, law, mass, inputs)) return;
+                  InputSet inputs, int robot_legs) {
+  if (AppliesTo(effect, law, mass, inputs, robot_legs)) return;
+  if (law == Law::kRobot && effect.info.robot_leg > robot_legs) {
+    throw InputError({place, "effect " + std::string(effect.info.name),
+                      "is of a leg this robot does not have",
+                      "Legs are counted from the hindmost, 1."});
+  }
   if (AppliesTo(effect, law, mass, kEveryInput)) {
     throw InputError({place, "effect " + std::string(effect.info.name),
                       "changes a logged input, and nothing of the kind drives these runs",
@@ -275,12 +284,12 @@ EffectSetting AtTypical(const Effect& effect) {
 }  // namespace
 
 std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,
-                                          LegMass mass, InputSet inputs) {
+                                          LegMass mass, InputSet inputs, int robot_legs) {
   std::vector<EffectSetting> settings;
   for (const EffectSpec& spec : specs) {
     const Effect& effect =
         spec.formula ? EffectOfFile(*spec.formula) : ResolveEffect(spec.name, spec.origin.place);
-    CheckApplies(effect, law, mass, spec.origin.place, inputs);
+    CheckApplies(effect, law, mass, spec.origin.place, inputs, robot_legs);
     EffectSetting setting = EffectSetting::Null(effect);
     if (spec.at_typical) setting = AtTypical(effect);
     for (const NamedNumber& given : spec.parameters) {

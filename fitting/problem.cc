@@ -354,7 +354,8 @@ class Builder {
   }
 
   int EffectIndex(const Effect& effect, const std::string& place) {
-    CheckApplies(effect, problem_.law, problem_.leg_mass(), place, problem_.inputs());
+    CheckApplies(effect, problem_.law, problem_.leg_mass(), place, problem_.inputs(),
+                 problem_.robot_legs());
     for (std::size_t i = 0; i < problem_.effects.size(); ++i) {
       if (problem_.effects[i].effect == &effect) return static_cast<int>(i);
     }
@@ -449,6 +450,16 @@ LegMass FitProblem::leg_mass() const {
   const bool any = std::any_of(trials.begin(), trials.end(),
                                [](const TrialProblem& t) { return t.parameters.m_toe > 0.0; });
   return any ? LegMass::kAtToe : LegMass::kNone;
+}
+
+ProblemOptions WithLegsAlike(ProblemOptions options) {
+  options.legs_alike = true;
+  return options;
+}
+
+int FitProblem::robot_legs() const {
+  return trials.empty() || !trials.front().parameters.robot ? 0
+                                                            : trials.front().parameters.robot->legs;
 }
 
 InputSet FitProblem::inputs() const {

@@ -32,7 +32,12 @@ void AddStart(const char* name, int place, double scale, double value,
 void ChooseModuli(const ProblemOptions& options, FitProblem& problem) {
   if (problem.law != Law::kRobot) return;
   const auto is_own = [](const std::string& name) { return name.starts_with("E_"); };
-  bool own = std::any_of(options.free.begin(), options.free.end(), is_own);
+  const bool shared =
+      options.legs_alike || RobotOf(problem).legs == 1 ||
+      std::find(options.free.begin(), options.free.end(), "E") != options.free.end() ||
+      options.fix.count("E") != 0;
+  bool own = options.free.empty() && !shared;
+  own = own || std::any_of(options.free.begin(), options.free.end(), is_own);
   for (const auto& [name, value] : options.fix) own = own || is_own(name);
   for (const TrialProblem& t : problem.trials) own = own || t.parameters.robot->own_moduli;
   for (TrialProblem& t : problem.trials) t.parameters.robot->own_moduli = own;

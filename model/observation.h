@@ -41,14 +41,37 @@ enum class Channel {
   kContact1,  // whether the ground carries the leg
   kContact2,
   kContact3,
-  kContact4
+  kContact4,
+  // What only a simulation knows of a robot's leg that stands: where the ground carries it [m], the
+  // arc between clamp and contact [rad], the ground's force on it [N].
+  kLegContactX1,
+  kLegContactX2,
+  kLegContactX3,
+  kLegContactX4,
+  kLegContactY1,
+  kLegContactY2,
+  kLegContactY3,
+  kLegContactY4,
+  kLegArc1,
+  kLegArc2,
+  kLegArc3,
+  kLegArc4,
+  kLegForceX1,
+  kLegForceX2,
+  kLegForceX3,
+  kLegForceX4,
+  kLegForceY1,
+  kLegForceY2,
+  kLegForceY3,
+  kLegForceY4
 };
 /// Those of the data format that every mechanism may have come first.
 inline constexpr int kChannelCount = 15;
 inline constexpr int kSeenCount = 17;
-/// What a robot has beside them follows.
+/// What a robot has beside them follows, those of the data format first.
 inline constexpr int kRobotChannelCount = 13;
-inline constexpr int kAllChannelCount = kSeenCount + kRobotChannelCount;
+inline constexpr int kRobotSeenCount = kRobotChannelCount + 20;
+inline constexpr int kAllChannelCount = kSeenCount + kRobotSeenCount;
 /// The channel of a leg from that of leg 1.
 constexpr Channel OfLeg(Channel first, int leg) {
   return static_cast<Channel>(static_cast<int>(first) + leg);
@@ -68,7 +91,7 @@ std::optional<Channel> FindChannel(std::string_view name);
 template <class T>
 struct Observation {
   std::array<T, kSeenCount> channel;
-  std::optional<std::array<T, kRobotChannelCount>> robot = std::nullopt;  // where there is one
+  std::optional<std::array<T, kRobotSeenCount>> robot = std::nullopt;  // where there is one
 
   T& operator[](Channel c) {
     return IsRobotChannel(c) ? (*robot)[static_cast<std::size_t>(c) - kSeenCount]

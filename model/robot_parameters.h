@@ -34,6 +34,10 @@ struct RobotParameters {
   std::array<T, kMaxLegs> hip_x{T(0.0), T(0.0), T(0.0), T(0.0)};  // in the body frame [m]
   std::array<T, kMaxLegs> hip_y{T(0.0), T(0.0), T(0.0), T(0.0)};
   std::array<T, kMaxLegs> angle{T(0.0), T(0.0), T(0.0), T(0.0)};  // held or locked at [rad]
+  // What sets one leg or motor apart from the others; effects alone change these.
+  std::array<T, kMaxLegs> E_scale{T(1.0), T(1.0), T(1.0), T(1.0)};        // [-]
+  std::array<T, kMaxLegs> extra_damping{T(0.0), T(0.0), T(0.0), T(0.0)};  // beside damping [s]
+  std::array<T, kMaxLegs> gain_of{T(1.0), T(1.0), T(1.0), T(1.0)};        // beside motor_gain [-]
   // Clock (M76).
   T period{1.0};                                                  // [s]
   T duty{0.5};                                                    // [-]
@@ -49,11 +53,12 @@ struct RobotParameters {
   /// Every differentiable number, in one order: for converting.
   template <class Self, class Do>
   static void Each(Self& p, const Do& act) {
-    for (auto* v :
-         {&p.pitch_inertia, &p.com_x, &p.com_y, &p.rotor_inertia, &p.motor_kp, &p.motor_kd,
-          &p.motor_gain, &p.friction, &p.clamp, &p.damping, &p.period, &p.duty, &p.sweep, &p.offset})
+    for (auto* v : {&p.pitch_inertia, &p.com_x, &p.com_y, &p.rotor_inertia, &p.motor_kp,
+                    &p.motor_kd, &p.motor_gain, &p.friction, &p.clamp, &p.damping, &p.period,
+                    &p.duty, &p.sweep, &p.offset})
       act(*v);
-    for (auto* list : {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.phase})
+    for (auto* list :
+         {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.E_scale, &p.extra_damping, &p.gain_of, &p.phase})
       for (auto& v : *list) act(v);
   }
 };
@@ -62,7 +67,7 @@ struct RobotParameters {
 template <class To, class From>
 RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   RobotParameters<To> to;
-  std::array<double, 14 + 5 * kMaxLegs> values{};
+  std::array<double, 14 + 8 * kMaxLegs> values{};
   std::size_t n = 0;
   RobotParameters<From>::Each(from, [&](const From& v) { values[n++] = Value(v); });
   n = 0;

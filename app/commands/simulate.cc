@@ -107,7 +107,8 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
   const std::vector<DrivenInput> inputs = DrivenInputsOf(scenario);
   const std::vector<EffectSetting> effects =
-      ResolveEffects(scenario.effects, law, LegMassOfSpec(scenario.mechanism), KindsOf(inputs));
+      ResolveEffects(scenario.effects, law, LegMassOfSpec(scenario.mechanism), KindsOf(inputs),
+                     RobotLegsOfSpec(scenario.mechanism));
   SimulationRequest request = RequestOfScenario(scenario, effects, inputs);
   request.integrator = IntegratorOptionsOf(settings.solver);
   std::vector<SensitivityDirection> directions;

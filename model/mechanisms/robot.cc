@@ -24,8 +24,11 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
       p_.fall_height == p_.fall_height ? p_.fall_height : robot_detail::kLowestHip * Value(p_.r);
   for (int i = 0; i < legs_; ++i) {
     const T& E = robot_.own_moduli ? robot_.E[i] : p_.E;
-    leg_[i].arc = ClampedArc<T>(p_.r, E * p_.I, robot_.damping, robot_.friction, robot_.clamp);
+    leg_[i].arc =
+        ClampedArc<T>(p_.r, robot_.E_scale[i] * E * p_.I, robot_.damping + robot_.extra_damping[i],
+                      robot_.friction, robot_.clamp);
     leg_[i].clock = MotorClock<T>(robot_, i, p_.time_origin);
+    gain_[i] = robot_.motor_gain * robot_.gain_of[i];
   }
   ListGuards(Mode::kFlight);
 }
@@ -119,8 +122,7 @@ void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
       moment += (hip.x - com.x) * fy - (hip.y - com.y) * fx + on_hip;
     }
     dz[Angle(i)] = locked ? T(0.0) : z[Rate(i)];
-    dz[Rate(i)] =
-        locked ? T(0.0) : T((robot_.motor_gain * Torque(i, t, z) + on_hip) / robot_.rotor_inertia);
+    dz[Rate(i)] = locked ? T(0.0) : T((gain_[i] * Torque(i, t, z) + on_hip) / robot_.rotor_inertia);
     dz[Contact(i)] = T(0.0);
   }
   if (has_body_force_) {
@@ -173,8 +175,10 @@ Mode Robot<T>::Begin(Mode, T* z) {
     leg.piece = leg.clock.PieceAt(0.0);
   }
   FindLimits(0.0, z);
-  ListGuards(Mode::kFlight);
-  return Mode::kFlight;
+  for (int i = 0; i < legs_; ++i) BeginOnFoot(i, z);
+  const Mode mode = ModeNow();
+  ListGuards(mode);
+  return mode;
 }
 
 template <class T>
@@ -269,9 +273,19 @@ Observation<T> Robot<T>::Observe(Mode mode, const T& t, const T* z) const {
     seen[OfLeg(Channel::kHipTorque1, i)] = Torque(i, t, z);
     seen[OfLeg(Channel::kContact1, i)] = T(down ? 1.0 : 0.0);
     if (!down) continue;
-    const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, HipOf(frame, i, z), z));
-    force_x += load.fx + load.damped_x;
-    force_y += load.fy + load.damped_y;
+    const Hip hip = HipOf(frame, i, z);
+    const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z));
+    const T fx = load.fx + load.damped_x, fy = load.fy + load.damped_y;
+    force_x += fx;
+    force_y += fy;
+    // X0 is where the arc would begin to be laid down (M67); the contact lies its length on.
+    T foot = z[kX] + ClampOf(hip).x + load.lead;
+    if (leg.stance == Stance::kRolling) foot += p_.r * load.arc;
+    seen[OfLeg(Channel::kLegContactX1, i)] = foot;
+    seen[OfLeg(Channel::kLegContactY1, i)] = T(0.0);
+    seen[OfLeg(Channel::kLegArc1, i)] = load.arc;
+    seen[OfLeg(Channel::kLegForceX1, i)] = fx;
+    seen[OfLeg(Channel::kLegForceY1, i)] = fy;
   }
   seen[Channel::kGroundForceX] = force_x;
   seen[Channel::kGroundForceY] = force_y;

@@ -86,6 +86,7 @@ class Robot final : public HybridSystem<T> {
   void ListGuards(Mode mode);
   Mode ModeNow() const;
   std::optional<Outcome> Land(int leg, T* z);
+  void BeginOnFoot(int leg, T* z);
   void LiftOff(int leg, T* z);
 
   Parameters<T> p_;
@@ -96,6 +97,7 @@ class Robot final : public HybridSystem<T> {
   bool has_body_force_;
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;
+  std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]
   std::array<GuardRef, kMaxGuards> guards_;
   int guard_count_ = 0;
 };

@@ -15,6 +15,8 @@ namespace robot_detail {
 inline constexpr double kPi = std::numbers::pi;
 // A leg that has rolled up to this arc has fallen [rad].
 inline constexpr double kLeastArc = 0.2;
+// A leg that begins deeper below the ground than this cannot stand on it [rest radii].
+inline constexpr double kDeepest = 0.4;
 // Lowest hip, in rest radii, where nothing else is said.
 inline constexpr double kLowestHip = 0.3;
 }  // namespace robot_detail
@@ -170,6 +172,27 @@ std::optional<Outcome> Robot<T>::Land(int i, T* z) {
   leg.slides = leg.arc.SlidesAtLanding(tip, base, vx, vy);
   if (leg.slides == 0.0 && !leg.arc.PressesAtLanding(tip, base, vx, vy)) return Outcome::kNoSupport;
   return std::nullopt;
+}
+
+// A leg that reaches below the ground where the run begins stands on it: as if it had landed
+// straight above and been pressed down (M78). One that cannot stand so is left in the ground.
+template <class T>
+void Robot<T>::BeginOnFoot(int i, T* z) {
+  Leg& leg = leg_[i];
+  const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), i, z);
+  const double depth = Value(Reach(hip.angle)) - Value(z[kY] + hip.y);
+  const double r = Value(p_.r);
+  if (!(depth > kAtZero * r) || depth > robot_detail::kDeepest * r) return;
+  Land(i, z);
+  leg.slides = 0.0;
+  const double mu = Value(robot_.friction);
+  ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
+  if (!(std::abs(Value(load.fx)) <= mu * Value(load.fy))) {
+    leg.slides = Value(load.fx) > 0.0 ? -1.0 : 1.0;
+    leg.arc.Restart();
+    load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
+  }
+  if (!(Value(load.fy) > 0.0)) LiftOff(i, z);
 }
 
 template <class T>

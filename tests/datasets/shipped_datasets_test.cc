@@ -49,7 +49,7 @@ TEST_P(ShippedDataset, HasItsTruthBesideIt) {
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedDataset,
                          ::testing::Values("rig-drops", "rig-drops-undamped", "rig-controlled",
-                                           "robot-drops"),
+                                           "robot-drops", "robot-pronk", "robot-walk"),
                          [](const auto& name) {
                            std::string word = name.param;
                            std::replace(word.begin(), word.end(), '-', '_');

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "model/effects/effect.h"
 #include "model/hybrid/engine.h"
 #include "model/simulate.h"
 #include "tests/support/gradient_check.h"
@@ -266,7 +267,87 @@ TEST(Robot, FallsByName) {
   EXPECT_EQ(outcome(p, {0.0, 0.3, 0.0, 0.0, 0.0, 0.0}), Outcome::kFellHeight);
 }
 
+// A run that begins with a leg on the ground goes on from one that begins a moment above it.
+TEST(Robot, BeginsOnItsFeet) {
+  Parameters<double> p = RobotParametersFor(2);
+  p.robot->friction = 1.0;
+  p.robot->damping = 3e-4;
+  p.robot->angle = {0.4, 0.5};
+  // Reach of the leg at 0.4 rad below its hip, M74.
+  const double lands = p.r * (1.0 + std::cos(0.4));
+  const auto run = [&](double height) {
+    return Simulate(RobotDrop(p, {0.0, height, 0.1, -0.3, 0.0, 0.0}, 0.08));
+  };
+  const Trajectory above = run(lands + 1e-10), on = run(lands - 1e-10);
+  EXPECT_EQ(on.segments.front().mode, Mode::kStance);
+  ASSERT_EQ(above.final_state.size(), on.final_state.size());
+  for (std::size_t i = 0; i < on.final_state.size(); ++i)
+    EXPECT_NEAR(above.final_state[i], on.final_state[i], 1e-7) << i;
+  // Deep in the ground it is pressed: both legs push the body up at once.
+  SimulationRequest q = RobotDrop(p, {0.0, lands - 0.012, 0.1, 0.0, 0.02, 0.0}, 0.05);
+  EXPECT_EQ(Simulate(q).outcome, Outcome::kCompleted);
+  const std::vector<double> rows = {0.0, 0.002, 0.01, 0.03};
+  const std::array channels = {Channel::kBodyY,    Channel::kBodyPitch,  Channel::kContact1,
+                               Channel::kContact2, Channel::kLegForceY1, Channel::kLegForceY2};
+  const std::vector<SensitivityDirection> directions = {
+      SensitivityDirection::InitialState(1), SensitivityDirection::InitialState(4),
+      SensitivityDirection::Parameter(ParameterId::kR),
+      SensitivityDirection::Parameter(ParameterId::kE)};
+  q.row_times = rows;
+  q.channels = channels;
+  const Trajectory seen = Simulate(q);
+  for (const std::size_t i : {2, 3}) EXPECT_EQ(seen.samples[i], 1.0);
+  for (const std::size_t i : {4, 5}) EXPECT_GT(seen.samples[i], 1.0);
+  q.channels = std::span(channels).first(2);
+  q.directions = directions;
+  for (const ColumnCheck& check : CheckGradient(q)) EXPECT_EQ(Complaint(check), "");
+}
+
 // ---- derivatives -----------------------------------------------------------------------------
+
+// Every effect that means something on a robot, off its null, legs and motors one by one.
+TEST(Robot, EffectsHaveTheDerivativesOfDifferences) {
+  Parameters<double> p = RobotParametersFor(2);
+  p.robot->friction = 0.9;
+  p.robot->damping = 3e-4;
+  p.robot->rotor_inertia = 4e-3;  // slower than a real one: fewer steps
+  SimulationRequest q = RobotDrop(p, {0.0, 0.2, 0.3, -0.2, 0.03, 0.2}, 0.14);
+  int columns = 0;
+  for (const Effect* effect : AllEffects()) {
+    if (!AppliesTo(*effect, Law::kRobot, LegMass::kNone, 0, 2)) continue;
+    std::array<EffectSetting, 1> effects = {EffectSetting::Null(*effect)};
+    std::vector<SensitivityDirection> directions;
+    for (std::size_t i = 0; i < effect->info.parameters.size(); ++i) {
+      effects[0].values[i] += 0.3 * effect->info.parameters[i].typical;
+      directions.push_back(SensitivityDirection::EffectParameter(0, static_cast<int>(i)));
+    }
+    q.effects = effects;
+    q.directions = {};
+    q.row_times = {};
+    q.channels = {};
+    const Trajectory run = Simulate(q);
+    ASSERT_EQ(run.outcome, Outcome::kCompleted) << effect->info.name;
+    std::vector<double> rows;
+    for (double t = 0.004; t < run.end_time - 0.008; t += 0.011) {
+      bool clear = true;
+      for (const Event& e : run.events) clear = clear && std::abs(e.time - t) > 3e-3;
+      if (clear) rows.push_back(t);
+    }
+    const std::array channels = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyPitch,
+                                 Channel::kLegAngle1, Channel::kLegAngle2};
+    q.row_times = rows;
+    q.channels = channels;
+    q.directions = directions;
+    bool seen = false;
+    for (const ColumnCheck& check : CheckGradient(q)) {
+      EXPECT_EQ(Complaint(check), "") << effect->info.name;
+      seen = seen || !check.nothing_to_see;
+      ++columns;
+    }
+    EXPECT_TRUE(seen) << effect->info.name;
+  }
+  EXPECT_GT(columns, 40);
+}
 
 using D = SensitivityDirection;
 

@@ -201,7 +201,7 @@ class ClampedArc {
   static constexpr int kMaxRounds = 30;
   // A double's values are corrected once more by the caller, which squares the error; the
   // derivatives of a Jet are not, so they need the root itself.
-  static constexpr double kStepTolerance = kJetWidth<T> == 0 ? 3e-7 : 1e-12;
+  static constexpr double kStepTolerance = kJetWidth<T> == 0 ? 3e-7 : 1e-9;
   static constexpr double kMostStep = 0.2;
 
   static Solution Lost() {

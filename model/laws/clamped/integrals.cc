@@ -8,13 +8,24 @@ namespace hoplab::clamped {
 namespace {
 
 // Positive half of the nodes of the Gauss-Legendre rule in (-1, 1) with their weights.
-constexpr int kHalf = kNodes / 2;
-constexpr double kNode[kHalf] = {0.095012509837637440, 0.281603550779258913, 0.458016777657227386,
-                                 0.617876244402643748, 0.755404408355003034, 0.865631202387831744,
-                                 0.944575023073232576, 0.989400934991649933};
-constexpr double kWeight[kHalf] = {0.189450610455068496, 0.182603415044923589, 0.169156519395002538,
-                                   0.149595988816576732, 0.124628971255533872, 0.095158511682492785,
-                                   0.062253523938647893, 0.027152459411754095};
+template <int N>
+struct HalfRule;
+template <>
+struct HalfRule<kNodes> {
+  static constexpr double kNode[] = {
+      0.095012509837637440, 0.281603550779258913, 0.458016777657227386, 0.617876244402643748,
+      0.755404408355003034, 0.865631202387831744, 0.944575023073232576, 0.989400934991649933};
+  static constexpr double kWeight[] = {
+      0.189450610455068496, 0.182603415044923589, 0.169156519395002538, 0.149595988816576732,
+      0.124628971255533872, 0.095158511682492785, 0.062253523938647893, 0.027152459411754095};
+};
+template <>
+struct HalfRule<kDampingNodes> {
+  static constexpr double kNode[] = {0.183434642495649805, 0.525532409916328986,
+                                     0.796666477413626740, 0.960289856497536232};
+  static constexpr double kWeight[] = {0.362683783378361983, 0.313706645877887287,
+                                       0.222381034453374471, 0.101228536290376259};
+};
 
 // cos x = sum of kSeries[m] x^2m/..., with the factorials divided out one by one.
 constexpr int kTerms = 14;
@@ -30,36 +41,70 @@ struct Series {
 constexpr Series kSeries;
 
 // The whole rule, in ascending order.
+template <int N>
 struct Rule {
-  double node[kNodes]{}, weight[kNodes]{};
+  double node[N]{}, weight[N]{};
   constexpr Rule() {
+    constexpr int kHalf = N / 2;
     for (int i = 0; i < kHalf; ++i) {
-      node[kHalf + i] = kNode[i];
-      node[kHalf - 1 - i] = -kNode[i];
-      weight[kHalf + i] = weight[kHalf - 1 - i] = kWeight[i];
+      node[kHalf + i] = HalfRule<N>::kNode[i];
+      node[kHalf - 1 - i] = -HalfRule<N>::kNode[i];
+      weight[kHalf + i] = weight[kHalf - 1 - i] = HalfRule<N>::kWeight[i];
     }
   }
 };
-constexpr Rule kRule;
+template <int N>
+constexpr Rule<N> kRule;
+
+// Cosine and sine at the nodes between the angles middle - half and middle + half: by the addition
+// theorem from the middle of the arc; half of its angle is below 2.5, where the first term left out
+// is 1e-18.
+template <int N>
+void FillNodes(double half, double cos_middle, double sin_middle, double* c, double* s) {
+  constexpr int kHalf = N / 2;
+  double q[kHalf], even[kHalf], odd[kHalf];
+  // Up to half a turn of the arc fewer terms do as well.
+  const int terms = std::abs(half) < 0.51 * std::numbers::pi ? kTerms - 3 : kTerms;
+  for (int i = 0; i < kHalf; ++i) {
+    const double x = half * HalfRule<N>::kNode[i];
+    q[i] = x * x;
+    even[i] = kSeries.cosine[terms - 1];
+    odd[i] = kSeries.sine[terms - 1];
+  }
+  for (int m = terms - 2; m >= 0; --m) {
+    for (int i = 0; i < kHalf; ++i) {
+      even[i] = even[i] * q[i] + kSeries.cosine[m];
+      odd[i] = odd[i] * q[i] + kSeries.sine[m];
+    }
+  }
+  for (int i = 0; i < kHalf; ++i) {
+    const double ci = even[i], si = odd[i] * half * HalfRule<N>::kNode[i];
+    c[kHalf + i] = cos_middle * ci - sin_middle * si;
+    s[kHalf + i] = sin_middle * ci + cos_middle * si;
+    c[kHalf - 1 - i] = cos_middle * ci + sin_middle * si;
+    s[kHalf - 1 - i] = sin_middle * ci - cos_middle * si;
+  }
+}
 
 // The rule's matrix of the integrals from each node to the end of the arc, for (-1, 1), exact for
-// polynomials of degree kNodes - 1: [node summed over][node the integral begins at].
+// polynomials of degree N - 1: [node summed over][node the integral begins at].
+template <int N>
 struct Tails {
-  double of[kNodes][kNodes];
+  double of[N][N];
 
   Tails() {
     // Integrals of the Lagrange polynomials, each by the rule of the part it is taken over.
-    for (int i = 0; i < kNodes; ++i) {
-      const double half = 0.5 * (1.0 - kRule.node[i]), middle = 0.5 * (1.0 + kRule.node[i]);
-      for (int j = 0; j < kNodes; ++j) {
+    for (int i = 0; i < N; ++i) {
+      const double half = 0.5 * (1.0 - kRule<N>.node[i]), middle = 0.5 * (1.0 + kRule<N>.node[i]);
+      for (int j = 0; j < N; ++j) {
         double sum = 0.0;
-        for (int k = 0; k < kNodes; ++k) {
-          const double x = middle + half * kRule.node[k];
+        for (int k = 0; k < N; ++k) {
+          const double x = middle + half * kRule<N>.node[k];
           double lagrange = 1.0;
-          for (int m = 0; m < kNodes; ++m) {
-            if (m != j) lagrange *= (x - kRule.node[m]) / (kRule.node[j] - kRule.node[m]);
+          for (int m = 0; m < N; ++m) {
+            if (m != j) lagrange *= (x - kRule<N>.node[m]) / (kRule<N>.node[j] - kRule<N>.node[m]);
           }
-          sum += kRule.weight[k] * lagrange;
+          sum += kRule<N>.weight[k] * lagrange;
         }
         of[j][i] = half * sum;
       }
@@ -68,20 +113,21 @@ struct Tails {
 };
 
 // Cosine and sine at the nodes in scalar type S: psi of a node moves with both ends of the arc.
-template <class S>
+template <class S, int N>
 struct Nodes {
-  S c[kNodes], s[kNodes];
+  S c[N], s[N];
 
-  explicit Nodes(const Tangents& at) {
-    for (int i = 0; i < kNodes; ++i) {
-      c[i] = S(at.c[i]);
-      s[i] = S(at.s[i]);
+  Nodes(const double* cosine, const double* sine) {
+    for (int i = 0; i < N; ++i) {
+      c[i] = S(cosine[i]);
+      s[i] = S(sine[i]);
       if constexpr (kJetWidth < S >> 0) {
-        const double by_tip = 0.5 * (1.0 - kRule.node[i]), by_base = 0.5 * (1.0 + kRule.node[i]);
-        c[i].v[0] = -at.s[i] * by_tip;
-        c[i].v[1] = -at.s[i] * by_base;
-        s[i].v[0] = at.c[i] * by_tip;
-        s[i].v[1] = at.c[i] * by_base;
+        const double by_tip = 0.5 * (1.0 - kRule<N>.node[i]),
+                     by_base = 0.5 * (1.0 + kRule<N>.node[i]);
+        c[i].v[0] = -sine[i] * by_tip;
+        c[i].v[1] = -sine[i] * by_base;
+        s[i].v[0] = cosine[i] * by_tip;
+        s[i].v[1] = cosine[i] * by_base;
       }
     }
   }
@@ -93,9 +139,9 @@ S Along(double value, int k) {
   return Seeded<S>(value, k, 1.0);
 }
 
-template <class S>
-Response<S> Respond(const Tangents& values, double load_x, double load_y, bool rolling,
-                    bool dissipates) {
+template <class S, int N>
+Response<S> Respond(const Tangents& values, const Nodes<S, N>& at, double load_x, double load_y,
+                    bool rolling, bool dissipates) {
   using std::sqrt;
   const S tip = Along<S>(values.tip, 0), base = Along<S>(values.base, 1);
   const S fx = Along<S>(load_x, 2), fy = Along<S>(load_y, 3), half = 0.5 * (base - tip);
@@ -104,22 +150,21 @@ Response<S> Respond(const Tangents& values, double load_x, double load_y, bool r
   const S cb = values.cos_base - values.sin_base * (base - values.base);
   const S sb = values.sin_base + values.cos_base * (base - values.base);
   const S over_b = 1.0 / sqrt(1.0 + 2.0 * (fx * (c0 - cb) + fy * (sb - s0)));
-  const Nodes<S> at(values);
 
   // Slopes of kappa^2/2 by fx and fy, and 1/kappa.
-  S by_x[kNodes], by_y[kNodes], over[kNodes], weight[kNodes], cube[kNodes];
-  for (int i = 0; i < kNodes; ++i) {
+  S by_x[N], by_y[N], over[N], weight[N], cube[N];
+  for (int i = 0; i < N; ++i) {
     by_x[i] = c0 - at.c[i];
     by_y[i] = at.s[i] - s0;
     cube[i] = 1.0 + 2.0 * (fx * by_x[i] + fy * by_y[i]);
   }
-  for (int i = 0; i < kNodes; ++i) over[i] = 1.0 / sqrt(cube[i]);
-  for (int i = 0; i < kNodes; ++i) {
-    weight[i] = kRule.weight[i] * half * over[i];
+  for (int i = 0; i < N; ++i) over[i] = 1.0 / sqrt(cube[i]);
+  for (int i = 0; i < N; ++i) {
+    weight[i] = kRule<N>.weight[i] * half * over[i];
     cube[i] = over[i] * over[i] * over[i];
   }
   S k1(0.0), kxx(0.0), kxy(0.0), kyy(0.0), kx(0.0), ky(0.0);
-  for (int i = 0; i < kNodes; ++i) {
+  for (int i = 0; i < N; ++i) {
     const S w = weight[i] * over[i] * over[i], wx = w * by_x[i], wy = w * by_y[i];
     kxx += wx * by_x[i];
     kxy += wx * by_y[i];
@@ -152,21 +197,21 @@ Response<S> Respond(const Tangents& values, double load_x, double load_y, bool r
   }
   if (!dissipates) return r;
 
-  static const Tails kTails;
-  S tail_x[kNodes], tail_y[kNodes], tail_1[kNodes];
-  for (int i = 0; i < kNodes; ++i) tail_x[i] = tail_y[i] = tail_1[i] = S(0.0);
-  for (int j = 0; j < kNodes; ++j) {
+  static const Tails<N> kTails;
+  S tail_x[N], tail_y[N], tail_1[N];
+  for (int i = 0; i < N; ++i) tail_x[i] = tail_y[i] = tail_1[i] = S(0.0);
+  for (int j = 0; j < N; ++j) {
     const S w1 = half * cube[j], wx = w1 * by_x[j], wy = w1 * by_y[j];
     const double* tail = kTails.of[j];
-    for (int i = 0; i < kNodes; ++i) {
+    for (int i = 0; i < N; ++i) {
       tail_x[i] += tail[i] * wx;
       tail_y[i] += tail[i] * wy;
     }
     if (rolling) continue;
-    for (int i = 0; i < kNodes; ++i) tail_1[i] += tail[i] * w1;
+    for (int i = 0; i < N; ++i) tail_1[i] += tail[i] * w1;
   }
-  S field[3][kNodes];
-  for (int i = 0; i < kNodes; ++i) {
+  S field[3][N];
+  for (int i = 0; i < N; ++i) {
     const S m = fx * at.s[i] + fy * at.c[i];
     field[0][i] = by_x[i] * over[i] - m * tail_x[i];
     field[1][i] = by_y[i] * over[i] - m * tail_y[i];
@@ -177,7 +222,7 @@ Response<S> Respond(const Tangents& values, double load_x, double load_y, bool r
     }
   }
   for (S& d : r.D) d = S(0.0);
-  for (int i = 0; i < kNodes; ++i) {
+  for (int i = 0; i < N; ++i) {
     const S w = weight[i];
     int entry = 0;
     for (int j = 0; j < 3; ++j) {
@@ -187,38 +232,25 @@ Response<S> Respond(const Tangents& values, double load_x, double load_y, bool r
   return r;
 }
 
+// The dissipation is asked for with fewer nodes (kDampingNodes).
+template <class S>
+Response<S> Respond(const Tangents& at, double fx, double fy, bool rolling, bool dissipates) {
+  if (!dissipates) return Respond<S, kNodes>(at, {at.c, at.s}, fx, fy, rolling, false);
+  double c[kDampingNodes], s[kDampingNodes];
+  FillNodes<kDampingNodes>(0.5 * (at.base - at.tip), at.cos_middle, at.sin_middle, c, s);
+  return Respond<S, kDampingNodes>(at, {c, s}, fx, fy, rolling, true);
+}
+
 }  // namespace
 
-// The nodes by the addition theorem from the middle of the arc; half of its angle is below 2.5,
-// where the first term left out is 1e-18.
 Tangents::Tangents(double tip_angle, double base_angle) : tip(tip_angle), base(base_angle) {
-  const double half = 0.5 * (base - tip), middle = 0.5 * (base + tip);
-  double q[kHalf], even[kHalf], odd[kHalf];
-  // Up to half a turn of the arc fewer terms do as well.
-  const int terms = std::abs(half) < 0.51 * std::numbers::pi ? kTerms - 3 : kTerms;
-  for (int i = 0; i < kHalf; ++i) {
-    const double x = half * kNode[i];
-    q[i] = x * x;
-    even[i] = kSeries.cosine[terms - 1];
-    odd[i] = kSeries.sine[terms - 1];
-  }
-  for (int m = terms - 2; m >= 0; --m) {
-    for (int i = 0; i < kHalf; ++i) {
-      even[i] = even[i] * q[i] + kSeries.cosine[m];
-      odd[i] = odd[i] * q[i] + kSeries.sine[m];
-    }
-  }
-  const double cm = std::cos(middle), sm = std::sin(middle);
-  for (int i = 0; i < kHalf; ++i) {
-    const double ci = even[i], si = odd[i] * half * kNode[i];
-    c[kHalf + i] = cm * ci - sm * si;
-    s[kHalf + i] = sm * ci + cm * si;
-    c[kHalf - 1 - i] = cm * ci + sm * si;
-    s[kHalf - 1 - i] = sm * ci - cm * si;
-  }
+  const double middle = 0.5 * (base + tip);
+  cos_middle = std::cos(middle);
+  sin_middle = std::sin(middle);
+  FillNodes<kNodes>(0.5 * (base - tip), cos_middle, sin_middle, c, s);
   if (tip == 0.0) {
-    cos_base = 1.0 - 2.0 * sm * sm;
-    sin_base = 2.0 * sm * cm;
+    cos_base = 1.0 - 2.0 * sin_middle * sin_middle;
+    sin_base = 2.0 * sin_middle * cos_middle;
     return;
   }
   cos_tip = std::cos(tip);
@@ -242,7 +274,7 @@ Integrals IntegralsOf(const Tangents& at, double fx, double fy) {
   // Roots and quotients by themselves, so that they are taken in pairs.
   for (int i = 0; i < kNodes; ++i) over[i] = 1.0 / std::sqrt(square[i]);
   for (int i = 0; i < kNodes; ++i) {
-    weight[i] = kRule.weight[i] * half * over[i];
+    weight[i] = kRule<kNodes>.weight[i] * half * over[i];
     cube[i] = weight[i] * over[i] * over[i];
   }
   for (int i = 0; i < kNodes; ++i) {
