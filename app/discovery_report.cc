@@ -54,7 +54,7 @@ std::string TermText(const FoundTerm& found, std::size_t place, bool colours) {
     text += Labelled("picked in", Percent(*found.selected_in) + " of the resamples of the trials",
                      colours);
   text += Labelled("physics", PhysicsOf(found), colours);
-  if (!found.equal.empty()) text += Labelled("the same here", Listed(found.equal), colours);
+  if (!found.equal.empty()) text += Labelled("same here", Listed(found.equal), colours);
   if (!found.as_good.empty()) text += Labelled("as good", Listed(found.as_good), colours);
   return text + Labelled("file", DiscoveredFile(place) + ", for --with", colours);
 }
@@ -78,8 +78,8 @@ std::string DiscoveryReport(const Discovery& d, bool colours) {
   const std::string verdict = d.verdict == DiscoveryVerdict::kFound       ? "a formula was found"
                               : d.verdict == DiscoveryVerdict::kNotNeeded ? "no formula is needed"
                                                                           : "no formula is stable";
-  text += "  " + Styled(Upper(verdict), Emphasis::kBold, colours) + ": " + Wrapped(d.reason, 2) +
-          "\n";
+  text +=
+      "  " + Styled(Upper(verdict), Emphasis::kBold, colours) + ": " + Wrapped(d.reason, 2) + "\n";
   if (d.library > 0)
     text += Labelled(
         "tried", fmt::format("{} terms, {} of them refitted", d.library, d.terms.size()), colours);

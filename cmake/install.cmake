@@ -55,7 +55,8 @@ foreach(folder base model datasets fitting optimize experiments)
           INCLUDES DESTINATION ${headers})
   install(DIRECTORY ${folder} DESTINATION ${headers} COMPONENT development
           FILES_MATCHING PATTERN "*.h"
-          PATTERN rig-* EXCLUDE PATTERN published EXCLUDE PATTERN identified EXCLUDE
+          PATTERN rig-* EXCLUDE PATTERN robot-* EXCLUDE PATTERN published EXCLUDE
+          PATTERN identified EXCLUDE REGEX "experiments/effects$" EXCLUDE
           # Readers of other programs' recordings serve the command alone.
           PATTERN import EXCLUDE PATTERN automata EXCLUDE)
 endforeach()

@@ -33,27 +33,28 @@ bool IsEffectFile(std::string_view name) {
   return name.ends_with(".yaml") || name.ends_with(".yml");
 }
 
-EffectFile ReadEffectBlock(const YamlCursor& root) {
-  if (root.node().kind == YamlNode::Kind::kNull)
-    root.Fail("is empty; must begin with format: hoplab-effect/1",
-              "See docs/adding/formula.md for an example.");
-  CheckFormat(root, kFormat);
-  root.AllowOnly({"format", "name", "acts_as", "formula", "parameters", "sentence"});
+EffectFile ReadEffectBlock(const YamlCursor& block) {
+  if (block.node().kind == YamlNode::Kind::kNull)
+    block.Fail("is empty; must begin with format: hoplab-effect/1",
+               "See docs/adding/formula.md for an example.");
+  CheckFormat(block, kFormat);
+  block.AllowOnly({"format", "name", "acts_as", "formula", "parameters", "sentence"});
   EffectFile file;
-  file.origin.place = root.place();
-  file.source.name = root.Required("name", "a short name").Name();
-  const YamlCursor acts_as = root.Required("acts_as", "where it acts, as body_force_x");
+  file.origin.place = block.place();
+  file.source.name = block.Required("name", "a short name").Name();
+  const YamlCursor acts_as = block.Required("acts_as", "where it acts, as body_force_x");
   file.source.acts_as = acts_as.Name();
   file.acts_as_origin.place = acts_as.place();
-  const YamlCursor formula = root.Required("formula", "what it adds there, as \"-c * vx\"");
+  const YamlCursor formula = block.Required("formula", "what it adds there, as \"-c * vx\"");
   file.source.formula = formula.Text(kMostBytes);
   file.formula_origin.place = formula.place();
   for (const auto& [name, parameter] :
-       root.Required("parameters", "a block with unit, null, lower and upper of each").Entries(1)) {
+       block.Required("parameters", "a block with unit, null, lower and upper of each")
+           .Entries(1)) {
     file.source.parameters.push_back(ReadParameter(name, parameter));
     file.parameter_origins.push_back({parameter.place()});
   }
-  file.source.sentence = root.OptionalText("sentence");
+  file.source.sentence = block.OptionalText("sentence");
   if (file.source.sentence.empty()) file.source.sentence = file.source.name;
   return file;
 }

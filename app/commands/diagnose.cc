@@ -108,8 +108,7 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
     if (discovery) console.out << '\n' << DiscoveryReport(*discovery, console.out_colours) << '\n';
     if (settings.discover && !discovery && run.Failure().empty())
       console.out << "\n  no formula is needed beside what was named\n";
-    console.out
-                << Styled("  run folder   ", Emphasis::kFaint, console.out_colours) << kept << '\n';
+    console.out << Styled("  run folder   ", Emphasis::kFaint, console.out_colours) << kept << '\n';
   }
   if (!run.Failure().empty()) console.err << "hoplab diagnose: " << run.Failure() << '\n';
   if (run.diagnosis.interrupted) console.err << "kept: " << (keep ? kept : "nothing") << '\n';
@@ -138,7 +137,7 @@ void AddDiagnoseCommand(CLI::App& app, Invocation& invocation) {
       ->check(CLI::Range(1, 10))
       ->option_text("N");
   sub.add_option("--material", settings->material,
-                 "Share of the misfit below which a cause is a small correction (default 2)")
+                 "Misfit share below which a cause is small (default 2)")
       ->check(CLI::Range(0.0, 100.0))
       ->option_text("PERCENT");
   AddDiscrepancyOption(sub, settings->discrepancy);
@@ -152,7 +151,7 @@ void AddDiagnoseCommand(CLI::App& app, Invocation& invocation) {
       ->check(OneOf({"whole_else_hops", "whole", "hops"}))
       ->option_text("NAME");
   sub.add_flag("--discover", settings->discover,
-               "Look for a formula too, where the catalogue does not explain the misfit");
+               "Look for a formula where the catalogue falls short");
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-diagnose-NNN)");
   sub.footer(
       "Examples:\n"

@@ -57,7 +57,8 @@ ExitCode RunDiscover(const DiscoverSettings& settings, Console& console) {
   if (settings.json) {
     console.out << TextOf(record);
   } else {
-    console.out << Styled(Printable(dataset.name, 100), Emphasis::kBold, console.out_colours) << "\n\n";
+    console.out << Styled(Printable(dataset.name, 100), Emphasis::kBold, console.out_colours)
+                << "\n\n";
     for (const std::string& note : found.base.notes)
       console.out << Labelled("note", note, console.out_colours);
     console.out << DiscoveryReport(found, console.out_colours)
@@ -86,7 +87,7 @@ void AddDiscoverCommand(CLI::App& app, Invocation& invocation) {
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-discover-NNN)");
   sub.footer(
       "Examples:\n"
-      "  hoplab discover my-hops\n"
+      "  hoplab discover datasets/rig-drops --law large_deflection\n"
       "  hoplab discover my-hops --with air_drag --jobs 4\n"
       "  hoplab fit my-hops --with runs/my-hops-discover-001/discovered.yaml");
   OnParsed(sub, invocation, settings, RunDiscover);

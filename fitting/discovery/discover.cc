@@ -21,6 +21,12 @@ constexpr std::uint64_t kDetectionStream = 21, kResampleStream = 22, kBootstrapS
 constexpr int kRefitted = 16;
 // Of them picked beside each other, under each of the two noises.
 constexpr int kPicked = 4;
+// Of the refitted those of one family of shapes.
+constexpr int kOfOneFamily = 4;
+// Shapes within this many steps of the grid are one.
+constexpr double kSameShape = 0.3;
+// Terms of the library this near in shape say the same in a resample.
+constexpr double kNearShape = 1.5;
 // Nats the exponent must gain to be told as another number than the whole one.
 constexpr double kExponentPays = 3.0;
 
@@ -84,11 +90,17 @@ class Search {
     groups_ = EqualColumns(white);
     std::vector<int> leaders;
     for (const std::vector<int>& group : groups_) leaders.push_back(group.front());
-    const std::vector<int> promising = Promising(leaders, white, colored);
+    const std::vector<int> promising = Promising(library, leaders, white, colored);
     std::vector<Candidate> tried;
     for (const int i : promising) {
-      out_.terms.push_back(library[static_cast<std::size_t>(i)]);
-      tried.push_back(all[static_cast<std::size_t>(i)]);
+      Term term = library[static_cast<std::size_t>(i)];
+      if (term.shape) term = Shaped(term, SizeOf(colored, i));
+      const bool again = std::any_of(out_.terms.begin(), out_.terms.end(), [&](const Term& t) {
+        return AreNeighbours(t, term, kSameShape);
+      });
+      if (again) continue;
+      tried.emplace_back(term.effect);
+      out_.terms.push_back(std::move(term));
       places_.push_back(i);
     }
     leaders_ = leaders;
@@ -108,12 +120,38 @@ class Search {
                    LineariseAt(out_.base.null, tried, *train_, options_.fit.jobs), *train_, naming);
   }
 
-  // What is picked beside each other under either noise, then what scores best alone.
-  static std::vector<int> Promising(const std::vector<int>& leaders, const Linearisation& white,
+  // The size of one column that explains the residuals best.
+  static double SizeOf(const Linearisation& at, int column) {
+    const double square = at.columns.col(column).squaredNorm();
+    return square > 0.0 ? -at.columns.col(column).dot(at.r) / square : 0.0;
+  }
+
+  // The term with the shape that fits best, from the one it has; itself where that cannot be told.
+  Term Shaped(const Term& term, double size) const {
+    const Candidate freed(&FormulaEffect(WithFreeShape(term)));
+    Eigen::VectorXd sizes = NullValues(std::span(&freed, 1));
+    sizes[0] = size;
+    Extension base = out_.base.plain;
+    base.cost = std::numeric_limits<double>::infinity();
+    const Extension with = Refit(base, std::span(&freed, 1), sizes, SettingsOf(options_, *train_));
+    if (!with.ok()) return term;
+    const Eigen::VectorXd values = with.ValuesOf(0);
+    return AtShape(term, {values.data() + 1, static_cast<std::size_t>(values.size() - 1)});
+  }
+
+  // What is picked beside each other under either noise, then what scores best alone; of one family
+  // of shapes no more than two.
+  static std::vector<int> Promising(const std::vector<Term>& library,
+                                    const std::vector<int>& leaders, const Linearisation& white,
                                     const Linearisation& colored) {
     std::vector<int> promising;
     const auto add = [&](int column) {
-      if (static_cast<int>(promising.size()) < kRefitted &&
+      const Term& term = library[static_cast<std::size_t>(column)];
+      const auto alike = std::count_if(promising.begin(), promising.end(), [&](int other) {
+        const Term& t = library[static_cast<std::size_t>(other)];
+        return term.shape && t.shape && t.shape->family == term.shape->family;
+      });
+      if (static_cast<int>(promising.size()) < kRefitted && alike < kOfOneFamily &&
           std::find(promising.begin(), promising.end(), column) == promising.end())
         promising.push_back(column);
     };
@@ -161,6 +199,9 @@ class Search {
         for (const int j : group)
           if (j != column) found.equal.push_back(library[static_cast<std::size_t>(j)].effect);
       }
+      for (int j = 0; j < static_cast<int>(library.size()); ++j)
+        if (AreNeighbours(found.term, library[static_cast<std::size_t>(j)], kNearShape))
+          wanted.back().push_back(j);
       for (const int rival : out_.naming.groups[m]) {
         if (rival == i) continue;
         found.as_good.push_back(out_.terms[static_cast<std::size_t>(rival)].effect);
@@ -171,7 +212,10 @@ class Search {
       out_.found.push_back(std::move(found));
     }
     Resample(library, wanted);
-    for (std::size_t m = 0; m < out_.found.size(); ++m) FreeExponent(m);
+    for (std::size_t m = 0; m < out_.found.size(); ++m) {
+      if (out_.found[m].term.power) FreeExponent(m);
+      if (out_.found[m].term.shape) FreeShape(m);
+    }
     std::stable_sort(out_.found.begin(), out_.found.end(),
                      [](const FoundTerm& a, const FoundTerm& b) { return a.share > b.share; });
   }
@@ -204,35 +248,68 @@ class Search {
   void Resample(const std::vector<Term>& library, const std::vector<std::vector<int>>& wanted) {
     Extension base = out_.base.plain;
     base.problem.noise = out_.naming.best.problem.noise;
-    const Linearisation at = LineariseAt(base, CandidatesOf(library), *train_, options_.fit.jobs);
+    // With the shapes that were found.
+    std::vector<Term> terms = library;
+    for (std::size_t i = 0; i < out_.terms.size(); ++i)
+      terms[static_cast<std::size_t>(places_[i])] = out_.terms[i];
+    const Linearisation at = LineariseAt(base, CandidatesOf(terms), *train_, options_.fit.jobs);
     const std::vector<double> share = ShareOfResamples(
         at, leaders_, wanted, static_cast<int>(wanted.size()), LeastGain(), Seed(kResampleStream));
     for (std::size_t m = 0; m < share.size(); ++m) out_.found[m].selected_in = share[m];
   }
 
+  // The best model with one term replaced by a freer one, from these values of it; not usable
+  // where it could not be fitted.
+  Extension Freed(std::size_t m, const Candidate& freed, const Eigen::VectorXd& sizes) const {
+    const Extension& best = out_.naming.best;
+    const RefitSettings settings = SettingsOf(options_, *train_);
+    Extension rest = out_.base.plain;
+    if (best.members.size() > 1)
+      rest = RefitWithout(best, static_cast<int>(m), out_.base.plain.problem, settings);
+    else
+      rest.problem.noise = best.problem.noise;
+    rest.cost = std::numeric_limits<double>::infinity();
+    return Refit(rest, std::span(&freed, 1), sizes, settings);
+  }
+  Uncertainty UncertaintyOf(const Extension& with) const {
+    return AssessUncertainty(with.problem, *train_, with.shared, with.starts, options_.fit.loss,
+                             options_.fit.jobs);
+  }
+
+  // A limit or a frequency has an interval, as the coefficient beside it has.
+  void FreeShape(std::size_t m) {
+    if (Stopped()) return;
+    FoundTerm& found = out_.found[m];
+    const Candidate freed(&FormulaEffect(WithFreeShape(found.term)));
+    Eigen::VectorXd sizes = NullValues(std::span(&freed, 1));
+    sizes[0] = found.values.front().value;
+    const Extension with = Freed(m, freed, sizes);
+    if (!with.ok()) return;
+    const Uncertainty u = UncertaintyOf(with);
+    FormulaSource source = found.source;
+    found.values.clear();
+    const int first = with.problem.shared_count() - freed.parameter_count();
+    for (int k = 0; k < freed.parameter_count(); ++k) {
+      const FoundValue value = ValueAt(with, u, first + k);
+      FormulaParameter& p = source.parameters[static_cast<std::size_t>(k)];
+      (k == 0 ? p.typical : p.value) = value.value;
+      found.values.push_back(value);
+    }
+    found.source = source;
+  }
+
   // The model with the exponent of one term free.
   void FreeExponent(std::size_t m) {
+    if (Stopped()) return;
     FoundTerm& found = out_.found[m];
-    if (!found.term.power || Stopped()) return;
     const Extension& best = out_.naming.best;
-    RefitSettings settings = SettingsOf(options_, *train_);
-    Extension rest = best;
-    int place = static_cast<int>(m);
-    if (best.members.size() > 1) {
-      rest = RefitWithout(best, place, out_.base.plain.problem, settings);
-    } else {
-      rest = out_.base.plain;
-      rest.problem.noise = best.problem.noise;
-    }
     const Candidate freed(&FormulaEffect(WithFreeExponent(found.term)));
     const TermPower& power = *found.term.power;
     Eigen::VectorXd sizes(2);
     sizes << found.values.front().value * std::pow(power.scale, power.exponent), 0.0;
-    rest.cost = std::numeric_limits<double>::infinity();
-    const Extension with = Refit(rest, std::span(&freed, 1), sizes, settings);
+    const Extension with = Freed(m, freed, sizes);
     if (!with.ok()) return;
-    const Uncertainty u = AssessUncertainty(with.problem, *train_, with.shared, with.starts,
-                                            options_.fit.loss, options_.fit.jobs);
+    const Uncertainty u = UncertaintyOf(with);
     FreedExponent exponent;
     exponent.taken = power.exponent;
     exponent.value = ValueAt(with, u, with.problem.shared_count() - 1);

@@ -35,7 +35,7 @@ struct FreedExponent {
   double gain = 0.0;  // nats over the whole number
 };
 
-/// A term of the formula that was found.
+/// A term of the formula that was found. `values` has its shape, too, where it has one.
 struct FoundTerm {
   Term term;
   std::vector<FoundValue> values;

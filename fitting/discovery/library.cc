@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "base/check.h"
@@ -25,6 +26,17 @@ struct Factor {
   std::optional<TermPower> power = {};
 };
 
+std::string Raised(const std::string& unit, int exponent) {
+  if (exponent == 1 || unit == "1") return unit;
+  return "(" + unit + ")^" + std::to_string(exponent);
+}
+
+// One significant digit, so that a formula is readable.
+double Rounded(double value) {
+  const double digit = std::pow(10.0, std::floor(std::log10(value)));
+  return std::max(1.0, std::round(value / digit)) * digit;
+}
+
 // How a power is told.
 std::string PowerWords(const std::string& of, int exponent) {
   if (exponent == 1) return of;
@@ -39,21 +51,21 @@ void AddSigned(std::vector<Factor>& to, const std::string& v, const std::string&
   };
   to.push_back({"sign(" + v + ")", "1", 1.0, "the direction of " + words, v, {}});
   to.push_back({v, unit, size, words, v, power(1)});
-  to.push_back(
-      {"abs(" + v + ") * " + v, unit + "^2", size * size, "the square of " + words, v, power(2)});
+  to.push_back({"abs(" + v + ") * " + v, Raised(unit, 2), size * size, "the square of " + words, v,
+                power(2)});
   to.push_back({v + "^2",
-                unit + "^2",
+                Raised(unit, 2),
                 size * size,
                 "the square of " + words + ", whatever its direction",
                 v,
                 {}});
-  to.push_back({v + "^3", unit + "^3", size * size * size, "the cube of " + words, v, power(3)});
+  to.push_back(
+      {v + "^3", Raised(unit, 3), size * size * size, "the cube of " + words, v, power(3)});
 }
 void AddPositive(std::vector<Factor>& to, const std::string& v, const std::string& unit,
                  double size, const std::string& words) {
   for (int n = 1; n <= 3; ++n) {
-    to.push_back({n == 1 ? v : v + "^" + std::to_string(n),
-                  n == 1 ? unit : unit + "^" + std::to_string(n), std::pow(size, n),
+    to.push_back({n == 1 ? v : v + "^" + std::to_string(n), Raised(unit, n), std::pow(size, n),
                   PowerWords(words, n), v, TermPower{v, "", unit, static_cast<double>(n), size}});
   }
 }
@@ -62,9 +74,7 @@ void AddPlain(std::vector<Factor>& to, const std::string& v, const std::string& 
               const std::string& words) {
   for (int n = 1; n <= 3; ++n)
     to.push_back({n == 1 ? v : v + "^" + std::to_string(n),
-                  unit == "1" ? unit
-                  : n == 1    ? unit
-                              : unit + "^" + std::to_string(n),
+                  Raised(unit, n),
                   std::pow(size, n),
                   PowerWords(words, n),
                   v,
@@ -75,8 +85,7 @@ const Factor kOne{"1", "1", 1.0, "", "", {}};
 
 class Library {
  public:
-  Library(const FitProblem& problem, const NaturalScales& scales)
-      : problem_(problem), s_(scales) {}
+  Library(const FitProblem& problem, const NaturalScales& scales) : problem_(problem), s_(scales) {}
 
   std::vector<Term> Build() {
     BodyForces();
@@ -88,6 +97,8 @@ class Library {
       Landings();
     }
     Readings();
+    Limits();
+    Vibrations();
     return std::move(terms_);
   }
 
@@ -166,6 +177,9 @@ class Library {
         for (const Factor& f : forward ? x : y) Add(place, force, f, phase);
         Add(place, force, forward ? vy[1] : vx[1], phase);
         Add(place, force, t[0], phase);
+        // What a wind does.
+        Add(place, force, speed[0], phase);
+        Add(place, force, speed[0], phase, forward ? vx[1] : vy[1]);
         // Products of place and speed.
         Add(place, force, forward ? x[0] : y[0], phase, forward ? vx[1] : vy[1]);
       }
@@ -270,6 +284,91 @@ class Library {
       Add(place, length, t[1]);
     }
   }
+
+  // ---- with a shape ----------------------------------------------------------------------------
+
+  struct Held {
+    std::string name, unit;
+    double value, lower, upper, step;
+  };
+  void AddShaped(const std::string& place, double size, const std::string& unit,
+                 const std::string& inside, const std::vector<Held>& held, const std::string& words,
+                 const std::string& variable) {
+    FormulaSource source;
+    source.name = "term_" + std::to_string(terms_.size() + 1);
+    source.acts_as = place;
+    source.formula = "c * " + inside;
+    source.parameters = {{"c", unit, 0.0, std::nullopt, -kBound * size, kBound * size, size}};
+    Term term;
+    term.shape = TermShape{place + " " + inside, {}};
+    for (const Held& h : held) {
+      source.parameters.push_back(
+          {h.name, h.unit, std::nullopt, h.value, h.lower, h.upper, std::nullopt});
+      term.shape->steps.push_back(h.step);
+    }
+    source.sentence = "a term with " + words;
+    term.words = words;
+    term.variables = {variable};
+    term.effect = &FormulaEffect(source);
+    terms_.push_back(std::move(term));
+  }
+
+  // A force that begins where something is beyond a limit: a cable, a stop, a wall.
+  void Limits() {
+    constexpr int kPlaces = 4;
+    const auto add = [&](const std::string& place, const std::string& variable, double force,
+                         const Extent& range, const std::string& words) {
+      if (range.empty()) return;
+      const double width = range.most - range.least, step = width / (kPlaces + 1);
+      const std::string unit = variable == "s" ? "N" : "N/m";
+      for (int k = 1; k <= kPlaces; ++k) {
+        const Held limit{"limit",
+                         variable == "s" ? "1" : "m",
+                         range.least + k * step,
+                         range.least - 0.5 * width,
+                         range.most,
+                         step};
+        AddShaped(place, force / step, unit, "max(" + variable + " - limit, 0)", {limit},
+                  "how far " + words + " is beyond a limit", variable);
+        if (variable != "s")
+          AddShaped(place, force / step, unit, "max(limit - " + variable + ", 0)", {limit},
+                    "how far " + words + " is short of a limit", variable);
+      }
+    };
+    const double force = kExpected * s_.force;
+    const bool on_guide = std::any_of(problem_.trials.begin(), problem_.trials.end(),
+                                      [](const TrialProblem& t) { return t.parameters.on_guide; });
+    if (!on_guide) add("body_force_x", "x", force, s_.x, "the place");
+    add("body_force_y", "y", force, s_.y, "the height");
+    if (problem_.law != Law::kBall)
+      add("chord_force", "s", 2.0 * force, {0.0, 0.2}, "the compression");
+  }
+
+  // Something shakes the body, in step with the start of each trial.
+  void Vibrations() {
+    if (problem_.law == Law::kBall) return;
+    constexpr int kMostPeriods = 12;  // in a trial
+    std::vector<double> lengths;
+    for (const TrialProblem& t : problem_.trials)
+      if (!t.row_times.empty()) lengths.push_back(t.row_times.back());
+    if (lengths.empty()) return;
+    std::nth_element(lengths.begin(),
+                     lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2),
+                     lengths.end());
+    const double step = 0.5 / Rounded(lengths[lengths.size() / 2]);
+    for (const std::string place : {"body_force_x", "body_force_y"}) {
+      for (int k = 2; k <= 2 * kMostPeriods; ++k) {
+        for (const double phase : {0.0, 0.5 * std::numbers::pi}) {
+          AddShaped(place, kExpected * s_.force, "N", "sin(2 * pi * frequency * t + phase)",
+                    {{"frequency", "Hz", k * step, 0.5 * step, (2 * kMostPeriods + 2) * step, step},
+                     {"phase", "1", phase, -2.0 * std::numbers::pi, 2.0 * std::numbers::pi,
+                      2.0 * std::numbers::pi}},
+                    "a sine of time", "t");
+        }
+      }
+    }
+  }
+
   bool Measures(Channel channel) const {
     return std::any_of(problem_.channels.begin(), problem_.channels.end(),
                        [&](const ChannelProblem& c) { return c.channel == channel; });
@@ -281,32 +380,36 @@ class Library {
   std::vector<Term> terms_;
 };
 
-// One significant digit, so that a formula is readable.
-double Rounded(double value) {
-  const double digit = std::pow(10.0, std::floor(std::log10(value)));
-  return std::max(1.0, std::round(value / digit)) * digit;
+// What a channel says over all trials.
+Extent ExtentOf(const FitProblem& problem, Channel which) {
+  Extent range;
+  const auto channel = std::find_if(problem.channels.begin(), problem.channels.end(),
+                                    [&](const ChannelProblem& c) { return c.channel == which; });
+  if (channel == problem.channels.end()) return range;
+  bool any = false;
+  for (const TrialProblem& t : problem.trials) {
+    for (auto i = static_cast<std::size_t>(channel - problem.channels.begin()); i < t.data.size();
+         i += problem.channels.size()) {
+      if (std::isnan(t.data[i])) continue;
+      range.least = any ? std::min(range.least, t.data[i]) : t.data[i];
+      range.most = any ? std::max(range.most, t.data[i]) : t.data[i];
+      any = true;
+    }
+  }
+  return range;
 }
 
 }  // namespace
 
 NaturalScales ScalesOf(const FitProblem& problem) {
   NaturalScales s;
-  const auto height =
-      std::find_if(problem.channels.begin(), problem.channels.end(),
-                   [](const ChannelProblem& c) { return c.channel == Channel::kBodyY; });
-  double least = 1e300, most = -1e300, longest = 0.0;
-  for (const TrialProblem& t : problem.trials) {
+  s.x = ExtentOf(problem, Channel::kBodyX);
+  s.y = ExtentOf(problem, Channel::kBodyY);
+  double longest = 0.0;
+  for (const TrialProblem& t : problem.trials)
     if (!t.row_times.empty()) longest = std::max(longest, t.row_times.back());
-    if (height == problem.channels.end()) continue;
-    const auto column = static_cast<std::size_t>(height - problem.channels.begin());
-    for (std::size_t i = column; i < t.data.size(); i += problem.channels.size()) {
-      if (std::isnan(t.data[i])) continue;
-      least = std::min(least, t.data[i]);
-      most = std::max(most, t.data[i]);
-    }
-  }
   const Parameters<double>& p = problem.trials.front().parameters;
-  if (most > least) s.length = Rounded(most - least);
+  if (!s.y.empty()) s.length = Rounded(s.y.most - s.y.least);
   s.speed = Rounded(std::sqrt(2.0 * p.g * s.length));
   if (longest > 0.0) s.time = Rounded(longest);
   s.force = p.m * p.g;
@@ -333,6 +436,42 @@ FormulaSource WithFreeExponent(const Term& term) {
       {"u", power.unit, std::nullopt, power.scale, 0.5 * power.scale, 2.0 * power.scale,
        std::nullopt}};
   return source;
+}
+
+FormulaSource WithFreeShape(const Term& term) {
+  HOPLAB_CHECK(term.shape.has_value());
+  FormulaSource source = *SourceOf(*term.effect);
+  source.name += "_shape";
+  for (std::size_t i = 1; i < source.parameters.size(); ++i) {
+    FormulaParameter& p = source.parameters[i];
+    p.null = p.value;
+    p.value.reset();
+    p.typical = term.shape->steps[i - 1];
+    // Near by: further away is the start of another term of the grid.
+    p.lower = std::max(p.lower, *p.null - 1.5 * *p.typical);
+    p.upper = std::min(p.upper, *p.null + 1.5 * *p.typical);
+  }
+  return source;
+}
+
+Term AtShape(const Term& term, std::span<const double> shape) {
+  FormulaSource source = *SourceOf(*term.effect);
+  for (std::size_t i = 1; i < source.parameters.size(); ++i) {
+    FormulaParameter& p = source.parameters[i];
+    p.value = std::clamp(shape[i - 1], p.lower, p.upper);
+  }
+  Term moved = term;
+  moved.effect = &FormulaEffect(source);
+  return moved;
+}
+
+bool AreNeighbours(const Term& a, const Term& b, double steps) {
+  if (!a.shape || !b.shape || a.shape->family != b.shape->family) return false;
+  const auto &of_a = SourceOf(*a.effect)->parameters, &of_b = SourceOf(*b.effect)->parameters;
+  for (std::size_t i = 1; i < of_a.size(); ++i) {
+    if (std::abs(*of_a[i].value - *of_b[i].value) > steps * a.shape->steps[i - 1]) return false;
+  }
+  return true;
 }
 
 }  // namespace hoplab

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,12 +10,19 @@
 
 namespace hoplab {
 
+/// Where something is, from least to most; empty if nothing says where.
+struct Extent {
+  double least = 0.0, most = 0.0;
+  bool empty() const { return !(most > least); }
+};
+
 /// Sizes of things in a dataset, which make terms comparable.
 struct NaturalScales {
   double length = 0.1;  // the height covered [m]
   double speed = 1.0;   // of a fall from there [m/s]
   double time = 1.0;    // the longest trial [s]
   double force = 1.0;   // the weight [N]
+  Extent x, y;          // where the body was [m]
 };
 NaturalScales ScalesOf(const FitProblem& problem);
 
@@ -27,6 +35,13 @@ struct TermPower {
   double scale = 1.0;   // of the base, its natural one
 };
 
+/// What a term has inside beside its coefficient: held parameters on a grid, such as a limit or a
+/// frequency. They are the source's parameters after the first.
+struct TermShape {
+  std::string family;         // terms of one family differ in their shape alone
+  std::vector<double> steps;  // of the grid
+};
+
 /// One term of the library: a coefficient times a product of what is known at its place.
 struct Term {
   const Effect* effect = nullptr;
@@ -34,6 +49,7 @@ struct Term {
   std::string phase;  // "", "in flight", "in stance", "while it is loaded", "... unloaded"
   std::vector<std::string> variables;  // that it is made of
   std::optional<TermPower> power;
+  std::optional<TermShape> shape;
 };
 
 /// The terms that make sense for a mechanism: for each place of a formula products of its variables
@@ -42,5 +58,14 @@ std::vector<Term> TermLibrary(const FitProblem& problem, const NaturalScales& sc
 
 /// The term with its exponent free: c rest (base/scale)^p, p within [0.3, 4].
 FormulaSource WithFreeExponent(const Term& term);
+
+/// The term with its shape free, within one and a half steps of the grid.
+FormulaSource WithFreeShape(const Term& term);
+
+/// The term with its shape elsewhere.
+Term AtShape(const Term& term, std::span<const double> shape);
+
+/// Two terms of one family whose shapes are within `steps` of the grid of each other.
+bool AreNeighbours(const Term& a, const Term& b, double steps);
 
 }  // namespace hoplab

@@ -206,7 +206,7 @@ class ActiveEffects {
     Corner& c = corners_[static_cast<std::size_t>(i)];
     T argument(0.0);
     if (c.side != 0)
-      c.side = static_cast<signed char>(-c.side);
+      c.side = -c.side;
     else if (ArgumentOf(c, motions, argument))
       c.side = SignOf(Value(argument));
   }
@@ -218,7 +218,7 @@ class ActiveEffects {
   }
   template <class State>
   void LoadCorners(State& from) {
-    for (Corner& c : corners_) c.side = static_cast<signed char>(from.Take());
+    for (Corner& c : corners_) c.side = static_cast<int>(from.Take());
   }
 
  private:
@@ -249,16 +249,14 @@ class ActiveEffects {
     std::array<signed char, kMaxFormulaCorners> corners;
   };
   struct Corner {
-    signed char entry = 0, corner = 0;
-    signed char side = 0;
+    int entry = 0, corner = 0;
+    int side = 0;
     bool is_smooth = false;
   };
   /// A run that begins on a corner leaves it at this part of its scale.
   static constexpr double kOnCorner = 1e-9;
 
-  static signed char SignOf(double value) {
-    return static_cast<signed char>(value > 0.0 ? 1 : value < 0.0 ? -1 : 0);
-  }
+  static int SignOf(double value) { return value > 0.0 ? 1 : value < 0.0 ? -1 : 0; }
   const Formula& FormulaOf(const Corner& c) const {
     return *entries_[static_cast<std::size_t>(c.entry)].effect->formula;
   }
@@ -294,8 +292,7 @@ class ActiveEffects {
       return static_cast<signed char>(j);
     }
     if (corners_.size() == kMaxCorners) return -1;
-    corners_.push_back(
-        {static_cast<signed char>(entry), static_cast<signed char>(k), 0, corner.is_smooth});
+    corners_.push_back({static_cast<int>(entry), static_cast<int>(k), 0, corner.is_smooth});
     return static_cast<signed char>(corners_.size() - 1);
   }
 

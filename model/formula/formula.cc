@@ -340,6 +340,7 @@ bool CornerArgumentAt(const Formula& formula, int corner, const T* p, const Corn
   }
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): T is a type.
 #define HOPLAB_FORMULA_IN(T)                                                                    \
   template T Formula::Evaluate(const T*, const FormulaView<T>&, const CornerSides&) const;      \
   template T Formula::CornerArgument(int, const T*, const FormulaView<T>&, const CornerSides&)  \
@@ -363,5 +364,6 @@ HOPLAB_FORMULA_IN(Jet<1>)
 HOPLAB_FORMULA_IN(Jet<kNarrowJet>)
 HOPLAB_FORMULA_IN(Jet<kWideJet>)
 #undef HOPLAB_FORMULA_IN
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace hoplab

@@ -83,6 +83,13 @@ TEST(Stability, TheFittedPartIsTakenOutOfEachResample) {
 
 Dataset HopDataset() { return GenerateDataset(HopScenario(2), {.seed = 2}).dataset; }
 
+std::string ShapeText(const FormulaSource& source) {
+  std::string text;
+  for (const FormulaParameter& p : source.parameters)
+    if (p.value) text += " " + p.name + "=" + std::to_string(*p.value);
+  return text;
+}
+
 TEST(TermLibrary, HasEachFormulaOnceAndItsCoefficientInFront) {
   const FitProblem problem = MakeProblem(HopDataset(), {});
   const std::vector<Term> terms = TermLibrary(problem, ScalesOf(problem));
@@ -92,9 +99,12 @@ TEST(TermLibrary, HasEachFormulaOnceAndItsCoefficientInFront) {
   std::set<std::string> places;
   for (const Term& t : terms) {
     const FormulaSource& source = *SourceOf(*t.effect);
-    EXPECT_TRUE(seen.insert(source.acts_as + source.formula).second) << source.formula;
+    EXPECT_TRUE(seen.insert(source.acts_as + source.formula + ShapeText(source)).second)
+        << source.formula;
     EXPECT_EQ(source.formula.substr(0, 1), "c");
-    EXPECT_EQ(source.parameters.size(), 1u);
+    const std::size_t held = t.shape ? t.shape->steps.size() : 0;
+    EXPECT_EQ(source.parameters.size(), 1 + held);
+    EXPECT_EQ(t.effect->info.parameters.front().null, 0.0);
     places.insert(source.acts_as);
     if (t.power) {
       EXPECT_NO_THROW(FormulaEffect(WithFreeExponent(t))) << source.formula;
@@ -147,7 +157,8 @@ Dataset Balls(double quadratic, std::uint64_t seed) {
       "  initial_sigma: {x_m: 1.0e-9, y_m: 0.05, vx_m_per_s: 1.0e-9, vy_m_per_s: 0.1}\n  trials:\n";
   for (const char* start : {"25", "26", "27", "28"})
     yaml += std::string("    - {role: train, initial: {y_m: ") + start + "}}\n";
-  yaml += "    - {role: test, initial: {y_m: 26.5}}\n";
+  for (const char* start : {"25.5", "26.5", "27.5"})
+    yaml += std::string("    - {role: test, initial: {y_m: ") + start + "}}\n";
   return GenerateDataset(ScenarioDocument::FromText(yaml, "balls.yaml").Read(), {.seed = seed})
       .dataset;
 }
