@@ -46,7 +46,7 @@ function tracePanels(residuals, trial, models) {
     const axis = (k) => (k === 1 ? '' : String(k));
     layout[`yaxis${axis(main)}`] = {domain: [top - 0.64 * share, top], title: {text: withUnit(name, unit)}};
     top -= 0.64 * share + gap;
-    layout[`yaxis${axis(below)}`] = {domain: [Math.max(0, top - 0.36 * share), top], title: {text: withUnit('error', error.unit)}, zeroline: true};
+    layout[`yaxis${axis(below)}`] = {domain: [Math.max(0, top - 0.36 * share), top], title: {text: channels.length > 4 ? error.unit : withUnit('error', error.unit)}, zeroline: true};
     top -= 0.36 * share + gap;
     traces.push({
       x: time, y: measured, yaxis: `y${axis(main)}`, mode: 'markers', name: 'measured', showlegend: i === 0,

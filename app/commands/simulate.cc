@@ -49,12 +49,18 @@ std::string Report(const Scenario& scenario, const SimulationRequest& request,
                   Fixed(vx, 4), Fixed(vy, 4), energy});
   };
   const auto& s = request.initial;
-  row(0.0, "start", "flight", s[0], s[1], s[2], s[3], Fixed(energies[0].second, 6));
+  const auto energy = [&energies](std::size_t apex) {
+    return apex < energies.size() ? Fixed(energies[apex].second, 6) : "";
+  };
+  const bool robot = request.law == Law::kRobot;
+  row(0.0, "start", robot ? "" : "flight", s[0], s[1], s[2], s[3], energy(0));
   std::size_t apex = 1;
   for (const Event& e : run.events) {
     const bool is_apex = e.kind == EventKind::kApex;
-    row(e.time, NameOf(e.kind), NameOf(e.mode_after), e.x, e.y, e.vx_after, e.vy_after,
-        is_apex ? Fixed(energies[apex++].second, 6) : "");
+    std::string name(NameOf(e.kind));
+    if (robot && !is_apex) name += fmt::format(" {}", e.leg + 1);
+    row(e.time, name, NameOf(e.mode_after), e.x, e.y, e.vx_after, e.vy_after,
+        is_apex ? energy(apex++) : "");
   }
   if (run.final_state.size() >= 4) {
     const std::vector<double>& f = run.final_state;

@@ -46,13 +46,13 @@ template <int leg>
 struct LegStiffness {
   static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
       "", "leg_stiffness_1", "leg_stiffness_2", "leg_stiffness_3", "leg_stiffness_4"};
-  static constexpr std::array kParameters = {EffectParameter{"gamma", "-", 0.0, -0.95, 0.0, -0.1}};
+  static constexpr std::array kParameters = {EffectParameter{"loss", "-", 0.0, 0.0, 0.95, 0.1}};
   static constexpr EffectInfo kInfo =
-      InfoOfLeg(leg, kNames[leg], "E (1 + gamma) of that leg", kSoftLeg[leg], kParameters);
+      InfoOfLeg(leg, kNames[leg], "E (1 - loss) of that leg (M78)", kSoftLeg[leg], kParameters);
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
-    parameters.robot->E_scale[leg - 1] *= 1.0 + p[0];
+    parameters.robot->E_scale[leg - 1] *= 1.0 - p[0];
   }
 };
 
@@ -62,7 +62,7 @@ struct LegDamping {
       "", "leg_damping_1", "leg_damping_2", "leg_damping_3", "leg_damping_4"};
   static constexpr std::array kParameters = {EffectParameter{"tau", "s", 0.0, 0.0, 0.1, 2e-4}};
   static constexpr EffectInfo kInfo = InfoOfLeg(
-      leg, kNames[leg], "leg_damping + tau of that leg (M71)", kDampedLeg[leg], kParameters);
+      leg, kNames[leg], "leg_damping + tau of that leg (M78)", kDampedLeg[leg], kParameters);
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

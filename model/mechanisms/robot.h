@@ -55,7 +55,8 @@ class Robot final : public HybridSystem<T> {
     EventKind event;
     int leg;
     double scale;
-    double side = 0.0;  // of a cone of friction, the direction the foot would slide
+    double side =
+        0.0;  // the direction the foot would slide at its cone; it slides as it snaps away
   };
   /// The hip of a leg: from the reference point, its velocity, the angle of the leg on the ground.
   struct Hip {

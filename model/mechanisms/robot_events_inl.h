@@ -48,7 +48,10 @@ void Robot<T>::ListGuards(Mode mode) {
     if (!IsDown(leg)) continue;
     if (leg.slides != 0.0) {
       add({EventKind::kLiftoff, i, weight});
-      if (Value(robot_.friction) > 0.0) add({EventKind::kStick, i, 1.0});
+      if (Value(robot_.friction) > 0.0) {
+        add({EventKind::kStick, i, 1.0});
+        add({EventKind::kLiftoff, i, 1.0, /*side=*/leg.slides});  // it snaps away
+      }
     } else if (HasCone()) {
       add({EventKind::kSlide, i, weight, 1});
       add({EventKind::kSlide, i, weight, -1});
@@ -63,10 +66,11 @@ void Robot<T>::ListGuards(Mode mode) {
     }
   }
   for (int i = 0; i < legs_; ++i) add({EventKind::kFallHeight, i, r});
-  add({EventKind::kFallPitch, 0, 1.0});
   if (robot_.control != MotorControl::kLocked && std::isfinite(robot_.torque_limit))
     for (int i = 0; i < legs_; ++i) add({EventKind::kTorqueLimit, i, robot_.torque_limit});
   if (mode == Mode::kFlight) add({EventKind::kApex, 0, 1.0});
+  // While four legs roll and slide, all motors limited, there is no room for it: the hips tell.
+  if (guard_count_ < kMaxGuards) add({EventKind::kFallPitch, 0, 1.0});
 }
 
 template <class T>
@@ -110,7 +114,7 @@ void Robot<T>::Guards(Mode, const T& t, const T* z, T* g) const {
         g[k] = z[kY] + hip.y - Reach(hip.angle);
         break;
       case EventKind::kLiftoff:
-        g[k] = load.fy;
+        g[k] = guard.side != 0.0 ? T(load.yield - kLeastYield) : load.fy;
         break;
       case EventKind::kSlide:
         g[k] = robot_.friction * load.fy + guard.side * load.fx;

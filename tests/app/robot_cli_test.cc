@@ -37,7 +37,7 @@ TEST_F(RobotCli, WhatItGeneratesItFits) {
   const ProcessResult check = Hoplab({"check", "made"});
   EXPECT_EQ(check.exit_code, 0) << check.err << check.out;
   const ProcessResult fit =
-      Hoplab({"fit", "made", "--json", "--quiet", "--no-report", "--free", "E_1,E_2,leg_damping"});
+      Hoplab({"fit", "made", "--json", "--quiet", "--free", "E_1,E_2,leg_damping"});
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
   for (const auto& p : nlohmann::json::parse(fit.out).at("parameters")) {
     const std::string name = p.at("name");
@@ -52,10 +52,10 @@ TEST_F(RobotCli, WhatItGeneratesItFits) {
 
 // A robot of a physics engine, E I of its legs known: 21.991 GPa with the dataset's section.
 TEST_F(RobotCli, FindsTheModulusOfEachLegOfAnEnginesRobot) {
-  const ProcessResult fit = Hoplab({"fit", Shipped("datasets/robot-drops"), "--json", "--quiet",
-                                    "--no-report", "--free", "E_1,E_2,leg_damping"});
+  const ProcessResult fit = Hoplab({"fit", Shipped("datasets/robot-drops"), "--json", "--quiet"});
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
   const auto record = nlohmann::json::parse(fit.out);
+  ASSERT_EQ(record.at("parameters").size(), 3u);  // E_1, E_2 and what damps them
   for (const auto& p : record.at("parameters")) {
     if (p.at("name") == "leg_damping") continue;
     EXPECT_NEAR(p.at("value").get<double>(), 21.991e9, 0.03 * 21.991e9) << p.at("name");
@@ -65,6 +65,30 @@ TEST_F(RobotCli, FindsTheModulusOfEachLegOfAnEnginesRobot) {
   EXPECT_LT(rmse.at("body_y_m"), 2.0 * 0.0005);
   EXPECT_LT(rmse.at("body_pitch_rad"), 2.0 * 0.001);
   EXPECT_LT(record.at("gradient_check").at("max_relative_error"), 1e-6);
+}
+
+// The leg that is soft is named, not its like, and the other trial says so, too.
+TEST_F(RobotCli, DiagnosisNamesTheSoftLeg) {
+  ASSERT_EQ(Hoplab({"generate", Shipped("experiments/robot-drop.yaml"), "--out", "made", "--with",
+                    "leg_stiffness_2:loss=0.2", "--set",
+                    "dataset.channels.hip_torque_2_N_m={sigma: 0.005}"})
+                .exit_code,
+            0);
+  const ProcessResult run =
+      Hoplab({"diagnose", "made", "--effects", "leg_stiffness_1,leg_stiffness_2,motor_gain_2",
+              "--json", "--quiet"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto record = nlohmann::json::parse(run.out);
+  EXPECT_EQ(record.at("verdict"), "named");
+  ASSERT_EQ(record.at("causes").size(), 1u);
+  const auto& cause = record.at("causes")[0];
+  EXPECT_EQ(cause.at("name"), "leg_stiffness_2");
+  EXPECT_NEAR(cause.at("parameters")[0].at("value").get<double>(), 0.2, 0.002);
+  EXPECT_GT(cause.at("held_out_gain").at("nats_per_sample").get<double>(), 0.2);
+  // A leg this robot does not have is no cause of it.
+  const ProcessResult third = Hoplab({"diagnose", "made", "--effects", "leg_stiffness_3"});
+  EXPECT_EQ(third.exit_code, 65);
+  EXPECT_NE(third.err.find("is of a leg this robot does not have"), std::string::npos) << third.err;
 }
 
 TEST_F(RobotCli, RefusesWhatDoesNotGoTogether) {

@@ -9,6 +9,10 @@
 
 namespace hoplab {
 
+/// A sliding foot that yields to a press less than this, over what it would without friction, snaps
+/// away: at 0 its load would turn back at an infinite rate (M70).
+inline constexpr double kLeastYield = 0.02;
+
 /// How a foot stands on the ground: on its arc, which rolls, or on its toe; held, or sliding in the
 /// direction `slides` (1 forward, -1 backward).
 struct Footing {
@@ -36,7 +40,9 @@ struct ClampedLoad {
   T lead;    // as of the place, but while sliding, too [m]
   T damped_x{0.0}, damped_y{0.0};  // force on the hip of the material's damping (M71) [N]
   T damped_moment{0.0};            // [N m]
-  T slip{0.0};                     // velocity of a sliding foot [m/s], where it is asked for
+  // Of a sliding foot, where it is asked for: its velocity [m/s], and how much it yields to a press
+  // over how much it would without friction (M70); at 0 it snaps away.
+  T slip{0.0}, yield{1.0};
 };
 
 /// A leg clamped at its hip (M66 to M71): the exact inextensible elastic arc from hip to contact
@@ -148,7 +154,7 @@ class ClampedArc {
   bool CanSlideForward(const Footing& foot, const ClampedPlace<T>& place) const {
     const Solution e =
         Solve(foot, Value(place.lead / r_), Value(place.height / r_), Value(place.base));
-    return e.c22 - Value(mu_) * e.c12 > 0.0;
+    return e.c22 - Value(mu_) * e.c12 > kLeastYield * e.c22;
   }
   /// Whether an unloaded foot that lands, its point of contact moving as (vx, vy) with the leg as a
   /// rigid body, holds (0), or in which direction it slides. M70.
@@ -344,8 +350,10 @@ class ClampedArc {
       const T lean = -foot.slides * mu_, stiff = 1.0 / (c22 + lean * c12);
       rate_y = y * stiff;
       rate_x = lean * rate_y;
-      if (with_slip)
+      if (with_slip) {
         load.slip = r_ * (c11 * rate_x + c12 * rate_y - h1 * place.base_rate) + place.vx;
+        load.yield = 1.0 + lean * c12 / c22;
+      }
       if (!dissipates) return;
       const auto [wx, wy, wb] = Resist(answer.D, follow, rate_x, rate_y, place.base_rate);
       const T along = (lean * wx + wy) * stiff;
