@@ -16,6 +16,8 @@
 namespace hoplab {
 namespace {
 
+// Of the most that a cause gains alone: below that it is not measured on held-out trials.
+constexpr double kLeastGain = 0.01;
 // Streams of the seed.
 constexpr std::uint64_t kDetectionStream = 11, kRemainderStream = 12, kBootstrapStream = 13,
                         kForcesStream = 14;
@@ -163,10 +165,12 @@ class Pipeline {
     d_.extension = std::move(report);
 
     d_.candidate_gains.resize(d_.naming.candidates.size());
+    double most = 0.0;
+    for (const CandidateResult& c : d_.naming.candidates) most = std::max(most, c.gain);
     ParallelFor(static_cast<int>(d_.candidate_gains.size()), options_.fit.jobs, [&](int i) {
       const CandidateResult& c = d_.naming.candidates[static_cast<std::size_t>(i)];
       // What gained nothing on the fitted trials has nothing to show on the others.
-      if (!c.alone.ok() || c.gain < 1.0 || Stopped()) return;
+      if (!c.alone.ok() || c.gain < std::max(1.0, kLeastGain * most) || Stopped()) return;
       d_.candidate_gains[static_cast<std::size_t>(i)] = CompareHeldOut(
           d_.null, d_.before, MeasureHeldOut(c.alone, 1, true), Seed(kBootstrapStream), nullptr);
     });

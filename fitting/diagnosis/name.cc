@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "fitting/diagnosis/linearise_at.h"
@@ -19,6 +20,9 @@ constexpr int kSingleWidth = 4, kForwardWidth = 3, kPairWidth = 6, kPairsSettled
 constexpr std::size_t kScoreWidth = 4;
 // Nats a further cause must promise by the linear model to be tried.
 constexpr double kWorthATry = 4.0;
+// Share of the misfit beyond noise it must promise. What explains less is a detail of the model,
+// which the discrepancy stands for.
+constexpr double kLeastShare = 1e-3;
 // Weights below this share of the best are not told.
 constexpr double kLeastWeight = 1e-4;
 
@@ -128,18 +132,30 @@ class Search {
 
   // By what gains most beside the set under its own noise, and under white noise.
   std::vector<CandidateSet> Forward(const CandidateSet& set) const {
+    const auto white = Ranked(set, refits_.White(set));
+    std::set<int> matters;
+    for (const auto& [gain, i] : white)
+      if (gain >= LeastGain()) matters.insert(i);
     std::vector<CandidateSet> sets;
-    for (const Extension* fitted : {&refits_.At(set), &refits_.White(set)}) {
+    const auto take = [&](const std::vector<std::pair<double, int>>& ranked) {
       int taken = 0;
-      for (const auto& [gain, i] : Ranked(set, *fitted)) {
+      for (const auto& [gain, i] : ranked) {
         if (taken >= kForwardWidth || gain < kWorthATry) break;
+        if (!matters.contains(i)) continue;
         ++taken;
         const CandidateSet grown = With(set, i);
         if (std::find(sets.begin(), sets.end(), grown) == sets.end()) sets.push_back(grown);
       }
-      if (refits_.At(set).problem.noise.IsWhite()) break;
-    }
+    };
+    if (!matters.empty() && !refits_.At(set).problem.noise.IsWhite())
+      take(Ranked(set, refits_.At(set)));
+    take(white);
     return sets;
+  }
+  // Nats under white noise.
+  double LeastGain() const {
+    const double misfit = refits_.White({}).cost - 0.5 * null_at_.degrees_of_freedom();
+    return kLeastShare * std::max(misfit, 0.0);
   }
 
   // The pairs that promise most by the linear model at the null fit.
@@ -281,6 +297,7 @@ class Search {
   }
 
   void Judge(const CandidateSet& model) {
+    const Remainder left = LeftBeside(model);
     std::set<int> doubtful, members(model.begin(), model.end());
     for (const std::vector<int>& group : naming_.groups) {
       if (group.size() > 1) doubtful.insert(group.begin(), group.end());
@@ -296,23 +313,44 @@ class Search {
       } else if (c.separable && c.power >= kTestable) {
         c.status = CandidateStatus::kExcluded;
       }
-      if (!members.count(i) && c.separable) Bound(model, c);
+      if (!members.count(i) && c.separable) Bound(left, i, c);
     }
   }
+
+  // The accepted model linearised, with the columns of what is not in it.
+  struct Remainder {
+    Linearisation at;
+    std::vector<Hypothesis> hypotheses;
+    std::map<int, std::size_t> places;  // of candidates among them
+  };
+  Remainder LeftBeside(const CandidateSet& model) const {
+    Remainder left;
+    std::vector<Candidate> tested;
+    for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
+      const CandidateResult& c = naming_.candidates[static_cast<std::size_t>(i)];
+      if (!c.separable || std::find(model.begin(), model.end(), i) != model.end()) continue;
+      left.places[i] = tested.size();
+      tested.push_back(c.candidate);
+    }
+    left.at = LineariseAt(refits_.At(model), tested, train_, options_.jobs);
+    left.hypotheses = HypothesesOf(tested);
+    return left;
+  }
   // What is left of a candidate once the accepted effects are in.
-  void Bound(const CandidateSet& model, CandidateResult& c) const {
-    const std::array one = {c.candidate};
-    const Linearisation at = LineariseAt(refits_.At(model), one, train_, options_.jobs);
-    const Score score = ScoreOf(at, HypothesesOf(one).front());
-    for (int k = 0; k < c.candidate.parameter_count(); ++k) {
+  static void Bound(const Remainder& left, int candidate, CandidateResult& c) {
+    const Linearisation& at = left.at;
+    const Hypothesis& hypothesis = left.hypotheses[left.places.at(candidate)];
+    const Score score = ScoreOf(at, hypothesis);
+    for (int k = 0; k < hypothesis.count; ++k) {
       // Of several parameters each is bounded with the others free.
-      Eigen::VectorXd s = at.columns.col(k);
-      for (int other = 0; other < c.candidate.parameter_count(); ++other) {
+      const int column = hypothesis.first + k;
+      Eigen::VectorXd s = at.columns.col(column);
+      for (int other = hypothesis.first; other < hypothesis.first + hypothesis.count; ++other) {
         const auto o = at.columns.col(other);
-        if (other != k && Information(at, other) > 0.0) s -= o * (o.dot(s) / o.squaredNorm());
+        if (other != column && Information(at, other) > 0.0) s -= o * (o.dot(s) / o.squaredNorm());
       }
       const double V = s.squaredNorm();
-      if (Information(at, k) > 0.0 && V > kInseparable * at.length[k] * at.length[k])
+      if (Information(at, column) > 0.0 && V > kInseparable * at.length[column] * at.length[column])
         c.bound95[k] = std::abs(score.size[k]) + 1.96 / std::sqrt(V);
     }
   }

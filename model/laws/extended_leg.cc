@@ -19,11 +19,15 @@ struct Residuals {
     T tip, ground;
   };
   Pair miss, by_phi, by_u, by_Y;
+  Tangent<T> F;  // along the arc and the chord
+
+  explicit Residuals(const Tangent<T>& force) : F(force) {}
 };
 
 template <class T>
 struct Place {
   T phi, u, Y, softer;
+  double F_near = std::numeric_limits<double>::quiet_NaN();
 };
 
 template <class T>
@@ -38,20 +42,26 @@ T SinkMiss(const Parameters<T>& p, const T& F, const Place<T>& at, const T& l, c
   return at.Y - y - p.law_terms.ground_compliance * (F * at.Y / l);
 }
 
-// By the chain rule through the chord: the statics know only phi and l.
+// What the statics know: only phi and l.
 template <class T>
-Residuals<T> ResidualsAt(const Parameters<T>& p, Law law, const T& torque, const Place<T>& at,
-                         const T& y) {
+Statics<Tangent<T>> StaticsAlong(const Parameters<T>& p, Law law, const T& torque,
+                                 const Place<T>& at) {
   using S = Tangent<T>;
-  const T one(1.0), zero(0.0), l = Chord(at);
-  const Statics<S> leg =
-      StaticsAt<S, T>(p, law, torque, {S(at.phi, one, zero), S(l, zero, one), S(at.softer)});
+  const T one(1.0), zero(0.0);
+  return StaticsAt<S, T>(p, law, torque,
+                         {S(at.phi, one, zero), S(Chord(at), zero, one), S(at.softer), at.F_near});
+}
+// By the chain rule through the chord.
+template <class T>
+Residuals<T> ResidualsAt(const Parameters<T>& p, const Place<T>& at, const T& y,
+                         const Statics<Tangent<T>>& leg) {
+  const T l = Chord(at);
   const T by_l = 1.0 / l, lead = at.u * by_l, height = at.Y * by_l;
   const T& F = leg.F.value;
   const T sinking = p.law_terms.ground_compliance * height;
   const T tip_l = leg.tip_turn.rate[1] - lead * by_l;
   const T ground_l = -sinking * (leg.F.rate[1] - F * by_l);
-  Residuals<T> out;
+  Residuals<T> out(leg.F);
   out.miss = {lead + leg.tip_turn.value, SinkMiss(p, F, at, l, y)};
   out.by_phi = {leg.tip_turn.rate[0], -sinking * leg.F.rate[0]};
   out.by_u = {by_l + tip_l * lead, ground_l * lead};
@@ -63,6 +73,7 @@ Residuals<T> ResidualsAt(const Parameters<T>& p, Law law, const T& torque, const
 struct Solution {
   bool found = false;
   double phi, Y;
+  double F;
   double inverse[2][2];
 };
 
@@ -83,11 +94,17 @@ Solution Solve(const Question& q, ExtendedRoot& root) {
     sink += root.sink_u0 * du + root.sink_y * dy;
   }
   const double roll = q.rolling && IsElastic(q.law) ? q.p.r : 0.0;
+  const auto place = [&] { return Place<double>{phi, q.u0 + roll * phi, q.y + sink, q.softer}; };
+  NearForce force = root.force;
   Solution s;
   for (int round = 0; round < kMaxRounds; ++round) {
     if (q.rolling) phi = std::fmin(std::fmax(phi, 0.05), 2.0 * kPi - 0.05);
-    Residuals<double> at = ResidualsAt<double>(q.p, q.law, q.torque,
-                                               {phi, q.u0 + roll * phi, q.y + sink, q.softer}, q.y);
+    Place<double> here = place();
+    const double l = Chord(here);
+    here.F_near = force.At(phi, l);
+    Residuals<double> at =
+        ResidualsAt<double>(q.p, here, q.y, StaticsAlong<double>(q.p, q.law, q.torque, here));
+    force = {phi, l, at.F.value, at.F.rate[0], at.F.rate[1]};
     at.by_phi.tip += roll * at.by_u.tip;
     at.by_phi.ground += roll * at.by_u.ground;
     if (!q.rolling) {  // phi stays
@@ -113,9 +130,11 @@ Solution Solve(const Question& q, ExtendedRoot& root) {
       root.sink_u0 = solved(1, at.by_u.tip, at.by_u.ground);
       root.phi_y = solved(0, 0.0, -1.0);
       root.sink_y = solved(1, 0.0, -1.0) - 1.0;
+      root.force = force;
       s.found = true;
       s.phi = phi;
       s.Y = q.y + sink;
+      s.F = force.At(phi, Chord(place()));
       return s;
     }
   }
@@ -172,8 +191,8 @@ struct ArcRate {
 };
 template <class T>
 ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const LegConditions<T>& at, const T* z,
-                     const Place<T>& here) {
-  const Residuals<T> by = ResidualsAt<T>(p, law, at.torque, here, z[kY]);
+                     const Place<T>& here, const Statics<Tangent<T>>& along) {
+  const Residuals<T> by = ResidualsAt<T>(p, here, z[kY], along);
   T tip_phi = by.by_phi.tip, ground_phi = by.by_phi.ground;
   if (IsElastic(law)) {
     tip_phi += p.r * by.by_u.tip;
@@ -183,8 +202,8 @@ ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const LegConditions<T>& at
   if (!IsZero(p.law_terms.stiffness_drift)) {
     using S = Tangent<T>;
     const T softening = -p.law_terms.stiffness_drift * here.softer * here.softer, l = Chord(here);
-    const Statics<S> leg =
-        StaticsAt<S, T>(p, law, at.torque, {S(here.phi), S(l), S(here.softer, softening, T(0.0))});
+    const Statics<S> leg = StaticsAt<S, T>(
+        p, law, at.torque, {S(here.phi), S(l), S(here.softer, softening, T(0.0)), here.F_near});
     tip_rest += leg.tip_turn.rate[0];
     ground_rest -= p.law_terms.ground_compliance * (leg.F.rate[0] * here.Y / l);
   }
@@ -198,9 +217,9 @@ ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const LegConditions<T>& at
 
 // What dphi/dt is multiplied by in M7, with r_d = l/(2 sin(phi/2)), or in its readings M32, M33.
 template <class T>
-T RadiusOfM7(const T& r, const ThesisVariant& variant, const Statics<T>& leg, const T& l) {
+T RadiusOfM7(const T& r, const ThesisVariant& variant, const T& sin, const T& cos, const T& l) {
   const bool at_rest = variant.rolling_radius == ThesisVariant::RollingRadius::kRest;
-  const T radius = at_rest ? T(2.0 * r * leg.sin * leg.cos) : T(l * leg.cos);
+  const T radius = at_rest ? T(2.0 * r * sin * cos) : T(l * cos);
   return variant.angle_rate == ThesisVariant::AngleRate::kTheta ? radius : T(0.5 * radius);
 }
 
@@ -228,12 +247,12 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   T phi(solution.phi), Y(solution.Y);
   const bool rolls_on_arc = rolling && IsElastic(law_);
   const auto here = [&] {
-    return Place<T>{phi, rolls_on_arc ? T(u0 + p_.r * phi) : u0, Y, softer};
+    return Place<T>{phi, rolls_on_arc ? T(u0 + p_.r * phi) : u0, Y, softer, solution.F};
   };
   if constexpr (kJetWidth < T >> 0) {
     const Place<T> held = here();
     const T l = Chord(held);
-    const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, {phi, l, softer});
+    const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, {phi, l, softer, solution.F});
     const T tip = rolling ? T(held.u / l + leg.tip_turn) : T(0.0);
     const T ground = SinkMiss(p_, leg.F, held, l, z[kY]);
     const auto& m = solution.inverse;
@@ -244,10 +263,7 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   load.u = there.u;
   load.y = Y;
   load.l = Chord(there);
-  const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, {phi, load.l, softer});
   load.phi = phi;
-  load.elastic_force = leg.F;
-  load.tip_miss = load.u / load.l + leg.tip_turn;
   load.contact_rate = T(0.0);
   load.slip_gain = T(1.0);
   load.arc_x = load.arc_y = load.place_x = load.place_y = T(0.0);
@@ -255,22 +271,35 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   const T w = (Y * z[kVy] - load.u * z[kVx]) / load.l;  // M12
   load.damping_rate = w;
   const bool asked = p_.law_terms.slopes_active;
-  if (!rolling) {
+  const bool turns = rolling && (!IsElastic(law_) || p_.law_terms.rolling_active || asked);
+  const auto carries = [&](const T& F, const T& tip_turn) {
+    load.elastic_force = F;
+    load.tip_miss = load.u / load.l + tip_turn;
+  };
+  if (!turns && !DampsAlongArc()) {
+    const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, {phi, load.l, softer, solution.F});
+    carries(leg.F, leg.tip_turn);
     // M38 of a chord that turns about a contact that stays.
-    if (asked) load.angle_rate = -(Y * z[kVx] + load.u * z[kVy]) / (load.l * load.l);
-    if (DampsAlongArc()) AddViscousForce(at, softer, z, load);
+    if (!rolling && asked) load.angle_rate = -(Y * z[kVx] + load.u * z[kVy]) / (load.l * load.l);
     return load;
   }
-  if (IsElastic(law_) && !p_.law_terms.rolling_active && !asked) return load;
+  const Statics<Tangent<T>> along = StaticsAlong(p_, law_, at.torque, there);
+  carries(along.F.value, along.tip_turn.value);
+  if (!turns) {
+    if (!rolling && asked) load.angle_rate = -(Y * z[kVx] + load.u * z[kVy]) / (load.l * load.l);
+    AddViscousForce(softer, z, along.F, load);
+    return load;
+  }
 
   // M27: dx_c/dt = rho dphi/dt, the foot's creeping added by the caller.
   const T& blend = p_.law_terms.rolling;
   const ThesisVariant variant = law_ == Law::kThesis ? p_.variant : ThesisVariant();
-  const T full = p_.r, flat = RadiusOfM7(p_.r, variant, leg, load.l);  // M8, M11; M7
+  const T full = p_.r, flat = RadiusOfM7(p_.r, variant, along.sin.value, along.cos.value,
+                                         load.l);  // M8, M11; M7
   const T rho = law_ == Law::kThesis ? T((1.0 - blend) * flat + blend * full)
                                      : T((1.0 - blend) * full + blend * flat);
   const T beyond = IsElastic(law_) ? T(rho - full) : rho;  // X0 moves by what is not rolled off
-  const ArcRate<T> rate = RateOfArc(p_, law_, at, z, there);
+  const ArcRate<T> rate = RateOfArc(p_, law_, at, z, there, along);
   if (variant.rolling == ThesisVariant::Rolling::kImplicit)
     load.slip_gain = 1.0 / (1.0 - beyond * rate.along_u0);
   load.contact_rate = load.slip_gain * beyond * (rate.rest - rate.along_u0 * z[kVx]);
@@ -283,27 +312,26 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
     load.place_x = rho * load.arc_x;
     load.place_y = rho * load.arc_y;
   }
-  if (DampsAlongArc()) AddViscousForce(at, softer, z, load);
+  if (DampsAlongArc()) AddViscousForce(softer, z, along.F, load);
   if (!IsElastic(law_) && variant.damping_rate != ThesisVariant::DampingRate::kHip) {  // M34
     T seen = w + load.u * load.contact_rate / load.l;
     if (variant.damping_rate == ThesisVariant::DampingRate::kDeflection)
-      seen -= p_.r * leg.cos * (rate.rest + rate.along_u0 * (load.contact_rate - z[kVx]));
+      seen -= p_.r * along.cos.value * (rate.rest + rate.along_u0 * (load.contact_rate - z[kVx]));
     load.damping_rate = (1.0 - p_.law_terms.tip) * seen + p_.law_terms.tip * w;
   }
   return load;
 }
 
-// M63: Rayleigh's function of the arc, and its force on the hip.
+// M63: Rayleigh's function of the arc, and its force on the hip; F along the arc and the chord.
 template <class T>
-void ExtendedLeg<T>::AddViscousForce(const LegConditions<T>& at, const T& softer, const T* z,
+void ExtendedLeg<T>::AddViscousForce(const T& softer, const T* z, const Tangent<T>& F,
                                      LegLoad<T>& load) const {
-  using S = Tangent<T>;
-  const S phi(load.phi, load.arc_x, load.arc_y);
-  const S l(load.l, load.u * (load.place_x - 1.0) / load.l,
-            (load.u * load.place_y + load.y) / load.l);
-  const S F = StaticsAt<S, T>(p_, law_, at.torque, {phi, l, S(softer)}).F;
+  const T l_x = load.u * (load.place_x - 1.0) / load.l;
+  const T l_y = (load.u * load.place_y + load.y) / load.l;
   const T stiffness = p_.E * p_.I / softer, per_N = p_.r * p_.r / stiffness;
-  const T f = per_N * F.value, f_x = per_N * F.rate[0], f_y = per_N * F.rate[1];
+  const T f = per_N * F.value;
+  const T f_x = per_N * (F.rate[0] * load.arc_x + F.rate[1] * l_x);
+  const T f_y = per_N * (F.rate[0] * load.arc_y + F.rate[1] * l_y);
   const double phi0 = Value(load.phi), f0 = Value(f);
   const elastica::Dissipation table = elastica::DissipationAt(phi0, f0);
   const auto lift = [&](const elastica::Derivatives<1>& d) {

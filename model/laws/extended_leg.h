@@ -5,9 +5,21 @@
 #include "model/hybrid/automaton.h"
 #include "model/hybrid/discrete_state.h"
 #include "model/laws/leg_load.h"
+#include "model/laws/tangent.h"
 #include "model/parameters.h"
 
 namespace hoplab {
+
+/// The force along the chord at an arc and a chord, with its slopes: where the search for it begins
+/// near by. F is NaN where none is known.
+struct NearForce {
+  double phi = 0.0, l = 0.0;
+  double F = std::numeric_limits<double>::quiet_NaN(), F_phi = 0.0, F_l = 0.0;
+
+  double At(double at_phi, double at_l) const {
+    return F + F_phi * (at_phi - phi) + F_l * (at_l - l);
+  }
+};
 
 /// A solution of the statics of an extended leg, with its slopes in u0 = z[contact] - z[x] and y:
 /// where the next search starts. u0 is NaN when only phi (and nearly sink) is known.
@@ -16,12 +28,16 @@ struct ExtendedRoot {
   double sink = 0.0;  // of the ground under the foot [m]
   double u0 = std::numeric_limits<double>::quiet_NaN(), y = 0.0;
   double phi_u0 = 0.0, phi_y = 0.0, sink_u0 = 0.0, sink_y = 0.0;
+  NearForce force = {};
 
   void Save(DiscreteState& to) const {
-    for (double value : {phi, sink, u0, y, phi_u0, phi_y, sink_u0, sink_y}) to.Put(value);
+    for (double value : {phi, sink, u0, y, phi_u0, phi_y, sink_u0, sink_y, force.phi, force.l,
+                         force.F, force.F_phi, force.F_l})
+      to.Put(value);
   }
   void Load(DiscreteState& from) {
-    for (double* value : {&phi, &sink, &u0, &y, &phi_u0, &phi_y, &sink_u0, &sink_y})
+    for (double* value : {&phi, &sink, &u0, &y, &phi_u0, &phi_y, &sink_u0, &sink_y, &force.phi,
+                          &force.l, &force.F, &force.F_phi, &force.F_l})
       *value = from.Take();
   }
 };
@@ -75,8 +91,7 @@ class ExtendedLeg {
   bool DampsAlongArc() const {
     return law_ == Law::kElastica && p_.law_terms.material_damping_active;
   }
-  void AddViscousForce(const LegConditions<T>& at, const T& softer, const T* z,
-                       LegLoad<T>& load) const;
+  void AddViscousForce(const T& softer, const T* z, const Tangent<T>& F, LegLoad<T>& load) const;
 
   Parameters<T> p_;
   Parameters<double> values_;

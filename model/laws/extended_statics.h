@@ -7,50 +7,11 @@
 
 #include "model/effects/effect.h"
 #include "model/laws/elastica/energy.h"
+#include "model/laws/tangent.h"
 #include "model/leg_compliance.h"
 #include "model/parameters.h"
 
 namespace hoplab {
-
-// A value and its rates of change in two directions, over a scalar that carries directions itself:
-// the second derivatives in the rates of M7 and M8.
-template <class T>
-struct Tangent {
-  T value;
-  std::array<T, 2> rate{T(0.0), T(0.0)};
-
-  Tangent(const T& v) : value(v) {}  // NOLINT: a constant is a tangent with rates 0
-  Tangent(const T& v, const T& first, const T& second) : value(v), rate{first, second} {}
-
-  friend Tangent operator+(const Tangent& a, const Tangent& b) {
-    return {a.value + b.value, a.rate[0] + b.rate[0], a.rate[1] + b.rate[1]};
-  }
-  friend Tangent operator-(const Tangent& a, const Tangent& b) {
-    return {a.value - b.value, a.rate[0] - b.rate[0], a.rate[1] - b.rate[1]};
-  }
-  friend Tangent operator*(const Tangent& a, const Tangent& b) {
-    return {a.value * b.value, a.rate[0] * b.value + a.value * b.rate[0],
-            a.rate[1] * b.value + a.value * b.rate[1]};
-  }
-  // A factor that does not move.
-  friend Tangent operator*(const T& a, const Tangent& b) {
-    return {a * b.value, a * b.rate[0], a * b.rate[1]};
-  }
-  friend Tangent operator*(const Tangent& a, const T& b) { return b * a; }
-  friend Tangent operator*(double a, const Tangent& b) requires(kJetWidth<T> > 0) {
-    return {a * b.value, a * b.rate[0], a * b.rate[1]};
-  }
-  friend Tangent operator/(const Tangent& a, const Tangent& b) {
-    const T q = a.value / b.value;
-    return {q, (a.rate[0] - q * b.rate[0]) / b.value, (a.rate[1] - q * b.rate[1]) / b.value};
-  }
-  friend Tangent sqrt(const Tangent& a) {
-    using std::sqrt;
-    const T root = sqrt(a.value), half = 0.5 / root;
-    return {root, half * a.rate[0], half * a.rate[1]};
-  }
-  friend double Value(const Tangent& a) { return hoplab::Value(a.value); }
-};
 
 // The k-th derivative of a function of one variable at x, given all of them at its value.
 inline double Lift(double, const double* derivatives, int k) { return derivatives[k]; }
@@ -152,6 +113,8 @@ struct Situation {
   S phi;     // contact arc [rad]
   S l;       // chord length [m]
   S softer;  // E at the start of the trial over E now
+  // Near the force that is sought, if one is known.
+  double F_near = std::numeric_limits<double>::quiet_NaN();
 };
 
 // The leg at an arc and a chord, in equilibrium or not.
@@ -237,13 +200,14 @@ template <class S, class P>
     out.tip_turn = out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + turn - out.cos;
     if (is_exact || terms.higher_order_active) {
       // M65: F from the chord, by Newton in values; two rounds more, their slope held, bring the
-      // directions in.
+      // directions in. Newton's error is squared at each round, so a small step is the last.
       const P blend = is_exact ? P(1.0 + terms.higher_order) : terms.higher_order;
       const S unit_f = at.softer * (2.0 * r * r * flex);  // f over F
       const double phi_now = Value(phi), per_N = Value(unit_f), now = Value(blend) * Value(r);
       const double least = elastica::kLoadBegin / elastica::LoadScale(phi_now) / per_N;
       const double most = elastica::kLoadEnd / elastica::LoadScale(phi_now) / per_N;
-      double F = Value(out.F), slope = 1.0;
+      constexpr double kLastStep = 1e-8;  // over the greatest force
+      double F = std::isnan(at.F_near) ? Value(out.F) : at.F_near, slope = 1.0;
       for (int round = 0; round < 30; ++round) {
         F = F < most ? (F > least ? F : least) : most;  // NaN is most
         const double f = per_N * F;
@@ -256,7 +220,7 @@ template <class S, class P>
             C0 + 2.0 * A0 * F + now * per_N * (2.0 * G[0][0] + f * (4.0 * G[0][1] + f * G[0][2]));
         const double step = miss / slope;
         F -= step;
-        if (!(std::abs(step) > 1e-13 * most)) break;
+        if (!(std::abs(step) > kLastStep * most)) break;
       }
       if (!elastica::InDomain(phi_now, per_N * F)) F = std::numeric_limits<double>::quiet_NaN();
       out.F = S(P(F));
