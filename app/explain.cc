@@ -61,7 +61,7 @@ constexpr std::array kLawAdvice = {
     LawAdvice{
         Law::kRobot,
         "Each leg is an elastic arc clamped to its motor: kappa^2 = 1 + 2 f_x (cos psi_0 - cos "
-        "psi) + 2 f_y (sin psi - sin psi_0) along it, kappa in 1/r, f = F r^2/(E I) (M66); "
+        "psi) + 2 f_y (sin psi - sin psi_0) along it, kappa in 1/r, f = F r^2/(E I) (M80); "
         "body, motors and feet as M69 to M76.",
         "For machines with several legs and a body that pitches, as RHex. Free E_1, E_2 to "
         "ask which leg is soft; fix leg_damping if the traces are short."},

@@ -278,7 +278,7 @@ Observation<T> Robot<T>::Observe(Mode mode, const T& t, const T* z) const {
     const T fx = load.fx + load.damped_x, fy = load.fy + load.damped_y;
     force_x += fx;
     force_y += fy;
-    // X0 is where the arc would begin to be laid down (M67); the contact lies its length on.
+    // X0 is where the arc would begin to be laid down (M81); the contact lies its length on.
     T foot = z[kX] + ClampOf(hip).x + load.lead;
     if (leg.stance == Stance::kRolling) foot += p_.r * load.arc;
     seen[OfLeg(Channel::kLegContactX1, i)] = foot;

@@ -78,7 +78,7 @@ class Robot final : public HybridSystem<T> {
   Hip ClampOf(const Hip& hip) const;
   struct Frame;  // sine and cosine of the body's pitch over the ground
   Hip HipOf(const Frame& frame, int leg, const T* z) const;
-  ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& hip, const T* z) const;
+  ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const;
   static int TurnsOf(double angle);
   T Reach(const T& angle) const;
   T Command(int leg, const T& t, const T* z) const;
@@ -86,9 +86,9 @@ class Robot final : public HybridSystem<T> {
   void FindLimits(double t, const T* z);
   void ListGuards(Mode mode);
   Mode ModeNow() const;
-  std::optional<Outcome> Land(int leg, T* z);
-  void BeginOnFoot(int leg, T* z);
-  void LiftOff(int leg, T* z);
+  std::optional<Outcome> Land(int i, T* z);
+  void BeginOnFoot(int i, T* z);
+  void LiftOff(int i, T* z);
 
   Parameters<T> p_;
   RobotParameters<T> robot_;

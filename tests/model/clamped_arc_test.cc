@@ -14,7 +14,7 @@
 
 #include "tests/support/elastica.h"
 
-// The clamped leg, M66-M71, against the elastica's differential equation.
+// The clamped leg, M68-M71, M80, M81, against the elastica's differential equation.
 
 namespace hoplab {
 namespace {

@@ -45,8 +45,8 @@ struct ClampedLoad {
   T slip{0.0}, yield{1.0};
 };
 
-/// A leg clamped at its hip (M66 to M71): the exact inextensible elastic arc from hip to contact
-/// under a force of any direction. Rolling, on its toe, or sliding on either.
+/// A leg clamped at its hip (M68 to M71, M80, M81): the exact inextensible elastic arc from hip to
+/// contact under a force of any direction. Rolling, on its toe, or sliding on either.
 template <class T>
 class ClampedArc {
  public:
@@ -79,7 +79,7 @@ class ClampedArc {
     root_.Each([&](double& v) { v = from.Take(); });
   }
 
-  /// M67 to M71; the slip velocity (M70) where `with_slip`, of a sliding foot.
+  /// M81, M68 to M71; the slip velocity (M70) where `with_slip`, of a sliding foot.
   ClampedLoad<T> At(const Footing& foot, const ClampedPlace<T>& place, bool damping = true,
                     bool with_slip = false) const {
     using std::cos;
@@ -135,7 +135,7 @@ class ClampedArc {
     return load;
   }
 
-  /// Strain energy [J] of what At gives at that place: U of M67.
+  /// Strain energy [J] of what At gives at that place: U of M81.
   T StrainEnergy(const Footing& foot, const ClampedPlace<T>& place) const {
     const ClampedLoad<T> load = At(foot, place, false);
     const clamped::Tangents at(Value(load.tip), Value(place.base));
@@ -193,7 +193,7 @@ class ClampedArc {
       const_cast<Root*>(this)->Each(act);
     }
   };
-  // A root of M67 but for the last correction, and the answer of the leg there.
+  // A root of M81 but for the last correction, and the answer of the leg there.
   struct Solution {
     clamped::Tangents at;
     double fx, fy;

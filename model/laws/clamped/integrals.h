@@ -7,7 +7,7 @@
 namespace hoplab::clamped {
 
 /// Points of the Gauss-Legendre rule along the arc. The error of the integrals is 1e-14 at the
-/// loads of a robot that walks and 1e-8 where the arc is bent nearly straight (M66; the test prints
+/// loads of a robot that walks and 1e-8 where the arc is bent nearly straight (M80; the test prints
 /// a table).
 inline constexpr int kNodes = 16;
 /// Points along the arc for the dissipation of the material: 5e-9 of it at the loads of a robot
@@ -30,7 +30,7 @@ struct Tangents {
   Tangents(double tip, double base);
 };
 
-/// The integrals of M66 over the arc: of 1, cos, sin over kappa, and of 1, cos, sin, cos^2, cos
+/// The integrals of M80 over the arc: of 1, cos, sin over kappa, and of 1, cos, sin, cos^2, cos
 /// sin, sin^2 over kappa^3.
 struct Integrals {
   double one, c, s;
