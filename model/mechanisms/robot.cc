@@ -22,6 +22,11 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
   gravity_y_ = weight.gravity_y;
   fall_height_ =
       p_.fall_height == p_.fall_height ? p_.fall_height : robot_detail::kLowestHip * Value(p_.r);
+  using std::cos;
+  using std::sin;
+  clamp_ = robot_.clamp / p_.r;
+  cos_clamp_ = cos(clamp_);
+  sin_clamp_ = sin(clamp_);
   for (int i = 0; i < legs_; ++i) {
     const T& E = robot_.own_moduli ? robot_.E[i] : p_.E;
     leg_[i].arc =
@@ -51,14 +56,19 @@ typename Robot<T>::Hip Robot<T>::ClampOf(const Hip& hip) const {
   using std::cos;
   using std::sin;
   if (IsZero(robot_.clamp)) return hip;
-  const T held = robot_.clamp / p_.r, end = hip.angle + held;
-  const T x = p_.r * (sin(hip.angle) - sin(end)), y = p_.r * (cos(end) - cos(hip.angle));
-  return {hip.x + x, hip.y + y, hip.vx - hip.rate * y, hip.vy + hip.rate * x, end, hip.rate};
+  const T s = p_.r * sin(hip.angle), c = p_.r * cos(hip.angle);
+  const T x = s - (s * cos_clamp_ + c * sin_clamp_), y = (c * cos_clamp_ - s * sin_clamp_) - c;
+  return {hip.x + x,          hip.y + y, hip.vx - hip.rate * y, hip.vy + hip.rate * x,
+          hip.angle + clamp_, hip.rate};
 }
 
 template <class T>
 ClampedPlace<T> Robot<T>::PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const {
-  const Hip hip = ClampOf(of);
+  return PlaceAt(leg, i, ClampOf(of), z);
+}
+
+template <class T>
+ClampedPlace<T> Robot<T>::PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const {
   return {z[Contact(i)] - z[kX] - hip.x,
           z[kY] + hip.y,
           robot_detail::kPi - hip.angle + 2.0 * robot_detail::kPi * leg.turns,
@@ -113,9 +123,9 @@ void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
     T on_hip(0.0);
     if (IsDown(leg)) {
       const Hip hip = HipOf(frame, i, z);
-      const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z));
-      const T fx = load.fx + load.damped_x, fy = load.fy + load.damped_y;
       const Hip end = ClampOf(hip);
+      const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceAt(leg, i, end, z));
+      const T fx = load.fx + load.damped_x, fy = load.fy + load.damped_y;
       on_hip = load.moment + load.damped_moment + (end.x - hip.x) * fy - (end.y - hip.y) * fx;
       force_x += fx;
       force_y += fy;

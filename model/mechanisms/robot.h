@@ -79,6 +79,8 @@ class Robot final : public HybridSystem<T> {
   struct Frame;  // sine and cosine of the body's pitch over the ground
   Hip HipOf(const Frame& frame, int leg, const T* z) const;
   ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const;
+  /// The same from the end of the clamp.
+  ClampedPlace<T> PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const;
   static int TurnsOf(double angle);
   T Reach(const T& angle) const;
   T Command(int leg, const T& t, const T* z) const;
@@ -94,6 +96,7 @@ class Robot final : public HybridSystem<T> {
   RobotParameters<T> robot_;
   ActiveEffects<T> effects_;
   int legs_;
+  T clamp_, cos_clamp_, sin_clamp_;  // the angle the clamp spans [rad]
   T gravity_x_, gravity_y_;
   bool has_body_force_;
   double fall_height_;
