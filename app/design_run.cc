@@ -47,7 +47,7 @@ class Run {
 
   // ---- what to look for
   void ByTask() {
-    FitProblem problem = MakeProblem(dataset_, options_.problem);
+    FitProblem problem = MakeProblem(dataset_, WithLegsAlike(options_.problem));
     run_.separates = options_.sharpen.empty();
     const std::vector<Candidate> causes = Causes(problem);
     const int parameter = run_.separates ? 0 : Place(problem);
@@ -84,7 +84,8 @@ class Run {
     std::vector<Candidate> causes;
     for (const std::string& name : options_.causes) {
       const Effect& effect = ResolveEffect(name, "--cause");
-      CheckApplies(effect, problem.law, problem.leg_mass(), "--cause", problem.inputs());
+      CheckApplies(effect, problem.law, problem.leg_mass(), "--cause", problem.inputs(),
+                   problem.robot_legs());
       problem.known.CheckOpen(effect, "--cause");
       const bool again = std::any_of(causes.begin(), causes.end(),
                                      [&](const Candidate& c) { return c.effect == &effect; });
@@ -148,7 +149,7 @@ class Run {
   }
 
   void ByDiagnosis() {
-    CheckSpace(MakeProblem(dataset_, options_.problem));
+    CheckSpace(MakeProblem(dataset_, WithLegsAlike(options_.problem)));
     DiagnosisOptions options;
     options.problem = options_.problem;
     options.fit = options_.fit;

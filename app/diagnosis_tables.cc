@@ -185,13 +185,14 @@ std::vector<AssessedModel> ModelsOf(const Diagnosis& d) {
 }
 
 std::string Trajectories(const Diagnosis& d) {
-  CsvText csv(TrajectoryHeader(TrialLabels(true)));
+  CsvText csv(
+      TrajectoryHeader(TrialLabels(true), RobotLegsOf(d.problem.trials.front().parameters)));
   for (const AssessedModel& model : ModelsOf(d)) AddTrialTrajectories(model, csv);
   return csv.text();
 }
 
 std::string Events(const Diagnosis& d) {
-  CsvText csv(EventHeader(TrialLabels(true)));
+  CsvText csv(EventHeader(TrialLabels(true), RobotLegsOf(d.problem.trials.front().parameters)));
   for (const AssessedModel& model : ModelsOf(d)) AddTrialEvents(model, csv);
   return csv.text();
 }

@@ -29,6 +29,9 @@ constexpr std::array kAdvice = {
     EffectAdvice{"clock_scale",
                  "Record a second clock, or a free fall: its g tells the true second.",
                  "boom_inertia, gravity_scale, sensor_scale_y"},
+    EffectAdvice{"com_offset",
+                 "Balance the robot on an edge across its body: the centre of mass lies above it.",
+                 ""},
     EffectAdvice{"constant_force",
                  "Hop both ways: a draught or a cable pulls the same way in both.", "air_drag"},
     EffectAdvice{"foot_coulomb_friction",
@@ -68,6 +71,10 @@ constexpr std::array kAdvice = {
     EffectAdvice{"hip_viscous_friction",
                  "Turn the joint at several speeds without power: the torque grows with the speed.",
                  "touchdown_angle_bias, torque_bias, leg_mass, hip_coulomb_friction"},
+    EffectAdvice{"leg_damping_1", "Pluck each leg: this one dies out in fewer periods.", ""},
+    EffectAdvice{"leg_damping_2", "Pluck each leg: this one dies out in fewer periods.", ""},
+    EffectAdvice{"leg_damping_3", "Pluck each leg: this one dies out in fewer periods.", ""},
+    EffectAdvice{"leg_damping_4", "Pluck each leg: this one dies out in fewer periods.", ""},
     EffectAdvice{"leg_hardening",
                  "Press the leg slowly in a testing machine: the force over the deflection curves.",
                  ""},
@@ -84,8 +91,40 @@ constexpr std::array kAdvice = {
                  "leg_hysteresis"},
     EffectAdvice{"leg_quadratic_damping",
                  "Pluck the leg at two amplitudes: the larger one dies out in fewer periods.", ""},
+    EffectAdvice{"leg_stiffness_1",
+                 "Press each leg on a balance by the same way and read its load; look at this leg "
+                 "and its clamp for a crack.",
+                 ""},
+    EffectAdvice{"leg_stiffness_2",
+                 "Press each leg on a balance by the same way and read its load; look at this leg "
+                 "and its clamp for a crack.",
+                 ""},
+    EffectAdvice{"leg_stiffness_3",
+                 "Press each leg on a balance by the same way and read its load; look at this leg "
+                 "and its clamp for a crack.",
+                 ""},
+    EffectAdvice{"leg_stiffness_4",
+                 "Press each leg on a balance by the same way and read its load; look at this leg "
+                 "and its clamp for a crack.",
+                 ""},
     EffectAdvice{"magnus_lift",
                  "Mark the ball and film its spin; thrown without spin it flies a parabola.", ""},
+    EffectAdvice{
+        "motor_gain",
+        "Hang a known weight on a lever at a motor and read the torque it is told to give.", ""},
+    EffectAdvice{
+        "motor_gain_1",
+        "Hang a known weight on a lever at this motor and read the torque it is told to give.", ""},
+    EffectAdvice{
+        "motor_gain_2",
+        "Hang a known weight on a lever at this motor and read the torque it is told to give.", ""},
+    EffectAdvice{
+        "motor_gain_3",
+        "Hang a known weight on a lever at this motor and read the torque it is told to give.", ""},
+    EffectAdvice{
+        "motor_gain_4",
+        "Hang a known weight on a lever at this motor and read the torque it is told to give.", ""},
+    EffectAdvice{"pitch_inertia_scale", "Hang the robot by a hip, let it swing and time it.", ""},
     EffectAdvice{"rest_length_step",
                  "If the robot pushes, this is its work; if it does not, look for a spring that "
                  "latches or slips.",

@@ -28,8 +28,8 @@ std::string SentenceOf(const Effect& effect) {
 
 std::vector<Law> AllLaws() {
   std::vector<Law> laws;
-  for (const MechanismKind mechanism :
-       {MechanismKind::kCLeg, MechanismKind::kStraightLeg, MechanismKind::kBall}) {
+  for (const MechanismKind mechanism : {MechanismKind::kCLeg, MechanismKind::kStraightLeg,
+                                        MechanismKind::kBall, MechanismKind::kRobot}) {
     const std::span<const Law> of = LawsOf(mechanism);
     laws.insert(laws.end(), of.begin(), of.end());
   }
@@ -54,6 +54,7 @@ std::string RestrictionOf(const Effect& effect) {
   if (info.needs_inputs != 0) return "what a log drives";
   if (info.for_legs && info.for_ball) return "";
   if (info.massless_leg_only) return "massless legs only";
+  if (info.for_robot && !info.for_legs && !info.for_ball) return "robot only";
   return info.for_legs ? "legs only" : "ball only";
 }
 

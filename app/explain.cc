@@ -58,6 +58,13 @@ constexpr std::array kLawAdvice = {
               "F = k (l0 - l) - d dl/dt, k [N/m], d [N s/m], contact fixed in stance.",
               "The spring-loaded inverted pendulum of the literature: the mechanism to test a "
               "controller or an analysis on, and a leg of telescopes or coil springs."},
+    LawAdvice{
+        Law::kRobot,
+        "Each leg is an elastic arc clamped to its motor: kappa^2 = 1 + 2 f_x (cos psi_0 - cos "
+        "psi) + 2 f_y (sin psi - sin psi_0) along it, kappa in 1/r, f = F r^2/(E I) (M80); "
+        "body, motors and feet as M69 to M76.",
+        "For machines with several legs and a body that pitches, as RHex. Free E_1, E_2 to "
+        "ask which leg is soft; fix leg_damping if the traces are short."},
     LawAdvice{Law::kBall,
               "vy+ = -restitution vy-, vx+ = (1 - tangential_loss) vx- at each bounce; both are "
               "plain numbers.",

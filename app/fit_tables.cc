@@ -49,13 +49,14 @@ std::string Hops(const FitRun& run) {
 }
 
 std::string Events(const FitRun& run) {
-  CsvText csv(EventHeader(TrialLabels(false)));
+  CsvText csv(EventHeader(TrialLabels(false), RobotLegsOf(run.problem.trials.front().parameters)));
   AddTrialEvents({&run.problem, &run.fit.shared, &run.trials, ""}, csv);
   return csv.text();
 }
 
 std::string Trajectories(const FitRun& run) {
-  CsvText csv(TrajectoryHeader(TrialLabels(false)));
+  CsvText csv(
+      TrajectoryHeader(TrialLabels(false), RobotLegsOf(run.problem.trials.front().parameters)));
   AddTrialTrajectories({&run.problem, &run.fit.shared, &run.trials, ""}, csv);
   return csv.text();
 }

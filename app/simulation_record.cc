@@ -72,6 +72,7 @@ SensitivityDirection ResolveDirection(const std::string& name, MechanismKind mec
 std::vector<std::pair<double, double>> ApexEnergies(const SimulationRequest& request,
                                                     const Trajectory& run) {
   std::vector<std::pair<double, double>> energies;
+  if (request.law == Law::kRobot) return energies;  // an apex does not tell pitch and motors
   const auto add = [&](double time, const std::vector<double>& s) {
     const std::array<double, 5> state = {s[0], s[1], s[2], s[3], 0.0};
     energies.emplace_back(time, Energy(request, Mode::kFlight, state));

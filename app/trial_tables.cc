@@ -49,7 +49,8 @@ void AddTrialTrajectories(const AssessedModel& model, CsvText& csv) {
 void AddTrialEvents(const AssessedModel& model, CsvText& csv) {
   for (std::size_t i = 0; i < model.trials->size(); ++i) {
     AddEventRows((*model.trials)[i].trajectory, LabelsOf(model, i),
-                 model.problem->trials[i].begin_s, csv);
+                 model.problem->trials[i].begin_s, csv,
+                 RobotLegsOf(model.problem->trials[i].parameters));
   }
 }
 

@@ -35,6 +35,18 @@ const std::vector<NeededValue>& NeededValues(MechanismType type) {
       {"ball.restitution", "speed after over speed before a bounce, the start of the fit"},
       {"ball.tangential_loss", "share of the speed along the ground lost in a bounce: 0.1 will do"},
   };
+  static const std::vector<NeededValue> kRobot = {
+      {"body_mass_kg", "all of the robot: weigh it"},
+      {"gravity_m_per_s2", "9.81, less under a counterweight"},
+      {"pitch_inertia_kg_m2", "about the centre of mass: swing it from a hip and time it"},
+      {"motor.rotor_inertia_kg_m2", "of the rotor, times the square of the gear: a data sheet"},
+      {"motor.kp_N_m_per_rad", "of the controller that holds the motor's angle"},
+      {"motor.kd_N_m_s_per_rad", "likewise"},
+      {"leg.rest_radius_m", "half the distance from hip to toe, unloaded"},
+      {"leg.E_Pa", "of the strip, the start of the fit: a data sheet will do"},
+      {"leg.material_damping_s", "the start of the fit: 0.0004 will do"},
+  };
+  if (type == MechanismType::kRobot) return kRobot;
   return type == MechanismType::kCLeg ? kCLeg : type == MechanismType::kBall ? kBall : kStraight;
 }
 
@@ -43,8 +55,8 @@ namespace {
 std::optional<MechanismType> TypeOf(const YamlNode& mechanism) {
   const YamlNode* type = mechanism.Find("type");
   if (type == nullptr) return std::nullopt;
-  for (const MechanismType t :
-       {MechanismType::kCLeg, MechanismType::kStraightLeg, MechanismType::kBall})
+  for (const MechanismType t : {MechanismType::kCLeg, MechanismType::kStraightLeg,
+                                MechanismType::kBall, MechanismType::kRobot})
     if (type->text == MechanismTypeName(t)) return t;
   return std::nullopt;
 }
@@ -73,7 +85,8 @@ std::vector<BlankValue> FindBlankValues(const YamlNode& dataset) {
     if (IsBlank(node)) blanks.push_back({node->place, "mechanism." + needed.key, needed.hint});
   }
   const YamlNode* trials = dataset.Find("trials");
-  if (trials == nullptr || *type == MechanismType::kBall) return blanks;
+  if (trials == nullptr || *type == MechanismType::kBall || *type == MechanismType::kRobot)
+    return blanks;
   for (std::size_t i = 0; i < trials->items.size(); ++i) {
     const YamlNode* angle = trials->items[i].Find("touchdown_angle_deg");
     if (IsBlank(angle))

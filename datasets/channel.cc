@@ -26,6 +26,19 @@ const ChannelRow& Row(ChannelId id) {
       {"imu_ax_m_per_s2", Within(1e6, "m/s^2")},
       {"imu_ay_m_per_s2", Within(1e6, "m/s^2")},
       {"contact_x_m", Within(1e6, "m")},
+      {"body_pitch_rad", Within(1e3, "rad")},
+      {"leg_angle_1_rad", Within(1e6, "rad")},
+      {"leg_angle_2_rad", Within(1e6, "rad")},
+      {"leg_angle_3_rad", Within(1e6, "rad")},
+      {"leg_angle_4_rad", Within(1e6, "rad")},
+      {"hip_torque_1_N_m", Within(1e9, "N m")},
+      {"hip_torque_2_N_m", Within(1e9, "N m")},
+      {"hip_torque_3_N_m", Within(1e9, "N m")},
+      {"hip_torque_4_N_m", Within(1e9, "N m")},
+      {"contact_1", NonNegative(1, "")},
+      {"contact_2", NonNegative(1, "")},
+      {"contact_3", NonNegative(1, "")},
+      {"contact_4", NonNegative(1, "")},
   }};
   return kRows[static_cast<std::size_t>(id)];
 }

@@ -15,6 +15,8 @@ double TouchdownHeight(const MechanismSpec& mechanism, double touchdown_angle_ra
       return mechanism.straight_leg.rest_length_m * cosine;
     case MechanismType::kBall:
       return mechanism.ball.radius_m;
+    case MechanismType::kRobot:
+      break;  // each of its legs has its own
   }
   return std::nan("");
 }

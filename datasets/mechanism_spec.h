@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "base/thesis_variant.h"
 
@@ -9,7 +10,7 @@ namespace hoplab {
 // What a dataset or a scenario says about the hopper, in SI units and radians. Plain values: the
 // simulator makes its own mechanism from them.
 
-enum class MechanismType { kCLeg, kStraightLeg, kBall };
+enum class MechanismType { kCLeg, kStraightLeg, kBall, kRobot };
 
 /// When a leg leaves the ground: at zero chord force, or when it is back at its rest length.
 enum class LiftoffSpec { kZeroForce, kRestLength };
@@ -53,8 +54,37 @@ struct PlacementSpec {
   bool operator==(const PlacementSpec&) const = default;
 };
 
-/// One mechanism. Of `c_leg`, `straight_leg` and `ball` only the one that `type` names means
-/// anything; the others keep their defaults.
+/// One leg of a robot, hindmost first: where its hip is in the body frame, and its own modulus
+/// where it has one; absent: that of `leg`.
+struct RobotLegSpec {
+  double hip_x_m = 0;
+  double hip_y_m = 0;
+  std::optional<double> E_Pa;
+  bool operator==(const RobotLegSpec&) const = default;
+};
+
+/// Body, motors and legs of a robot; all legs are cut from one strip.
+struct RobotSpec {
+  double pitch_inertia_kg_m2 = 0;  // about the centre of mass
+  double com_x_m = 0;              // centre of mass in the body frame
+  double com_y_m = 0;
+  std::optional<double> friction;  // under the feet; absent: they hold
+  std::optional<double> pitch_limit_rad;
+  double rotor_inertia_kg_m2 = 0;  // reflected to the hip, on the relative speed
+  double kp_N_m_per_rad = 0;
+  double kd_N_m_s_per_rad = 0;
+  std::optional<double> torque_limit_N_m;
+  double rest_radius_m = 0;
+  double E_Pa = 0;
+  double second_moment_m4 = 0;
+  double material_damping_s = 0;  // retardation time
+  double clamp_m = 0;             // length of each leg that its hub holds rigid
+  std::vector<RobotLegSpec> legs;
+  bool operator==(const RobotSpec&) const = default;
+};
+
+/// One mechanism. Of `c_leg`, `straight_leg`, `ball` and `robot` only the one that `type` names
+/// means anything; the others keep their defaults.
 struct MechanismSpec {
   MechanismType type = MechanismType::kCLeg;
   double body_mass_kg = 0;
@@ -68,7 +98,21 @@ struct MechanismSpec {
   CLegSpec c_leg;
   StraightLegSpec straight_leg;
   BallSpec ball;
+  RobotSpec robot;
   bool operator==(const MechanismSpec&) const = default;
+};
+
+/// What the motors of a robot follow: an angle each, locked or held by its controller, or a clock.
+struct MotorsSpec {
+  enum class Kind { kLocked, kHeld, kClock };
+  Kind kind = Kind::kHeld;
+  std::vector<double> angles_rad;  // locked, held: one a leg
+  double period_s = 0;             // clock
+  double duty = 0;
+  double sweep_rad = 0;
+  double offset_rad = 0;
+  std::vector<double> phases;  // one a leg
+  bool operator==(const MotorsSpec&) const = default;
 };
 
 /// Hip torque in stance, kp (v_des - vx), clipped to +-torque_limit where there is one (M15).
@@ -76,6 +120,7 @@ struct ControllerSpec {
   double kp_N_s = 0;
   double v_des_m_per_s = 0;
   std::optional<double> torque_limit_N_m;
+  std::optional<MotorsSpec> motors;  // of a robot, which has none of the others
   bool operator==(const ControllerSpec&) const = default;
 };
 
@@ -91,6 +136,8 @@ struct StateSpec {
   double vy_m_per_s = 0;
   std::optional<double> contact_x_m;  // the ground that carries the leg; of a start in stance
   StartMode mode = StartMode::kFlight;
+  std::optional<double> pitch_rad;  // of a robot's body, nose up positive
+  std::optional<double> pitch_rate_rad_per_s;
   bool operator==(const StateSpec&) const = default;
 };
 

@@ -8,6 +8,7 @@
 #include "base/input_error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "datasets/read_robot.h"
 #include "datasets/read_spec.h"
 #include "datasets/text_file.h"
 #include "datasets/touchdowns.h"
@@ -149,9 +150,10 @@ void ReadTouchdownAngles(const YamlCursor& item, Trial& trial) {
     return;
   }
   const Kind kind = angle ? angle->node().kind : Kind::kScalar;
-  if (type != MechanismType::kBall && kind == Kind::kSequence) {
+  const bool has_angle = type != MechanismType::kBall && type != MechanismType::kRobot;
+  if (has_angle && kind == Kind::kSequence) {
     ReadAngleList(*angle, trial);
-  } else if (type != MechanismType::kBall && kind == Kind::kMap) {
+  } else if (has_angle && kind == Kind::kMap) {
     angle->AllowOnly({"from"});
     angle->Required("from", "leg_angle").Choice({"leg_angle"});
     trial.touchdown_from_leg_angle = true;
@@ -159,8 +161,10 @@ void ReadTouchdownAngles(const YamlCursor& item, Trial& trial) {
     trial.touchdown_angle_rad = ReadTouchdownAngle(item, type);
   }
   if (!sigma) return;
-  if (type == MechanismType::kBall)
-    sigma->FailAtKey("a ball has no leg that could touch down at an angle", "Remove it.");
+  if (!has_angle)
+    sigma->FailAtKey(std::string("a ") + MechanismTypeName(type) +
+                         " has no leg that could touch down at an angle of its own",
+                     "Remove it.");
   trial.touchdown_angle_sigma_rad = DegToRad(sigma->Number(Positive(90, "deg")));
 }
 
@@ -209,17 +213,21 @@ void CheckDriven(const YamlCursor& root, const Scenario& scenario) {
   Trial trial;
   trial.mechanism = scenario.mechanism;
   trial.controller = scenario.controller;
+  trial.initial = scenario.initial;
   for (const ScenarioInput& input : scenario.inputs) trial.inputs.push_back(input.spec);
   CheckDriven(root, trial);
 }
 
 void CheckDriven(const YamlCursor& item, const Trial& trial) {
+  CheckMotors(item, trial.mechanism, trial.controller, trial.initial);
   const std::string path = item.key_path().empty() ? "" : item.key_path() + ".";
   const auto fail = [&](const InputSpec& input, const std::string& rule,
                         const std::string& remedy) {
     throw InputError({input.origin.place, path + "inputs." + InputName(input.id), rule, remedy});
   };
   for (const InputSpec& input : trial.inputs) {
+    if (trial.mechanism.type == MechanismType::kRobot)
+      fail(input, "a robot's motors follow its controller", "Remove it.");
     const bool of_leg = input.id == InputId::kHipTorque || input.id == InputId::kLegAngle;
     if (of_leg && trial.mechanism.type == MechanismType::kBall)
       fail(input, "a ball has no leg to drive", "Remove it.");

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "datasets/read_record.h"
+#include "datasets/read_robot.h"
 #include "datasets/read_spec.h"
 #include "datasets/text_file.h"
 #include "datasets/yaml_cursor.h"
@@ -118,7 +119,8 @@ void ReadAngles(const YamlCursor& owner, MechanismType type, double* angle,
                 std::vector<double>* angles) {
   const std::optional<YamlCursor> given = owner.Optional("touchdown_angle_deg");
   angles->clear();
-  if (!given || given->node().kind != Kind::kSequence || type == MechanismType::kBall) {
+  if (!given || given->node().kind != Kind::kSequence || type == MechanismType::kBall ||
+      type == MechanismType::kRobot) {
     *angle = ReadTouchdownAngle(owner, type);
     return;
   }
@@ -134,6 +136,8 @@ std::optional<double> ReadStartAngle(const YamlCursor& owner, const Scenario& sc
   const MechanismType type = scenario.mechanism.type;
   if (type == MechanismType::kBall)
     given->Fail("is the angle of a leg, and a ball has none", "Remove it.");
+  if (type == MechanismType::kRobot)
+    given->Fail("is the angle of a hopper's leg; a robot's follow its controller", "Remove it.");
   if (!scenario.touchdown_angles_rad.empty() || DrivesAngle(scenario.inputs))
     given->Fail("is told by touchdown_angle_deg or the log, which say every landing's",
                 "Remove one of them.");
@@ -335,6 +339,7 @@ GenerateTrial ReadGenerateTrial(const YamlCursor& item, const YamlNode& root,
     ReadAngles(item, trial.mechanism.type, &trial.touchdown_angle_rad, &trial.touchdown_angles_rad);
   trial.controller = ReadOver(item, "controller", root.Find("controller"), ReadController);
   trial.initial = ReadOver(item, "initial", root.Find("initial"), ReadState);
+  CheckMotors(item, trial.mechanism, trial.controller, trial.initial);
   if (!trial.initial)
     item.Fail("must have an initial state, here or in the scenario", "Add initial: {x_m: 0, ...}.");
   return trial;

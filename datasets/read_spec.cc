@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "datasets/key_advice.h"
+#include "datasets/read_robot.h"
 
 namespace hoplab {
 namespace {
@@ -166,7 +167,7 @@ YamlNode MergeMechanism(const YamlNode& base, const YamlNode& overlay) {
 }  // namespace
 
 const char* MechanismTypeName(MechanismType type) {
-  static const char* const kNames[] = {"c_leg", "straight_leg", "ball"};
+  static const char* const kNames[] = {"c_leg", "straight_leg", "ball", "robot"};
   return kNames[static_cast<std::size_t>(type)];
 }
 
@@ -174,10 +175,29 @@ const char* LiftoffName(LiftoffSpec rule) {
   return rule == LiftoffSpec::kZeroForce ? "zero_force" : "rest_length";
 }
 
+namespace {
+
+MechanismSpec ReadRobotMechanism(const YamlCursor& cursor) {
+  Names known = {"type", "body_mass_kg", "gravity_m_per_s2"};
+  known.insert(known.end(), RobotKeys().begin(), RobotKeys().end());
+  cursor.AllowOnly(known);
+  MechanismSpec mechanism;
+  mechanism.type = MechanismType::kRobot;
+  mechanism.body_mass_kg = cursor.RequiredNumber("body_mass_kg", Positive(1e6, "kg"));
+  mechanism.gravity_m_per_s2 = cursor.RequiredNumber("gravity_m_per_s2", Positive(1e3, "m/s^2"));
+  mechanism.fall_height_m = cursor.OptionalNumber("fall_height_m", NonNegative(100, "m"));
+  mechanism.robot = ReadRobot(cursor);
+  return mechanism;
+}
+
+}  // namespace
+
 MechanismSpec ReadMechanism(const YamlCursor& cursor) {
   MechanismSpec mechanism;
-  mechanism.type = static_cast<MechanismType>(cursor.Required("type", "c_leg, straight_leg or ball")
-                                                  .Choice({"c_leg", "straight_leg", "ball"}));
+  mechanism.type =
+      static_cast<MechanismType>(cursor.Required("type", "c_leg, straight_leg, ball or robot")
+                                     .Choice({"c_leg", "straight_leg", "ball", "robot"}));
+  if (mechanism.type == MechanismType::kRobot) return ReadRobotMechanism(cursor);
   const bool is_ball = mechanism.type == MechanismType::kBall;
   const std::string block_key = is_ball ? "ball" : "leg";
   Names known = {"type", "body_mass_kg", "gravity_m_per_s2", "guide", block_key};
@@ -200,6 +220,8 @@ MechanismSpec ReadMechanism(const YamlCursor& cursor) {
     case MechanismType::kBall:
       mechanism.ball = ReadBall(block);
       break;
+    case MechanismType::kRobot:
+      break;  // read above
   }
   if (!is_ball) {
     mechanism.variant = ReadVariant(block, mechanism.type);
@@ -209,8 +231,12 @@ MechanismSpec ReadMechanism(const YamlCursor& cursor) {
 }
 
 ControllerSpec ReadController(const YamlCursor& cursor) {
-  cursor.AllowOnly({"kp_N_s", "v_des_m_per_s", "torque_limit_N_m"});
   ControllerSpec controller;
+  if (cursor.Optional("type")) {
+    controller.motors = ReadMotors(cursor);
+    return controller;
+  }
+  cursor.AllowOnly({"kp_N_s", "v_des_m_per_s", "torque_limit_N_m"});
   controller.kp_N_s = cursor.RequiredNumber("kp_N_s", NonNegative(1e6, "N s"));
   controller.v_des_m_per_s = cursor.RequiredNumber("v_des_m_per_s", Within(1e3, "m/s"));
   controller.torque_limit_N_m = cursor.OptionalNumber("torque_limit_N_m", Positive(1e6, "N m"));
@@ -218,11 +244,14 @@ ControllerSpec ReadController(const YamlCursor& cursor) {
 }
 
 StateSpec ReadState(const YamlCursor& cursor) {
-  cursor.AllowOnly({"x_m", "y_m", "vx_m_per_s", "vy_m_per_s", "contact_x_m", "mode"});
+  cursor.AllowOnly({"x_m", "y_m", "vx_m_per_s", "vy_m_per_s", "contact_x_m", "mode", "pitch_rad",
+                    "pitch_rate_rad_per_s"});
   StateSpec state = {cursor.RequiredNumber("x_m", Within(1e6, "m")),
                      cursor.RequiredNumber("y_m", Within(1e6, "m")),
                      cursor.RequiredNumber("vx_m_per_s", Within(1e4, "m/s")),
                      cursor.RequiredNumber("vy_m_per_s", Within(1e4, "m/s"))};
+  state.pitch_rad = cursor.OptionalNumber("pitch_rad", Within(1e3, "rad"));
+  state.pitch_rate_rad_per_s = cursor.OptionalNumber("pitch_rate_rad_per_s", Within(1e4, "rad/s"));
   state.contact_x_m = cursor.OptionalNumber("contact_x_m", Within(1e6, "m"));
   const std::optional<YamlCursor> mode = cursor.Optional("mode");
   if (mode) state.mode = static_cast<StartMode>(mode->Choice(StartModeNames()));
@@ -254,12 +283,18 @@ const std::vector<std::string>& StartModeNames() {
 }
 
 StateSpec ReadStateSigma(const YamlCursor& cursor) {
-  cursor.AllowOnly({"x_m", "y_m", "vx_m_per_s", "vy_m_per_s", "contact_x_m"});
+  cursor.AllowOnly({"x_m", "y_m", "vx_m_per_s", "vy_m_per_s", "contact_x_m", "pitch_rad",
+                    "pitch_rate_rad_per_s"});
   const auto sigma = [&](const char* key, const char* unit) {
     return cursor.OptionalNumber(key, Positive(1e6, unit)).value_or(kFreeSigma);
   };
-  return {sigma("x_m", "m"), sigma("y_m", "m"), sigma("vx_m_per_s", "m/s"),
-          sigma("vy_m_per_s", "m/s"), cursor.OptionalNumber("contact_x_m", Positive(1e6, "m"))};
+  StateSpec known = {sigma("x_m", "m"), sigma("y_m", "m"), sigma("vx_m_per_s", "m/s"),
+                     sigma("vy_m_per_s", "m/s"),
+                     cursor.OptionalNumber("contact_x_m", Positive(1e6, "m"))};
+  known.pitch_rad = cursor.OptionalNumber("pitch_rad", Positive(1e3, "rad"));
+  known.pitch_rate_rad_per_s =
+      cursor.OptionalNumber("pitch_rate_rad_per_s", Positive(1e4, "rad/s"));
+  return known;
 }
 
 Range TouchdownAngleRange(MechanismType type) {
@@ -271,6 +306,11 @@ Range TouchdownAngleRange(MechanismType type) {
 double ReadTouchdownAngle(const YamlCursor& owner, MechanismType type) {
   const Range range = TouchdownAngleRange(type);
   const char* const key = "touchdown_angle_deg";
+  if (type == MechanismType::kRobot) {
+    if (const auto given = owner.Optional(key))
+      given->FailAtKey("the angles of a robot's legs are said by its controller", "Remove it.");
+    return 0;
+  }
   if (type == MechanismType::kBall) return DegToRad(owner.OptionalNumber(key, range).value_or(0));
   return DegToRad(owner.RequiredNumber(key, range));
 }
@@ -290,7 +330,7 @@ std::vector<ChannelSpec> ReadChannels(const YamlCursor& cursor) {
     block.AllowOnly({"sigma", "clock"});
     if (const auto clock = block.Optional("clock")) channel.clock = clock->Name();
     // A contact is an event, it may go without.
-    const bool may_be_absent = *id == ChannelId::kContact;
+    const bool may_be_absent = IsContact(*id);
     const std::optional<YamlCursor> sigma =
         may_be_absent ? block.Optional("sigma")
                       : block.Required("sigma", "1 standard deviation, or estimate");

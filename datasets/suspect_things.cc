@@ -191,7 +191,7 @@ class Inspector {
   }
 
   void InspectSigma(const ChannelSpec& channel) {
-    if (!channel.sigma || channel.id == ChannelId::kContact) return;
+    if (!channel.sigma || IsContact(channel.id)) return;
     std::vector<double> noises;
     for (const Trial& trial : dataset_.trials) {
       const std::vector<double>* values = trial.trace.Find(channel.id);

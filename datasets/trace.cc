@@ -159,7 +159,7 @@ class TraceParser {
     if (std::isnan(value)) return;
     const std::optional<ChannelId> id = channels_[column];
     const Range range = id ? ChannelRange(*id) : Range{};
-    if (id == ChannelId::kContact && value != 0 && value != 1)
+    if (id && IsContact(*id) && value != 0 && value != 1)
       Fail(name + " = " + Printable(cell), "must be 0 or 1",
            "Write 1 while the leg is on the ground.");
     if (!range.Contains(value))

@@ -76,6 +76,41 @@ std::string TorqueSignText(const ThesisVariant& variant) {
   return "{" + std::string(key.key) + ": " + std::string(key.words[key.get(variant)]) + "}";
 }
 
+std::string ListText(const std::vector<double>& values) {
+  std::string text = "[";
+  for (const double value : values) text += (text.size() > 1 ? ", " : "") + FormatDouble(value);
+  return text + "]";
+}
+
+void AddRobot(const MechanismSpec& m, Fields* fields) {
+  const RobotSpec& robot = m.robot;
+  const auto add = [&](const char* group, const char* key, double value) {
+    fields->push_back({group, key, FormatDouble(value)});
+  };
+  AddOptional(fields, "", "fall_height_m", m.fall_height_m);
+  add("", "pitch_inertia_kg_m2", robot.pitch_inertia_kg_m2);
+  fields->push_back({"", "centre_of_mass_m", ListText({robot.com_x_m, robot.com_y_m})});
+  AddOptional(fields, "", "friction", robot.friction);
+  AddOptional(fields, "", "pitch_limit_rad", robot.pitch_limit_rad);
+  add("motor", "rotor_inertia_kg_m2", robot.rotor_inertia_kg_m2);
+  add("motor", "kp_N_m_per_rad", robot.kp_N_m_per_rad);
+  add("motor", "kd_N_m_s_per_rad", robot.kd_N_m_s_per_rad);
+  AddOptional(fields, "motor", "torque_limit_N_m", robot.torque_limit_N_m);
+  add("leg", "rest_radius_m", robot.rest_radius_m);
+  add("leg", "E_Pa", robot.E_Pa);
+  add("leg", "second_moment_m4", robot.second_moment_m4);
+  add("leg", "material_damping_s", robot.material_damping_s);
+  add("leg", "clamp_m", robot.clamp_m);
+  std::string legs = "[";
+  for (const RobotLegSpec& leg : robot.legs) {
+    if (legs.size() > 1) legs += ", ";
+    legs += "{hip_m: " + ListText({leg.hip_x_m, leg.hip_y_m});
+    if (leg.E_Pa) legs += ", E_Pa: " + FormatDouble(*leg.E_Pa);
+    legs += "}";
+  }
+  fields->push_back({"", "legs", legs + "]"});
+}
+
 Fields MechanismFields(const MechanismSpec& m) {
   Fields fields = {{"", "type", MechanismTypeName(m.type)},
                    {"", "body_mass_kg", FormatDouble(m.body_mass_kg)},
@@ -85,6 +120,10 @@ Fields MechanismFields(const MechanismSpec& m) {
     fields.push_back({"ball", "radius_m", FormatDouble(m.ball.radius_m)});
     fields.push_back({"ball", "restitution", FormatDouble(m.ball.restitution)});
     fields.push_back({"ball", "tangential_loss", FormatDouble(m.ball.tangential_loss)});
+    return fields;
+  }
+  if (m.type == MechanismType::kRobot) {
+    AddRobot(m, &fields);
     return fields;
   }
   fields.push_back({"", "liftoff", LiftoffName(m.liftoff)});
@@ -111,7 +150,23 @@ Fields MechanismFields(const MechanismSpec& m) {
   return fields;
 }
 
+Fields MotorsFields(const MotorsSpec& motors) {
+  static const char* const kKinds[] = {"locked", "held", "clock"};
+  Fields fields = {{"", "type", kKinds[static_cast<std::size_t>(motors.kind)]}};
+  if (motors.kind != MotorsSpec::Kind::kClock) {
+    fields.push_back({"", "angles_rad", ListText(motors.angles_rad)});
+    return fields;
+  }
+  fields.push_back({"", "period_s", FormatDouble(motors.period_s)});
+  fields.push_back({"", "duty", FormatDouble(motors.duty)});
+  fields.push_back({"", "sweep_rad", FormatDouble(motors.sweep_rad)});
+  fields.push_back({"", "offset_rad", FormatDouble(motors.offset_rad)});
+  fields.push_back({"", "phases", ListText(motors.phases)});
+  return fields;
+}
+
 Fields ControllerFields(const ControllerSpec& controller) {
+  if (controller.motors) return MotorsFields(*controller.motors);
   Fields fields = {{"", "kp_N_s", FormatDouble(controller.kp_N_s)},
                    {"", "v_des_m_per_s", FormatDouble(controller.v_des_m_per_s)}};
   AddOptional(&fields, "", "torque_limit_N_m", controller.torque_limit_N_m);
@@ -127,6 +182,8 @@ Fields StateFields(const StateSpec& state) {
   add("y_m", state.y_m);
   add("vx_m_per_s", state.vx_m_per_s);
   add("vy_m_per_s", state.vy_m_per_s);
+  if (state.pitch_rad) add("pitch_rad", *state.pitch_rad);
+  if (state.pitch_rate_rad_per_s) add("pitch_rate_rad_per_s", *state.pitch_rate_rad_per_s);
   if (state.contact_x_m) add("contact_x_m", *state.contact_x_m);
   if (state.mode != StartMode::kFlight)
     fields.push_back({"", "mode", StartModeNames()[static_cast<std::size_t>(state.mode)]});
@@ -176,7 +233,7 @@ std::string Flow(const Fields& fields) {
 
 Fields Grouped(const Fields& fields) {
   Fields sorted;
-  for (const char* group : {"", "leg", "ball", "placement"})
+  for (const char* group : {"", "leg", "ball", "placement", "motor"})
     for (const Field& field : fields)
       if (field.group == group) sorted.push_back(field);
   return sorted;
@@ -211,6 +268,7 @@ Fields InputFields(const std::vector<InputSpec>& inputs) {
 // The lines of a trial's touch-down angles; those read from a column are read again.
 std::string AnglesText(const Trial& trial) {
   if (FindInput(trial.inputs, InputId::kLegAngle) != nullptr) return "";
+  if (trial.mechanism.type == MechanismType::kRobot) return "";
   std::string angle = FormatDegrees(trial.touchdown_angle_rad);
   const std::vector<double>& each = trial.touchdown_angles_rad;
   const bool alike = std::all_of(each.begin(), each.end(),

@@ -54,6 +54,8 @@ bool FitLine(const TrialProblem& trial, int column, int width, int a, int b, dou
 }  // namespace
 
 std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProblem& trial) {
+  // A robot's legs land one after the other, and its pitch at an apex is no column's alone.
+  if (problem.law == Law::kRobot) return {};
   const int width = static_cast<int>(problem.channels.size());
   const int y_column = ColumnOf(problem, Channel::kBodyY);
   const int x_column = ColumnOf(problem, Channel::kBodyX);

@@ -169,8 +169,9 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
       trials.begin(), trials.end(),
       [](const GenerateTrial& trial) { return LegMassOfSpec(trial.mechanism) == LegMass::kAtToe; });
   const std::vector<DrivenInput> inputs = DrivenInputsOf(scenario);
-  const std::vector<EffectSetting> effects = ResolveEffects(
-      scenario.effects, law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone, KindsOf(inputs));
+  const std::vector<EffectSetting> effects =
+      ResolveEffects(scenario.effects, law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone,
+                     KindsOf(inputs), RobotLegsOfSpec(scenario.mechanism));
   const std::vector<ChannelSpec> channels = ChannelsOf(scenario, options);
   const double horizon = HorizonOf(scenario);
   const double rate =
@@ -252,7 +253,7 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
     for (std::size_t c = 0; c < channels.size(); ++c) {
       RandomStream random(options.seed, 1000 * (i + 1) + c);
       TraceColumn column{ChannelName(channels[c].id), {}};
-      const bool noisy = channels[c].id != ChannelId::kContact;
+      const bool noisy = !IsContact(channels[c].id);
       for (std::size_t row = 0; row < rows; ++row) {
         const double value = run.samples[row * wanted.size() + c];
         column.values.push_back(noisy ? value + *channels[c].sigma * random.Normal() : value);
@@ -272,6 +273,14 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
       }
       trial.initial = SpecOfState(stated);
       trial.initial->mode = truth.mode;
+      trial.initial->pitch_rad = truth.pitch_rad;
+      trial.initial->pitch_rate_rad_per_s = truth.pitch_rate_rad_per_s;
+      if (known.pitch_rad)
+        trial.initial->pitch_rad =
+            truth.pitch_rad.value_or(0.0) + *known.pitch_rad * random.Normal();
+      if (known.pitch_rate_rad_per_s)
+        trial.initial->pitch_rate_rad_per_s = truth.pitch_rate_rad_per_s.value_or(0.0) +
+                                              *known.pitch_rate_rad_per_s * random.Normal();
       trial.initial->contact_x_m = truth.contact_x_m;
       if (truth.contact_x_m && known.contact_x_m)
         *trial.initial->contact_x_m += *known.contact_x_m * random.Normal();

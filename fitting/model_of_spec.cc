@@ -15,6 +15,41 @@ std::vector<std::string> LawNames(MechanismKind mechanism) {
   return names;
 }
 
+RobotParameters<double> RobotOfSpec(const RobotSpec& spec,
+                                    const std::optional<ControllerSpec>& controller) {
+  RobotParameters<double> p;
+  p.legs = static_cast<int>(spec.legs.size());
+  p.pitch_inertia = spec.pitch_inertia_kg_m2;
+  p.com_x = spec.com_x_m;
+  p.com_y = spec.com_y_m;
+  if (spec.friction) p.friction = *spec.friction;
+  if (spec.pitch_limit_rad) p.pitch_limit = *spec.pitch_limit_rad;
+  p.rotor_inertia = spec.rotor_inertia_kg_m2;
+  p.motor_kp = spec.kp_N_m_per_rad;
+  p.motor_kd = spec.kd_N_m_s_per_rad;
+  if (spec.torque_limit_N_m) p.torque_limit = *spec.torque_limit_N_m;
+  p.damping = spec.material_damping_s;
+  p.clamp = spec.clamp_m;
+  for (std::size_t i = 0; i < spec.legs.size(); ++i) {
+    p.hip_x[i] = spec.legs[i].hip_x_m;
+    p.hip_y[i] = spec.legs[i].hip_y_m;
+    p.E[i] = spec.legs[i].E_Pa.value_or(spec.E_Pa);
+    p.own_moduli = p.own_moduli || spec.legs[i].E_Pa.has_value();
+  }
+  if (!controller || !controller->motors) return p;
+  const MotorsSpec& motors = *controller->motors;
+  p.control = static_cast<MotorControl>(motors.kind);
+  std::copy(motors.angles_rad.begin(), motors.angles_rad.end(), p.angle.begin());
+  std::copy(motors.phases.begin(), motors.phases.end(), p.phase.begin());
+  if (motors.kind == MotorsSpec::Kind::kClock) {
+    p.period = motors.period_s;
+    p.duty = motors.duty;
+    p.sweep = motors.sweep_rad;
+    p.offset = motors.offset_rad;
+  }
+  return p;
+}
+
 }  // namespace
 
 Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
@@ -24,7 +59,7 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
   p.m = mechanism.body_mass_kg;
   p.g = mechanism.gravity_m_per_s2;
   p.theta_td = touchdown_angle_rad;
-  if (controller) {
+  if (controller && !controller->motors) {
     p.kp = controller->kp_N_s;
     p.v_des = controller->v_des_m_per_s;
     if (controller->torque_limit_N_m) p.torque_limit = *controller->torque_limit_N_m;
@@ -57,6 +92,12 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
       p.restitution = mechanism.ball.restitution;
       p.tangential_loss = mechanism.ball.tangential_loss;
       break;
+    case MechanismType::kRobot:
+      p.r = mechanism.robot.rest_radius_m;
+      p.E = mechanism.robot.E_Pa;
+      p.I = mechanism.robot.second_moment_m4;
+      p.robot = RobotOfSpec(mechanism.robot, controller);
+      break;
   }
   return p;
 }
@@ -78,6 +119,8 @@ MechanismKind MechanismOfSpec(const MechanismSpec& mechanism) {
       return MechanismKind::kStraightLeg;
     case MechanismType::kBall:
       return MechanismKind::kBall;
+    case MechanismType::kRobot:
+      return MechanismKind::kRobot;
   }
   return MechanismKind::kCLeg;
 }
@@ -103,6 +146,10 @@ Mode ModeOfSpec(StartMode mode, MechanismType type) {
 std::vector<double> InitialOf(const StateSpec& s) {
   std::vector<double> initial = {s.x_m, s.y_m, s.vx_m_per_s, s.vy_m_per_s};
   if (s.contact_x_m) initial.push_back(*s.contact_x_m);
+  if (s.pitch_rad || s.pitch_rate_rad_per_s) {
+    initial.push_back(s.pitch_rad.value_or(0.0));
+    initial.push_back(s.pitch_rate_rad_per_s.value_or(0.0));
+  }
   return initial;
 }
 
@@ -191,9 +238,18 @@ const Effect& EffectOfFile(const EffectFile& file) {
   }
 }
 
+int RobotLegsOfSpec(const MechanismSpec& mechanism) {
+  return static_cast<int>(mechanism.robot.legs.size());
+}
+
 void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place,
-                  InputSet inputs) {
-  if (AppliesTo(effect, law, mass, inputs)) return;
+                  InputSet inputs, int robot_legs) {
+  if (AppliesTo(effect, law, mass, inputs, robot_legs)) return;
+  if (law == Law::kRobot && effect.info.robot_leg > robot_legs) {
+    throw InputError({place, "effect " + std::string(effect.info.name),
+                      "is of a leg this robot does not have",
+                      "Legs are counted from the hindmost, 1."});
+  }
   if (AppliesTo(effect, law, mass, kEveryInput)) {
     throw InputError({place, "effect " + std::string(effect.info.name),
                       "changes a logged input, and nothing of the kind drives these runs",
@@ -228,12 +284,12 @@ EffectSetting AtTypical(const Effect& effect) {
 }  // namespace
 
 std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,
-                                          LegMass mass, InputSet inputs) {
+                                          LegMass mass, InputSet inputs, int robot_legs) {
   std::vector<EffectSetting> settings;
   for (const EffectSpec& spec : specs) {
     const Effect& effect =
         spec.formula ? EffectOfFile(*spec.formula) : ResolveEffect(spec.name, spec.origin.place);
-    CheckApplies(effect, law, mass, spec.origin.place, inputs);
+    CheckApplies(effect, law, mass, spec.origin.place, inputs, robot_legs);
     EffectSetting setting = EffectSetting::Null(effect);
     if (spec.at_typical) setting = AtTypical(effect);
     for (const NamedNumber& given : spec.parameters) {

@@ -11,6 +11,7 @@
 #include "fitting/driven_trial.h"
 #include "fitting/model_of_spec.h"
 #include "fitting/noise.h"
+#include "fitting/robot_problem.h"
 #include "model/leg_compliance.h"
 
 namespace hoplab {
@@ -67,6 +68,7 @@ class Builder {
     AddTrials();
     AddChannels();
     FillTrials();
+    ChooseModuli(options_, problem_);
     FixValues();
     AddShared();
     return std::move(problem_);
@@ -93,6 +95,10 @@ class Builder {
     for (const ChannelSpec& spec : dataset_.channels) {
       if (spec.id == ChannelId::kContact) {
         problem_.uses_contact = true;
+        continue;
+      }
+      if (IsContact(spec.id)) {
+        problem_.notes.push_back(std::string(ChannelName(spec.id)) + " is not compared");
         continue;
       }
       ChannelProblem c{ChannelOfSpec(spec.id), spec.sigma.value_or(kNaN), !spec.sigma};
@@ -186,6 +192,7 @@ class Builder {
         t.own[i].scale = std::min(t.own[i].scale, t.own[i].prior_sigma);
       }
     }
+    if (problem_.law == Law::kRobot) AddPitch(trial, t);
     if (trial.initial && trial.initial->mode != StartMode::kFlight) SetContact(trial, t);
     // Without a channel that knows where the hopper is along the ground, x is a free choice.
     if (!Sees(Channel::kBodyX) && std::isinf(t.own[0].prior_sigma)) t.own[0].free = false;
@@ -208,6 +215,11 @@ class Builder {
 
   // Start of a trial that states none: a parabola through the first flight, line in x.
   OwnValues StartFromTrace(const Trial& trial, const TrialProblem& t) const {
+    if (problem_.law == Law::kRobot) {
+      throw InputError({trial.origin.place, "initial", "is absent, and a robot needs it",
+                        "State initial: {x_m, y_m, vx_m_per_s, vy_m_per_s, pitch_rad, "
+                        "pitch_rate_rad_per_s} of the first row."});
+    }
     const double g = t.parameters.g;
     OwnValues start = Eigen::Vector4d(0.0, kNaN, 0.0, 0.0);
     const double touchdown = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
@@ -288,7 +300,14 @@ class Builder {
   ParameterId KnownParameter(const std::string& name, const std::string& place) const {
     const std::optional<ParameterId> id = FindParameter(name);
     const std::vector<ParameterId> of = ParametersOf(problem_);
-    if (id && std::find(of.begin(), of.end(), *id) != of.end()) return *id;
+    if (id && std::find(of.begin(), of.end(), *id) != of.end()) {
+      if (IsOfRobot(*id, problem_)) return *id;
+      throw InputError({place, name,
+                        *id == ParameterId::kE ? "is told of each leg by itself here"
+                                               : "is of a leg this robot does not have",
+                        *id == ParameterId::kE ? "Name E_1, E_2, ... or E alone."
+                                               : "Legs are counted from the hindmost, 1."});
+    }
     const auto toe = ToeParameters();
     if (id && mechanism_ != MechanismKind::kBall &&
         std::find(toe.begin(), toe.end(), *id) != toe.end()) {
@@ -335,7 +354,8 @@ class Builder {
   }
 
   int EffectIndex(const Effect& effect, const std::string& place) {
-    CheckApplies(effect, problem_.law, problem_.leg_mass(), place, problem_.inputs());
+    CheckApplies(effect, problem_.law, problem_.leg_mass(), place, problem_.inputs(),
+                 problem_.robot_legs());
     for (std::size_t i = 0; i < problem_.effects.size(); ++i) {
       if (problem_.effects[i].effect == &effect) return static_cast<int>(i);
     }
@@ -346,9 +366,7 @@ class Builder {
   void AddShared() {
     std::vector<std::string> names = options_.free;
     const std::string place = names.empty() ? "fit" : "--free";
-    if (names.empty()) {
-      for (ParameterId id : FreeByDefault(mechanism_)) names.emplace_back(InfoOf(id).name);
-    }
+    if (names.empty()) names = FreeNames(problem_);
     for (const std::string& name : names) {
       // A default parameter that is fixed is simply not free.
       if (options_.free.empty() && options_.fix.count(name)) continue;
@@ -411,6 +429,8 @@ class Builder {
     const ParameterInfo& info = InfoOf(id);
     double scale = std::abs(nominal);
     if (id == ParameterId::kD) scale = std::max(scale, TypicalDamping(p, mechanism_));
+    if (id == ParameterId::kLegDamping) scale = std::max(scale, 1e-4);
+    if (id == ParameterId::kComX || id == ParameterId::kComY) scale = std::max(scale, 0.01);
     if (id == ParameterId::kRestitution || id == ParameterId::kTangentialLoss)
       scale = std::max(scale, 0.1);
     if (scale == 0.0) scale = 1.0;
@@ -430,6 +450,16 @@ LegMass FitProblem::leg_mass() const {
   const bool any = std::any_of(trials.begin(), trials.end(),
                                [](const TrialProblem& t) { return t.parameters.m_toe > 0.0; });
   return any ? LegMass::kAtToe : LegMass::kNone;
+}
+
+ProblemOptions WithLegsAlike(ProblemOptions options) {
+  options.legs_alike = true;
+  return options;
+}
+
+int FitProblem::robot_legs() const {
+  return trials.empty() || !trials.front().parameters.robot ? 0
+                                                            : trials.front().parameters.robot->legs;
 }
 
 InputSet FitProblem::inputs() const {

@@ -122,6 +122,8 @@ struct FitProblem {
   LegMass leg_mass() const;
   /// What drives any trial.
   InputSet inputs() const;
+  /// Legs of a robot; 0 of any other mechanism.
+  int robot_legs() const;
   int shared_count() const { return static_cast<int>(shared.size()); }
   std::vector<std::string> shared_names() const;
 };
@@ -132,8 +134,13 @@ struct ProblemOptions {
   std::vector<std::string> free;          // empty: the mechanism's default
   std::map<std::string, double> fix;      // parameter (or effect.parameter) = value
   std::vector<std::string> with_effects;  // their parameters are freed
+  /// A robot's legs share one modulus unless a leg is told apart by name. Else each has its own.
+  bool legs_alike = false;
   IntegratorOptions integrator;
 };
+
+/// The same for a search of causes: that one leg differs from the others is one of them.
+ProblemOptions WithLegsAlike(ProblemOptions options);
 
 /// Sets the problem up. Throws InputError (place: the option) for unknown names, values out of
 /// bounds, a parameter that differs between trials but is to be shared, an effect that is known not

@@ -10,7 +10,7 @@ namespace {
 
 using enum ParameterId;
 
-constexpr std::array<ParameterInfo, 20> kParameters = {{
+constexpr std::array<ParameterInfo, 34> kParameters = {{
     {kE, "E", "Pa", 1e3, 1e13},
     {kG, "G", "Pa", 1e3, 1e13},
     {kD, "d", "N s/m", 0.0, 1e5},
@@ -31,6 +31,20 @@ constexpr std::array<ParameterInfo, 20> kParameters = {{
     {kToeMass, "m_toe", "kg", 1e-6, 1e6},
     {kKpPlace, "kp_place", "N m/rad", 0.0, 1e6},
     {kKdPlace, "kd_place", "N m s/rad", 0.0, 1e6},
+    {kPitchInertia, "pitch_inertia", "kg m^2", 1e-9, 1e6},
+    {kComX, "com_x", "m", -1e2, 1e2},
+    {kComY, "com_y", "m", -1e2, 1e2},
+    {kRotorInertia, "rotor_inertia", "kg m^2", 1e-9, 1e3},
+    {kMotorKp, "motor_kp", "N m/rad", 0.0, 1e6},
+    {kMotorKd, "motor_kd", "N m s/rad", 0.0, 1e6},
+    {kFriction, "friction", "-", 1e-3, 1e3},
+    {kLegDamping, "leg_damping", "s", 0.0, 0.1},
+    {kE1, "E_1", "Pa", 1e3, 1e13},
+    {kE2, "E_2", "Pa", 1e3, 1e13},
+    {kE3, "E_3", "Pa", 1e3, 1e13},
+    {kE4, "E_4", "Pa", 1e3, 1e13},
+    {kClockPeriod, "clock_period", "s", 1e-3, 1e3},
+    {kClamp, "clamp", "m", 0.0, 1e2},
 }};
 
 constexpr std::array kCLegParameters = {
@@ -40,17 +54,23 @@ constexpr std::array kStraightLegParameters = {kStiffness, kD,  kRestLength, kM,
 constexpr std::array kToeParameters = {kToeMass, kKpPlace, kKdPlace};
 constexpr std::array kBallParameters = {kRestitution, kTangentialLoss, kM, kGravity, kRadius};
 
+constexpr std::array kRobotParameters = {
+    kE,    kLegDamping,   kE1,      kE2,           kE3,           kE4,
+    kM,    kGravity,      kR,       kSecondMoment, kPitchInertia, kComX,
+    kComY, kRotorInertia, kMotorKp, kMotorKd,      kFriction,     kClamp};
+
 constexpr std::array kCLegLaws = {Law::kElastica, Law::kLargeDeflection, Law::kConsistent,
                                   Law::kNoSlip, Law::kThesis};
 constexpr std::array kStraightLegLaws = {Law::kStraightLeg};
 constexpr std::array kBallLaws = {Law::kBall};
+constexpr std::array kRobotLaws = {Law::kRobot};
 
 struct LawText {
   Law law;
   std::string_view name;
   std::string_view sentence;
 };
-constexpr std::array<LawText, 7> kLaws = {{
+constexpr std::array<LawText, 8> kLaws = {{
     {Law::kLargeDeflection, "large_deflection",
      "c_leg: static equilibrium of the elastic arc with the next term of the elastica; conserves "
      "energy."},
@@ -67,6 +87,9 @@ constexpr std::array<LawText, 7> kLaws = {{
      "energy."},
     {Law::kStraightLeg, "straight_leg", "straight_leg: linear spring and damper on a fixed toe."},
     {Law::kBall, "ball", "ball: ballistic flight, restitution and tangential loss at each bounce."},
+    {Law::kRobot, "robot",
+     "robot: a body with pitch on up to four legs, each an exact elastic arc clamped to its "
+     "motor."},
 }};
 
 }  // namespace
@@ -90,6 +113,8 @@ std::span<const ParameterId> ParametersOf(MechanismKind mechanism) {
       return kStraightLegParameters;
     case MechanismKind::kBall:
       return kBallParameters;
+    case MechanismKind::kRobot:
+      return kRobotParameters;
   }
   return {};
 }
@@ -108,12 +133,15 @@ std::span<const Law> LawsOf(MechanismKind mechanism) {
       return kStraightLegLaws;
     case MechanismKind::kBall:
       return kBallLaws;
+    case MechanismKind::kRobot:
+      return kRobotLaws;
   }
   return {};
 }
 
 MechanismKind MechanismOf(Law law) {
   if (law == Law::kStraightLeg) return MechanismKind::kStraightLeg;
+  if (law == Law::kRobot) return MechanismKind::kRobot;
   return law == Law::kBall ? MechanismKind::kBall : MechanismKind::kCLeg;
 }
 
@@ -135,6 +163,8 @@ std::string_view NameOf(MechanismKind mechanism) {
       return "straight_leg";
     case MechanismKind::kBall:
       return "ball";
+    case MechanismKind::kRobot:
+      return "robot";
   }
   return "";
 }

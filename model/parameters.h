@@ -8,14 +8,24 @@
 
 #include "base/thesis_variant.h"
 #include "model/inputs.h"
+#include "model/robot_parameters.h"
 
 namespace hoplab {
 
 /// Which leg (or none) the body hops on.
-enum class MechanismKind { kCLeg, kStraightLeg, kBall };
+enum class MechanismKind { kCLeg, kStraightLeg, kBall, kRobot };
 
 /// How a C-leg carries its load; section 3 of the equation sheet.
-enum class Law { kThesis, kNoSlip, kConsistent, kLargeDeflection, kStraightLeg, kBall, kElastica };
+enum class Law {
+  kThesis,
+  kNoSlip,
+  kConsistent,
+  kLargeDeflection,
+  kStraightLeg,
+  kBall,
+  kElastica,
+  kRobot
+};
 
 /// What ends a stance: the chord force back at zero, or the chord back at its rest length.
 enum class LiftoffRule { kZeroForce, kRestLength };
@@ -89,6 +99,7 @@ struct Parameters {
   std::array<T, kInputKinds> input_delay{T(0.0), T(0.0), T(0.0), T(0.0)};
   std::array<T, kInputKinds> input_scale{T(0.0), T(0.0), T(0.0), T(0.0)};
   LawTerms<T> law_terms;
+  MaybeRobot<T> robot;  // of a robot alone
   // Settings without derivatives.
   ThesisVariant variant;  // of the law `thesis`; its torque_sign of every leg
   double torque_limit = std::numeric_limits<double>::infinity();  // T_max [N m]
@@ -120,7 +131,22 @@ enum class ParameterId {
   kRadius,
   kToeMass,
   kKpPlace,
-  kKdPlace
+  kKdPlace,
+  // Of a robot alone.
+  kPitchInertia,
+  kComX,
+  kComY,
+  kRotorInertia,
+  kMotorKp,
+  kMotorKd,
+  kFriction,
+  kLegDamping,
+  kE1,
+  kE2,
+  kE3,
+  kE4,
+  kClockPeriod,
+  kClamp
 };
 
 /// Name, unit and physical range of a parameter.
@@ -143,7 +169,7 @@ std::span<const ParameterId> ToeParameters();
 /// Parameters that are free unless asked otherwise.
 std::span<const ParameterId> FreeByDefault(MechanismKind mechanism);
 
-/// The field `id` of `p`.
+/// The field `id` of `p`; one of a robot only where `p` has one.
 template <class T>
 T& Field(Parameters<T>& p, ParameterId id) {
   switch (id) {
@@ -187,6 +213,31 @@ T& Field(Parameters<T>& p, ParameterId id) {
       return p.kp_place;
     case ParameterId::kKdPlace:
       return p.kd_place;
+    case ParameterId::kPitchInertia:
+      return p.robot->pitch_inertia;
+    case ParameterId::kComX:
+      return p.robot->com_x;
+    case ParameterId::kComY:
+      return p.robot->com_y;
+    case ParameterId::kRotorInertia:
+      return p.robot->rotor_inertia;
+    case ParameterId::kMotorKp:
+      return p.robot->motor_kp;
+    case ParameterId::kMotorKd:
+      return p.robot->motor_kd;
+    case ParameterId::kFriction:
+      return p.robot->friction;
+    case ParameterId::kLegDamping:
+      return p.robot->damping;
+    case ParameterId::kE1:
+    case ParameterId::kE2:
+    case ParameterId::kE3:
+    case ParameterId::kE4:
+      return p.robot->E[static_cast<std::size_t>(id) - static_cast<std::size_t>(ParameterId::kE1)];
+    case ParameterId::kClockPeriod:
+      return p.robot->period;
+    case ParameterId::kClamp:
+      return p.robot->clamp;
   }
   return p.m;  // unreachable: every enumerator is listed above
 }

@@ -9,8 +9,10 @@ template <class To, class From>
 Parameters<To> ConvertParameters(const Parameters<From>& from) {
   Parameters<To> to;
   for (const ParameterInfo& info : AllParameters()) {
+    if (info.id >= ParameterId::kPitchInertia) break;  // a robot's own, below
     Field(to, info.id) = To(Value(Field(from, info.id)));
   }
+  if (from.robot) to.robot = ConvertRobot<To>(*from.robot);
   to.slope = To(Value(from.slope));
   to.inertia_x = To(Value(from.inertia_x));
   to.inertia_y = To(Value(from.inertia_y));

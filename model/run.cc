@@ -176,6 +176,7 @@ class RowSink final : public RowReader<T> {
     const int width = static_cast<int>(request_.directions.size());
     for (int c = 0; c < channels; ++c) {
       if (!readings_.empty() && request_.channel_clocks[c] != reading.clock) continue;
+      if (!seen.Has(request_.channels[c])) continue;  // stays NaN
       const T& value = seen[request_.channels[c]];
       const std::size_t cell = static_cast<std::size_t>(row) * channels + c;
       out_.samples[cell] = Value(value);
@@ -255,7 +256,7 @@ void PlaceStart(std::span<const T> given, Mode mode, const HybridSystem<T>& syst
   std::fill(z + count, z + states, T(0.0));
   for (int body = 0; 4 * (body + 1) <= count && body < system.BodyCount(mode); ++body)
     frame.FromWorld(z + static_cast<std::ptrdiff_t>(body) * 4);
-  if (mode == Mode::kFlight)
+  if (mode == Mode::kFlight || system.CompletesAnyStart())
     system.CompleteStart(z, count);
   else if (count > kContact)
     z[kContact] = frame.AlongGround(z[kContact]);

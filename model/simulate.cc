@@ -4,6 +4,7 @@
 
 #include "model/mechanisms/ball.h"
 #include "model/mechanisms/leg.h"
+#include "model/mechanisms/robot.h"
 #include "model/mechanisms/toe_mass_body.h"
 #include "model/run.h"
 
@@ -12,8 +13,10 @@ namespace {
 
 const Mechanism& MechanismFor(const SimulationRequest& request) {
   static constexpr Mechanism kBall = MakeMechanism<Ball>();
+  static constexpr Mechanism kRobot = MakeMechanism<Robot>();
   static constexpr Mechanism kWithToe = MakeMechanism<ToeMassBody>();
   if (request.law == Law::kBall) return kBall;
+  if (request.law == Law::kRobot) return kRobot;
   return request.parameters.m_toe > 0.0 ? kWithToe : LegLawOf(request.law).body;
 }
 

@@ -19,6 +19,7 @@ struct Event {
   double crossing_rate = 0.0;
   /// Another guard of the mode is at zero at the same instant: derivatives are one-sided.
   bool simultaneous = false;
+  int leg = 0;  // of a robot, which leg's or motor's it is; 0 the hindmost
 };
 
 /// A stretch of time in one mode.

@@ -132,8 +132,8 @@ py::dict SimulationOf(const py::dict& options) {
   const LegMass mass = LegMassOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
   const std::vector<DrivenInput> inputs = DrivenInputsOf(scenario);
-  const std::vector<EffectSetting> effects =
-      ResolveEffects(scenario.effects, law, mass, KindsOf(inputs));
+  const std::vector<EffectSetting> effects = ResolveEffects(
+      scenario.effects, law, mass, KindsOf(inputs), RobotLegsOfSpec(scenario.mechanism));
   SimulationRequest request = RequestOfScenario(scenario, effects, inputs);
   request.integrator = IntegratorOf(options);
   const std::vector<ParameterId> ids = IdsOf(mechanism, mass);

@@ -15,6 +15,7 @@ function motionOf(trajectory, rows) {
     time: pick('time_s'), x: pick('body_x_m'), y: pick('body_y_m'), angle: pick('leg_angle_rad'),
     contactX: pick('contact_x_m'), contactY: pick('contact_y_m'), arc: pick('contact_arc_rad'),
     forceX: pick('ground_force_x_N'), forceY: pick('ground_force_y_N'), mode: pick('mode'),
+    ...robotMotionOf(trajectory, rows),
   };
 }
 
@@ -44,11 +45,12 @@ function stateAt(motion, time) {
   }
   const next = motion.mode[high] === motion.mode[low] ? high : low;
   const share = next === low ? 0 : Math.min(1, Math.max(0, (time - times[low]) / (times[high] - times[low])));
-  const at = (name) => motion[name][low] + share * (motion[name][next] - motion[name][low]);
-  return {
-    x: at('x'), y: at('y'), angle: at('angle'), contactX: at('contactX'), contactY: at('contactY'),
-    arc: at('arc'), forceX: at('forceX'), forceY: at('forceY'), mode: motion.mode[low],
+  const at = (values) => {
+    const ahead = share * (values[next] - values[low]);
+    return isNumber(ahead) ? values[low] + ahead : values[low]; // a leg that lands or lifts in between
   };
+  const moved = Object.entries(motion).filter(([name]) => name !== 'time' && name !== 'mode');
+  return {...Object.fromEntries(moved.map(([name, values]) => [name, at(values)])), mode: motion.mode[low]};
 }
 
 const forceOf = (motion, row) => Math.hypot(motion.forceX[row] || 0, motion.forceY[row] || 0);
@@ -62,9 +64,10 @@ function greatestForce(motion) {
 // The row of the greatest force of the first stance.
 function firstStance(motion) {
   const last = motion.time.length - 1;
+  const stands = (i) => isNumber(motion.contactX[i]) || robotStands(motion, i);
   let row = 0;
-  while (row < last && !isNumber(motion.contactX[row])) ++row;
-  for (let i = row; i < last && isNumber(motion.contactX[i]); ++i) if (forceOf(motion, i) > forceOf(motion, row)) row = i;
+  while (row < last && !stands(row)) ++row;
+  for (let i = row; i < last && stands(i); ++i) if (forceOf(motion, i) > forceOf(motion, row)) row = i;
   return row;
 }
 
@@ -138,7 +141,7 @@ class Animation {
     this.picture = svg('svg', {viewBox: `0 0 ${this.width} ${this.height}`, class: 'stage', role: 'img',
       'aria-label': 'The leg in motion'}, this.ground, layer);
     // The last drawn lies on top: the first of the runs.
-    this.hoppers = new Map([...this.runs].reverse().map((r) => [r, new Hopper(layer, r.kind, r.label)]));
+    this.hoppers = new Map([...this.runs].reverse().map((r) => [r, new (figureOf(r.mechanism))(layer, r.kind, r.label, r.mechanism)]));
     this.readout = el('p', {class: 'readout'});
     this.button = el('button', {type: 'button', class: 'play'}, 'Play');
     this.button.addEventListener('click', () => this.toggle());
@@ -194,6 +197,7 @@ class Animation {
   }
 
   describe(r, s) {
+    if (r.mechanism.type === 'robot') return (r.label ? `${r.label}: ` : '') + describeRobot(r.mechanism, s);
     const parts = [s.mode, `hip at ${(1e3 * s.y).toFixed(1)} mm`];
     const force = Math.hypot(s.forceX, s.forceY);
     if (isNumber(s.contactX)) {
@@ -244,5 +248,7 @@ function animationOf(runs) {
   const animation = new Animation(runs);
   return el('div', {}, animation.element);
 }
+
+const figureOf = (mechanism) => (mechanism.type === 'robot' ? RobotFigure : Hopper);
 
 const animationNote = 'Hip, contact point, contact arc and force are the simulation\'s; between hip and contact the arc is drawn as a circular one of its own length over the simulated chord.';

@@ -20,11 +20,13 @@ function simulationReport() {
   const trajectory = table('trajectory');
   const events = table('events');
   if (trajectory?.rows > 1) {
-    const channels = trajectory.names.filter((n) => !['time_s', 'mode', 'contact', 'contact_y_m'].includes(n) && [...trajectory.column(n)].some(isNumber));
+    const channels = trajectory.names.filter((n) => !['time_s', 'mode', 'contact', 'contact_y_m'].includes(n) && !/^(contact_\d|leg_contact_)/.test(n) && [...trajectory.column(n)].some(isNumber));
     const labels = channels.map((c) => words(splitUnit(c).name));
     let channel = channels.includes('body_y_m') ? 'body_y_m' : channels[0];
     if (run.mechanism) {
-      section('In motion', animationOf([{label: '', kind: 'after', mechanism: run.mechanism, motion: motionOf(trajectory, trajectory.where({}))}]), animationLegend(), paragraph(animationNote, 'note'));
+      const shown = {label: '', kind: 'after', mechanism: run.mechanism, motion: motionOf(trajectory, trajectory.where({}))};
+      section('In motion', animationOf([shown]), animationLegend(), paragraph(animationNote, 'note'),
+        run.mechanism.type === 'robot' ? gaitDiagram(() => shown).figure : undefined);
     }
     const drawn = new Plot('Drag to zoom, double-click to see everything again.', () => channelPlot(trajectory, events, channel), {height: 340});
     section('Over time', choices('Quantity', labels, (label) => {

@@ -25,7 +25,7 @@ function tracePanels(residuals, trial, models) {
   const events = table('events');
   const lead = models[models.length - 1];
   const eventRows = events ? events.where({trial, ...(lead.model ? {model: lead.model} : {})}) : [];
-  const gap = 0.035;
+  const gap = channels.length > 4 ? 0.14 / channels.length : 0.035;
   const share = (1 - gap * (2 * channels.length - 1)) / channels.length;
   const traces = [];
   const layout = {margin: {l: 64, r: 12, t: 12, b: 44}, legend: {y: 1.0, itemsizing: 'constant'}, shapes: [], annotations: []};
@@ -46,7 +46,7 @@ function tracePanels(residuals, trial, models) {
     const axis = (k) => (k === 1 ? '' : String(k));
     layout[`yaxis${axis(main)}`] = {domain: [top - 0.64 * share, top], title: {text: withUnit(name, unit)}};
     top -= 0.64 * share + gap;
-    layout[`yaxis${axis(below)}`] = {domain: [Math.max(0, top - 0.36 * share), top], title: {text: withUnit('error', error.unit)}, zeroline: true};
+    layout[`yaxis${axis(below)}`] = {domain: [Math.max(0, top - 0.36 * share), top], title: {text: channels.length > 4 ? error.unit : withUnit('error', error.unit)}, zeroline: true};
     top -= 0.36 * share + gap;
     traces.push({
       x: time, y: measured, yaxis: `y${axis(main)}`, mode: 'markers', name: 'measured', showlegend: i === 0,
@@ -79,7 +79,7 @@ function tracePanels(residuals, trial, models) {
     const {segments, marks} = segmentsOf(events, eventRows, begin, end);
     layout.shapes.push(...modeBands(segments, marks));
   }
-  return {traces, layout, height: Math.min(900, 130 + 210 * channels.length)};
+  return {traces, layout, height: channels.length > 4 ? 100 + 200 * channels.length : Math.min(900, 130 + 210 * channels.length)};
 }
 
 const traceLegend = () => el('p', {class: 'legend'}, swatch('band-rolling', 'rolling or stance (simulated)'),
@@ -101,13 +101,15 @@ function traceView({residuals, models, start, describe, caption, runsOf}) {
   const panels = new Plot(caption, () => tracePanels(residuals, trial, models), {height: 550});
   const said = el('p', {class: 'said'});
   const stage = el('div', {class: 'stage-place'});
+  const first = runsOf(start)[0];
+  const gait = first?.mechanism.type === 'robot' ? gaitDiagram(() => runsOf(trial)[0]) : undefined;
   const choose = (chosen) => {
     trial = chosen;
     said.textContent = describe(trial);
     const runs = runsOf(trial).filter((r) => r.motion.time.length > 1);
     stage.replaceChildren(...(runs.length ? [animationOf(runs), animationLegend(runs.length > 1), paragraph(animationNote, 'note')] : []));
-    if (panels.shown) panels.show();
+    for (const drawn of [panels, gait]) if (drawn?.shown) drawn.show();
   };
   const choice = choices('Trial', trials, choose, start);
-  return [choice, said, panels.figure, traceLegend(), paragraph(residuals.thinning, 'note'), stage];
+  return [choice, said, panels.figure, traceLegend(), paragraph(residuals.thinning, 'note'), stage, gait?.figure];
 }

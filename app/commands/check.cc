@@ -38,7 +38,7 @@ struct ChannelNoise {
 std::vector<ChannelNoise> NoiseOf(const Dataset& dataset) {
   std::vector<ChannelNoise> noise;
   for (const ChannelSpec& spec : dataset.channels) {
-    if (spec.id == ChannelId::kContact) continue;
+    if (IsContact(spec.id)) continue;
     std::vector<SampledColumn> columns;
     for (const Trial& trial : dataset.trials) {
       if (const std::vector<double>* values = trial.trace.Find(spec.id))

@@ -13,7 +13,7 @@ struct LawsSettings {
 };
 
 constexpr std::array kMechanisms = {MechanismKind::kCLeg, MechanismKind::kStraightLeg,
-                                    MechanismKind::kBall};
+                                    MechanismKind::kBall, MechanismKind::kRobot};
 
 Json ParameterRecords(MechanismKind mechanism) {
   Json out = Json::array();
@@ -27,7 +27,7 @@ Json ParameterRecords(MechanismKind mechanism) {
                    {"needs_toe_mass", needs_toe_mass}});
   };
   for (const ParameterId id : ParametersOf(mechanism)) add(id, false);
-  if (mechanism != MechanismKind::kBall)
+  if (mechanism != MechanismKind::kBall && mechanism != MechanismKind::kRobot)
     for (const ParameterId id : ToeParameters()) add(id, true);
   return out;
 }
@@ -69,7 +69,7 @@ ExitCode RunLaws(const LawsSettings& settings, Console& console) {
     };
     list(ParametersOf(mechanism));
     console.out << "; the first two are fitted by default\n";
-    if (mechanism == MechanismKind::kBall) continue;
+    if (mechanism == MechanismKind::kBall || mechanism == MechanismKind::kRobot) continue;
     console.out << "  with toe_mass_kg: ";
     list(ToeParameters());
     console.out << '\n';

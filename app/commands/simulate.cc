@@ -49,12 +49,18 @@ std::string Report(const Scenario& scenario, const SimulationRequest& request,
                   Fixed(vx, 4), Fixed(vy, 4), energy});
   };
   const auto& s = request.initial;
-  row(0.0, "start", "flight", s[0], s[1], s[2], s[3], Fixed(energies[0].second, 6));
+  const auto energy = [&energies](std::size_t apex) {
+    return apex < energies.size() ? Fixed(energies[apex].second, 6) : "";
+  };
+  const bool robot = request.law == Law::kRobot;
+  row(0.0, "start", robot ? "" : "flight", s[0], s[1], s[2], s[3], energy(0));
   std::size_t apex = 1;
   for (const Event& e : run.events) {
     const bool is_apex = e.kind == EventKind::kApex;
-    row(e.time, NameOf(e.kind), NameOf(e.mode_after), e.x, e.y, e.vx_after, e.vy_after,
-        is_apex ? Fixed(energies[apex++].second, 6) : "");
+    std::string name(NameOf(e.kind));
+    if (robot && !is_apex) name += fmt::format(" {}", e.leg + 1);
+    row(e.time, name, NameOf(e.mode_after), e.x, e.y, e.vx_after, e.vy_after,
+        is_apex ? energy(apex++) : "");
   }
   if (run.final_state.size() >= 4) {
     const std::vector<double>& f = run.final_state;
@@ -107,7 +113,8 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
   const std::vector<DrivenInput> inputs = DrivenInputsOf(scenario);
   const std::vector<EffectSetting> effects =
-      ResolveEffects(scenario.effects, law, LegMassOfSpec(scenario.mechanism), KindsOf(inputs));
+      ResolveEffects(scenario.effects, law, LegMassOfSpec(scenario.mechanism), KindsOf(inputs),
+                     RobotLegsOfSpec(scenario.mechanism));
   SimulationRequest request = RequestOfScenario(scenario, effects, inputs);
   request.integrator = IntegratorOptionsOf(settings.solver);
   std::vector<SensitivityDirection> directions;
@@ -123,9 +130,10 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
   record["mechanism"] = MechanismRecord(request);
   const bool useless = IsUseless(run.outcome);
   if (useless) SetFailed(record, std::string(SentenceOf(run.outcome)));
-  CsvText trajectory(TrajectoryHeader({})), events(EventHeader({}));
+  const int legs = RobotLegsOf(request.parameters);
+  CsvText trajectory(TrajectoryHeader({}, legs)), events(EventHeader({}, legs));
   AddTrajectoryRows(request, kTrajectoryRate, {}, 0.0, trajectory);
-  AddEventRows(run, {}, 0.0, events);
+  AddEventRows(run, {}, 0.0, events, legs);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
   const std::filesystem::path written = folder.Write({{"run.json", TextOf(record)},

@@ -130,7 +130,7 @@ std::pair<std::size_t, bool> FindSigned(const Table& table, const MapEntry& entr
 void FindUnitOf(const Table& table, const std::string& said, ColumnMap* map, MappedColumn* mapped) {
   const Dimension wanted = TargetDimension(mapped->channel);
   const std::string target = TargetName(mapped->channel);
-  if (mapped->channel == ChannelId::kContact) {
+  if (mapped->channel && IsContact(*mapped->channel)) {
     mapped->unit = *FindUnit("1");
     return;
   }

@@ -34,7 +34,7 @@ class Writer {
     text_ += "channels:\n";
     for (const ChannelId channel : dataset_.channels)
       text_ += std::string("  ") + ChannelName(channel) +
-               (channel == ChannelId::kContact ? ": {}\n" : ": {sigma: estimate}\n");
+               (IsContact(channel) ? ": {}\n" : ": {sigma: estimate}\n");
     text_ += "trials:\n";
     for (std::size_t i = 0; i < dataset_.trials.size(); ++i) {
       text_ += "  - file: " + dataset_.trials[i].file +

@@ -182,7 +182,7 @@ class TraceBuilder {
   void CheckSample(std::size_t row, const MappedColumn& mapped, double value) const {
     const std::string_view cell = table_.columns[mapped.column].cells[row];
     const Range range = ChannelRange(*mapped.channel);
-    if (*mapped.channel == ChannelId::kContact && value != 0 && value != 1)
+    if (IsContact(*mapped.channel) && value != 0 && value != 1)
       Fail(row, mapped, cell, "must be 0 or 1", "Write 1 while the leg is on the ground.");
     if (!range.Contains(value))
       Fail(row, mapped, std::string(cell) + " " + mapped.unit.name, "must be in " + range.Text(),

@@ -103,11 +103,20 @@ Dimension DimensionOf(ChannelId channel) {
     case ChannelId::kBodyVy:
       return Dimension::kVelocity;
     case ChannelId::kLegAngle:
+    case ChannelId::kBodyPitch:
+    case ChannelId::kLegAngle1:
+    case ChannelId::kLegAngle2:
+    case ChannelId::kLegAngle3:
+    case ChannelId::kLegAngle4:
       return Dimension::kAngle;
     case ChannelId::kGroundForceX:
     case ChannelId::kGroundForceY:
       return Dimension::kForce;
     case ChannelId::kHipTorque:
+    case ChannelId::kHipTorque1:
+    case ChannelId::kHipTorque2:
+    case ChannelId::kHipTorque3:
+    case ChannelId::kHipTorque4:
       return Dimension::kTorque;
     case ChannelId::kBodyAx:
     case ChannelId::kBodyAy:
@@ -115,6 +124,10 @@ Dimension DimensionOf(ChannelId channel) {
     case ChannelId::kImuAy:
       return Dimension::kAcceleration;
     case ChannelId::kContact:
+    case ChannelId::kContact1:
+    case ChannelId::kContact2:
+    case ChannelId::kContact3:
+    case ChannelId::kContact4:
       break;
   }
   return Dimension::kNone;

@@ -108,6 +108,7 @@ bool HoppingRun::fell() const {
     case Outcome::kFellHeight:
     case Outcome::kFellAngle:
     case Outcome::kFellArc:
+    case Outcome::kFellPitch:
     case Outcome::kFellNoReturn:
     case Outcome::kNoSupport:
       return true;

@@ -11,7 +11,8 @@ namespace {
 const Effect& Applicable(const FitProblem& problem, const std::string& name,
                          const std::string& place) {
   const Effect& effect = ResolveEffect(name, place, problem.formulas);
-  CheckApplies(effect, problem.law, problem.leg_mass(), place, problem.inputs());
+  CheckApplies(effect, problem.law, problem.leg_mass(), place, problem.inputs(),
+               problem.robot_legs());
   return effect;
 }
 
@@ -66,7 +67,8 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
   std::for_each(problem.formulas.begin(), problem.formulas.end(), add);
   std::for_each(only.begin(), only.end(), add);  // named by their files
   for (const Effect* effect : tried) {
-    if (!AppliesTo(*effect, problem.law, problem.leg_mass(), problem.inputs()) ||
+    if (!AppliesTo(*effect, problem.law, problem.leg_mass(), problem.inputs(),
+                   problem.robot_legs()) ||
         IsFitted(problem, *effect) || Simulates(problem, *effect))
       continue;
     if (only.empty() && HasNoGuide(problem, *effect)) continue;

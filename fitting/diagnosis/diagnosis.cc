@@ -46,7 +46,7 @@ class Pipeline {
       : dataset_(dataset), options_(options) {}
 
   Diagnosis Run() {
-    FitProblem problem = MakeProblem(dataset_, options_.problem);
+    FitProblem problem = MakeProblem(dataset_, WithLegsAlike(options_.problem));
     const std::vector<Candidate> candidates = CandidatesOf(problem, options_.candidates);
     d_.refusal = UnreadableTimes(dataset_);
     if (!d_.refusal.empty()) {

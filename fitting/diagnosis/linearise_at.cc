@@ -18,6 +18,7 @@ int CostClass(const Candidate& candidate) {
   const Effect& effect = *candidate.effect;
   if (effect.info.sharp) return 2;
   Parameters<double> p;
+  if (effect.info.for_robot) p.robot = RobotParameters<double>();
   if (effect.formula) {
     effect.formula->ChangeParameters(p);
     return p.law_terms.active ? 1 : 0;

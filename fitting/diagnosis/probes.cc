@@ -263,6 +263,8 @@ ProbeBasis ProbesOf(Law law) {
   if (law == Law::kBall) {
     b.Group("restitution", "impact speed [m/s]", "-", Values(kSpeed),
             BounceBumps(std::make_index_sequence<kSpeed.size()>()));
+  } else if (law == Law::kRobot) {
+    b.Group("ground force along x", "", "N", {}, {Probe<BodyPush<true, false>>()});
   } else {
     AddLegs(b);
   }

@@ -389,7 +389,7 @@ std::string_view NameOf(DiscoveryVerdict verdict) {
 
 Discovery Discover(const Dataset& dataset, const DiagnosisOptions& options) {
   Discovery out;
-  FitProblem problem = MakeProblem(dataset, options.problem);
+  FitProblem problem = MakeProblem(dataset, WithLegsAlike(options.problem));
   out.base.refusal = UnreadableTimes(dataset);
   std::vector<TrialProblem> train;
   if (out.base.refusal.empty())

@@ -15,7 +15,8 @@ struct BodyMassScale {
       .for_legs = true,
       .for_ball = false,
       .dissipative = false,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .for_robot = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

@@ -16,7 +16,8 @@ struct CameraRoll {
       .for_ball = true,
       .dissipative = false,
       .order = 5,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .for_robot = true};
 
   template <class T>
   static void ChangeObservation(const T* p, Observation<T>& seen) {

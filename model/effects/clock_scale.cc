@@ -16,7 +16,8 @@ struct ClockScale {
                                        .for_ball = true,
                                        .dissipative = false,
                                        .order = 1,
-                                       .parameters = kParameters};
+                                       .parameters = kParameters,
+                                       .for_robot = true};
 
   template <class T>
   static void ChangeObservationTime(const T* p, T& t) {

@@ -17,7 +17,8 @@ struct ConstantForce {
       .for_legs = true,
       .for_ball = true,
       .dissipative = false,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .for_robot = true};
 
   template <class T>
   static void AddBodyForce(const T* p, const BodyMotion<T>&, Vector2<T>& force) {

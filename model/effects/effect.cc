@@ -25,10 +25,12 @@ std::optional<int> Effect::FindParameter(std::string_view name) const {
   return std::nullopt;
 }
 
-bool AppliesTo(const Effect& effect, Law law, LegMass mass, InputSet inputs) {
+bool AppliesTo(const Effect& effect, Law law, LegMass mass, InputSet inputs, int robot_legs) {
   const EffectInfo& info = effect.info;
   if (info.needs_inputs != 0 && (info.needs_inputs & inputs) == 0) return false;
   if (mass == LegMass::kAtToe && info.massless_leg_only) return false;
+  if (MechanismOf(law) == MechanismKind::kRobot)
+    return info.for_robot && info.robot_leg <= robot_legs;
   if (!(MechanismOf(law) == MechanismKind::kBall ? info.for_ball : info.for_legs)) return false;
   return info.only_laws.empty() ||
          std::find(info.only_laws.begin(), info.only_laws.end(), law) != info.only_laws.end();

@@ -44,6 +44,8 @@ struct EffectInfo {
   std::span<const EffectParameter> parameters;
   std::span<const Law> only_laws = {};  // of those mechanisms' laws; empty: all of them
   InputSet needs_inputs = 0;  // means nothing unless one of these drives the run; 0: always does
+  bool for_robot = false;     // applies to a robot, too
+  int robot_leg = 0;  // it is of this leg of a robot alone, 1 the hindmost; 0: of no one leg
 };
 
 /// Motion of the body at one instant, for forces on it. Frame W.
@@ -164,8 +166,9 @@ struct Effect {
 /// Whether a leg has a mass at its toe.
 enum class LegMass { kNone, kAtToe };
 
-/// Whether an effect means anything under a law, on such a leg.
-bool AppliesTo(const Effect& effect, Law law, LegMass mass = LegMass::kNone, InputSet inputs = 0);
+/// Whether an effect means anything under a law, on such a leg, on a robot with that many legs.
+bool AppliesTo(const Effect& effect, Law law, LegMass mass = LegMass::kNone, InputSet inputs = 0,
+               int robot_legs = kMaxLegs);
 
 /// Every effect there is, by name. One entry per file in model/effects (cmake writes the list).
 std::span<const Effect* const> AllEffects();

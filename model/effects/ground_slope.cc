@@ -15,7 +15,8 @@ struct GroundSlope {
       .for_legs = true,
       .for_ball = true,
       .dissipative = false,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .for_robot = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

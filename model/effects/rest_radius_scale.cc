@@ -20,7 +20,8 @@ struct RestRadiusScale {
       .for_ball = false,
       .dissipative = false,
       .parameters = kParameters,
-      .only_laws = kLaws};
+      .only_laws = kLaws,
+      .for_robot = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

@@ -16,7 +16,8 @@ struct SensorOffsetX {
       .for_ball = true,
       .dissipative = false,
       .order = 4,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .for_robot = true};
 
   template <class T>
   static void ChangeObservation(const T* p, Observation<T>& seen) {

@@ -17,7 +17,8 @@ struct SensorScaleX {
       .for_ball = true,
       .dissipative = false,
       .order = 3,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .for_robot = true};
 
   template <class T>
   static void ChangeObservation(const T* p, Observation<T>& seen) {

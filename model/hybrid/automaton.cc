@@ -32,6 +32,9 @@ constexpr EventTraits kEvents[] = {
     {.name = "fall_height"},
     {.name = "fall_angle"},
     {.name = "fall_arc"},
+    {.name = "fall_pitch"},
+    {.name = "slide", .waits_to_open = true},
+    {.name = "stick"},
     {.name = "switch"},
     {.name = "corner", .changes_flow = true},
 };
@@ -53,6 +56,8 @@ std::string_view NameOf(Outcome outcome) {
       return "fell_angle";
     case Outcome::kFellArc:
       return "fell_arc";
+    case Outcome::kFellPitch:
+      return "fell_pitch";
     case Outcome::kFellNoReturn:
       return "fell_no_return";
     case Outcome::kNoSupport:
@@ -87,6 +92,8 @@ std::string_view SentenceOf(Outcome outcome) {
       return "fell: the leg tipped more than 80 deg from the vertical";
     case Outcome::kFellArc:
       return "fell: the leg rolled up to the hip";
+    case Outcome::kFellPitch:
+      return "fell: the body pitched beyond its limit";
     case Outcome::kFellNoReturn:
       return "fell: after a lift-off it never rose to touch-down height again, and sank to the "
              "ground";

@@ -22,6 +22,9 @@ enum class EventKind {
   kFallHeight,      // hip below y_min
   kFallAngle,       // chord more than 80 deg from the vertical
   kFallArc,         // contact arc below 0.2 rad: the hip rolls onto the ground
+  kFallPitch,       // a robot's body pitches beyond its limit
+  kSlide,           // a foot that held begins to slide
+  kStick,           // a sliding foot comes to hold
   kSwitch,          // mode change of a piecewise-smooth system without a leg
   kCorner           // a formula is about to go on by another branch
 };
@@ -36,6 +39,9 @@ struct EventTraits {
   bool begins_stance = false;  // a guard found closed after it was never open
   /// A guard found closed after an event that did not begin the stance fires together with it.
   bool ends_stance = false;
+  /// At zero where its mode begins it may open by the second order of time: there it fires at once
+  /// only if it comes down faster than grazing.
+  bool waits_to_open = false;
   bool begins_hop = false;    // a hop is on its way from here
   bool ends_hop = false;      // ... and complete here, unless the reset says no
   bool is_hop = false;        // each one counts as a hop
@@ -52,6 +58,7 @@ enum class Outcome {
   kFellHeight,        // hip below y_min; later samples are missing, here and below
   kFellAngle,         // chord more than 80 deg from the vertical
   kFellArc,           // contact arc below 0.2 rad
+  kFellPitch,         // the body pitched beyond its limit
   kFellNoReturn,      // lifted off, never again as high as touch-down needs, down to y_min
   kNoSupport,         // touched down without pushing (chord not shortening)
   kStartsInGround,    // the start lies below touch-down height
@@ -80,6 +87,7 @@ struct GuardSpec {
   std::optional<Outcome> if_closed = std::nullopt;
   /// The flow is continuous across it: its instant matters to the solver alone, and it may graze.
   bool is_smooth = false;
+  int leg = 0;  // of a mechanism with several, which one's
 };
 
 /// What a reset did: the next mode, and the outcome if the run ends there.
@@ -98,8 +106,8 @@ struct GuardCrossing {
 /// |guard|/scale below which a guard counts as at zero: rounding of a state of size one.
 inline constexpr double kAtZero = 1e-11;
 
-inline constexpr int kMaxGuards = 24;
+inline constexpr int kMaxGuards = 28;
 /// Most states of a mechanism, and of what a stepper integrates: with eight sensitivities of each.
-inline constexpr int kMaxStates = 16;
+inline constexpr int kMaxStates = 18;
 
 }  // namespace hoplab

@@ -158,18 +158,18 @@ template <class T>
 std::optional<Outcome> Engine<T>::FireAtOnce(const GuardRates& at_start, bool begins,
                                              GuardCrossing& fired, bool& with_last_event) {
   const int guards = system_.GuardCount(mode_);
-  if (begins && at_start.value[0] < -kAtZero &&
-      TraitsOf(system_.Guard(mode_, 0).event).meets_ground)
-    return Outcome::kStartsInGround;
   for (int i = 0; i < guards; ++i) {
     const GuardSpec spec = system_.Guard(mode_, i);
     const EventTraits& traits = TraitsOf(spec.event);
+    if (begins && at_start.value[i] < -kAtZero && traits.meets_ground)
+      return Outcome::kStartsInGround;
     const bool at_zero = std::abs(at_start.value[i]) <= kAtZero;
     const bool closed = at_start.value[i] < -kAtZero || (at_zero && at_start.rate[i] <= 0.0);
     if (spec.if_closed && closed && (entered_ || begins)) {
       if (!traits.ends_stance || last_began_stance_) return *spec.if_closed;
       with_last_event = true;
-    } else if (!(at_zero && at_start.rate[i] < 0.0 && (!traits.is_section || IsMissedSection()))) {
+    } else if (!(at_zero && at_start.rate[i] < (traits.waits_to_open ? -kGrazingRate : 0.0) &&
+                 (!traits.is_section || IsMissedSection()))) {
       continue;
     }
     fired = {i, t_};
@@ -239,6 +239,7 @@ std::optional<Outcome> Engine<T>::Process(int guard, bool with_last_event) {
     event.vy = Value(z_[3]);
   }
   event.crossing_rate = rate;
+  event.leg = spec.leg;
   if (IsSimultaneous(guard, at)) event.simultaneous = out_.has_simultaneous_events = true;
 
   const ResetResult result = system_.Reset(mode_, guard, event_time, z_);

@@ -4,6 +4,7 @@
 
 #include "model/jet.h"
 #include "model/observation.h"
+#include "model/robot_parameters.h"
 
 namespace hoplab {
 
@@ -57,6 +58,12 @@ class GroundFrame {
     Turn(sin_, seen[Channel::kGroundForceX], seen[Channel::kGroundForceY]);
     Turn(sin_, seen[Channel::kContactX], seen[Channel::kContactY]);
     seen[Channel::kLegAngle] += slope_;
+    if (!seen.robot) return;
+    for (int leg = 0; leg < kMaxLegs; ++leg) {
+      Turn(sin_, seen[OfLeg(Channel::kLegContactX1, leg)],
+           seen[OfLeg(Channel::kLegContactY1, leg)]);
+      Turn(sin_, seen[OfLeg(Channel::kLegForceX1, leg)], seen[OfLeg(Channel::kLegForceY1, leg)]);
+    }
   }
 
  private:

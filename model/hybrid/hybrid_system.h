@@ -39,6 +39,9 @@ class HybridSystem {
 
   /// Completes the state a run begins with, of which the first `given` components are set.
   virtual void CompleteStart(T* /*z*/, int /*given*/) const {}
+  /// Whether what follows the body in the state is no contact's place, so that a start in stance is
+  /// completed like one in flight.
+  virtual bool CompletesAnyStart() const { return false; }
   /// Prepares the discrete state for a run that begins in `mode` at state `z`, and completes `z`
   /// where it begins in stance with the place of its contact; gives the mode it is in.
   virtual Mode Begin(Mode mode, T* /*z*/) { return mode; }

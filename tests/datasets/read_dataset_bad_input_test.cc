@@ -269,8 +269,8 @@ TEST(BadDataset, AListWhereTextIsWantedIsOfTheWrongType) {
 
 TEST(BadDataset, AnUnknownMechanismTypeGetsTheNearestKnownOne) {
   EXPECT_EQ(ErrorWithYaml("type: c_leg", "type: cleg"),
-            "hops/dataset.yaml:4: mechanism.type = cleg; must be one of c_leg, straight_leg, ball. "
-            "Did you mean c_leg?");
+            "hops/dataset.yaml:4: mechanism.type = cleg; must be one of c_leg, straight_leg, ball, "
+            "robot. Did you mean c_leg?");
 }
 
 TEST(BadDataset, AnUnknownRoleIsRefused) {

@@ -18,7 +18,7 @@ std::string MessageOf(const Dataset& d, const ProblemOptions& o) {
 }
 
 TEST(Problem, EveryChannelOfTheFormatIsOneOfTheSimulator) {
-  static_assert(kChannelIdCount == kChannelCount);
+  static_assert(kChannelIdCount == kChannelCount + kRobotChannelCount);
   for (const ChannelId id : kAllChannels) EXPECT_EQ(NameOf(ChannelOfSpec(id)), ChannelName(id));
 }
 

@@ -60,6 +60,8 @@ MechanismSpec TrueMechanism(Law law) {
       m.body_mass_kg = 0.0027;
       m.ball = {0.02, 0.85, 0.1};
       break;
+    case MechanismKind::kRobot:
+      break;  // has cases of its own
   }
   return m;
 }
@@ -198,6 +200,7 @@ double TrueStiffness(Law law) {
     case MechanismKind::kStraightLeg:
       return m.straight_leg.stiffness_N_per_m;
     case MechanismKind::kBall:
+    case MechanismKind::kRobot:
       break;
   }
   return m.ball.restitution;

@@ -89,6 +89,7 @@ Run RunAt(SimulationRequest q, const SensitivityDirection& d, double value) {
   for (const Event& e : t.events) {
     run.all.push_back(e.time);
     run.sequence += hoplab::NameOf(e.kind);
+    run.sequence += static_cast<char>('0' + e.leg);
     run.sequence += ' ';
   }
   return run;
@@ -103,7 +104,7 @@ double Norm(const std::vector<double>& v, std::size_t begin, std::size_t end) {
 }  // namespace
 
 std::string NameOf(const SimulationRequest& q, const SensitivityDirection& d) {
-  static constexpr const char* kStates[] = {"x", "y", "vx", "vy", "contact"};
+  static constexpr const char* kStates[] = {"x", "y", "vx", "vy", "state 4", "state 5"};
   switch (d.of) {
     case Of::kParameter:
       return std::string(InfoOf(d.parameter).name);

@@ -1,0 +1,147 @@
+#include "datasets/read_robot.h"
+
+#include "base/range.h"
+#include "datasets/read_spec.h"
+
+namespace hoplab {
+namespace {
+
+constexpr std::size_t kMostLegs = 4;
+constexpr Range kPlace = Within(100, "m");
+constexpr Range kModulus = Positive(1e13, "Pa");
+constexpr Range kAngle = Within(1e3, "rad");
+
+// [x, y]
+void ReadPlace(const YamlCursor& cursor, double& x, double& y) {
+  const std::vector<YamlCursor> items = cursor.Items(2);
+  if (items.size() != 2) cursor.Fail("must be two numbers, [x, y]", "Remove the others.");
+  x = items[0].Number(kPlace);
+  y = items[1].Number(kPlace);
+}
+
+std::vector<double> ReadNumbers(const YamlCursor& cursor, const Range& range) {
+  std::vector<double> numbers;
+  for (const YamlCursor& item : cursor.Items(1)) numbers.push_back(item.Number(range));
+  return numbers;
+}
+
+void ReadMotor(const YamlCursor& motor, RobotSpec& robot) {
+  motor.AllowOnly(
+      {"rotor_inertia_kg_m2", "kp_N_m_per_rad", "kd_N_m_s_per_rad", "torque_limit_N_m"});
+  robot.rotor_inertia_kg_m2 = motor.RequiredNumber("rotor_inertia_kg_m2", Positive(1e3, "kg m^2"));
+  robot.kp_N_m_per_rad = motor.RequiredNumber("kp_N_m_per_rad", NonNegative(1e6, "N m/rad"));
+  robot.kd_N_m_s_per_rad = motor.RequiredNumber("kd_N_m_s_per_rad", NonNegative(1e6, "N m s/rad"));
+  robot.torque_limit_N_m = motor.OptionalNumber("torque_limit_N_m", Positive(1e6, "N m"));
+}
+
+void ReadLeg(const YamlCursor& leg, RobotSpec& robot) {
+  leg.AllowOnly({"rest_radius_m", "E_Pa", "width_m", "thickness_m", "second_moment_m4",
+                 "material_damping_s", "clamp_m"});
+  robot.rest_radius_m = leg.RequiredNumber("rest_radius_m", Positive(100, "m"));
+  robot.E_Pa = leg.RequiredNumber("E_Pa", kModulus);
+  robot.material_damping_s = leg.RequiredNumber("material_damping_s", NonNegative(0.1, "s"));
+  robot.clamp_m =
+      leg.OptionalNumber("clamp_m", NonNegative(2 * robot.rest_radius_m, "m")).value_or(0);
+  if (leg.Optional("second_moment_m4")) {
+    if (const auto strip = leg.Optional("width_m"))
+      strip->FailAtKey("the section is given by second_moment_m4 already",
+                       "Remove one of the two.");
+    robot.second_moment_m4 = leg.RequiredNumber("second_moment_m4", Positive(1e3, "m^4"));
+    return;
+  }
+  const double width = leg.RequiredNumber("width_m", Positive(10, "m"));
+  const double thickness = leg.RequiredNumber("thickness_m", Positive(10, "m"));
+  robot.second_moment_m4 = width * thickness * thickness * thickness / 12;
+  if (!Positive(1e3, "m^4").Contains(robot.second_moment_m4))
+    leg.FailAtKey("width_m thickness_m^3 / 12 must be positive", "Check the unit: m is meant.");
+}
+
+}  // namespace
+
+const std::vector<std::string>& RobotKeys() {
+  static const std::vector<std::string> kKeys = {"pitch_inertia_kg_m2",
+                                                 "centre_of_mass_m",
+                                                 "friction",
+                                                 "fall_height_m",
+                                                 "pitch_limit_rad",
+                                                 "motor",
+                                                 "leg",
+                                                 "legs"};
+  return kKeys;
+}
+
+RobotSpec ReadRobot(const YamlCursor& mechanism) {
+  RobotSpec robot;
+  robot.pitch_inertia_kg_m2 =
+      mechanism.RequiredNumber("pitch_inertia_kg_m2", Positive(1e6, "kg m^2"));
+  if (const auto com = mechanism.Optional("centre_of_mass_m"))
+    ReadPlace(*com, robot.com_x_m, robot.com_y_m);
+  robot.friction = mechanism.OptionalNumber("friction", NonNegative(1e3, ""));
+  robot.pitch_limit_rad = mechanism.OptionalNumber("pitch_limit_rad", Positive(3.1, "rad"));
+  ReadMotor(mechanism.Required("motor", "a block with rotor_inertia_kg_m2 and the gains"), robot);
+  ReadLeg(mechanism.Required("leg",
+                             "a block with rest_radius_m, E_Pa, the section and "
+                             "material_damping_s"),
+          robot);
+  const YamlCursor legs =
+      mechanism.Required("legs", "a list, hindmost first, as [{hip_m: [-0.1, 0]}]");
+  for (const YamlCursor& item : legs.Items(1)) {
+    item.AllowOnly({"hip_m", "E_Pa"});
+    RobotLegSpec leg;
+    ReadPlace(item.Required("hip_m", "the hip in the body frame, [x, y]"), leg.hip_x_m,
+              leg.hip_y_m);
+    leg.E_Pa = item.OptionalNumber("E_Pa", kModulus);
+    robot.legs.push_back(leg);
+  }
+  if (robot.legs.size() > kMostLegs)
+    legs.Fail("must have at most 4 legs, seen from the side",
+              "Legs that move together are one, with the sum of their widths.");
+  return robot;
+}
+
+MotorsSpec ReadMotors(const YamlCursor& cursor) {
+  MotorsSpec motors;
+  motors.kind = static_cast<MotorsSpec::Kind>(
+      cursor.Required("type", "locked, held or clock").Choice({"locked", "held", "clock"}));
+  if (motors.kind != MotorsSpec::Kind::kClock) {
+    cursor.AllowOnly({"type", "angles_rad"});
+    motors.angles_rad =
+        ReadNumbers(cursor.Required("angles_rad", "a list, one angle a leg"), kAngle);
+    return motors;
+  }
+  cursor.AllowOnly({"type", "period_s", "duty", "sweep_rad", "offset_rad", "phases"});
+  motors.period_s = cursor.RequiredNumber("period_s", Positive(1e3, "s"));
+  motors.duty = cursor.RequiredNumber("duty", Range{0, 1, false, false, ""});
+  motors.sweep_rad = cursor.RequiredNumber("sweep_rad", Range{0, 6.2831853, false, false, "rad"});
+  motors.offset_rad = cursor.OptionalNumber("offset_rad", kAngle).value_or(0);
+  motors.phases =
+      ReadNumbers(cursor.Required("phases", "a list, one share of a turn a leg"), Within(1e3, ""));
+  return motors;
+}
+
+void CheckMotors(const YamlCursor& owner, const MechanismSpec& mechanism,
+                 const std::optional<ControllerSpec>& controller,
+                 const std::optional<StateSpec>& initial) {
+  const bool robot = mechanism.type == MechanismType::kRobot;
+  const bool motors = controller && controller->motors;
+  if (robot && !motors)
+    owner.Fail("a robot needs a controller that says what its motors do",
+               "Add controller: {type: held, angles_rad: [0.5, 0.5]}.");
+  if (!robot && motors)
+    owner.Fail("a controller with a type is that of a robot's motors",
+               "Give kp_N_s and v_des_m_per_s, or make the mechanism a robot.");
+  if (!robot && initial && (initial->pitch_rad || initial->pitch_rate_rad_per_s))
+    owner.Fail("only a robot pitches", "Remove pitch_rad and pitch_rate_rad_per_s of initial.");
+  if (!robot) return;
+  const MotorsSpec& m = *controller->motors;
+  const std::size_t given =
+      m.kind == MotorsSpec::Kind::kClock ? m.phases.size() : m.angles_rad.size();
+  if (given != mechanism.robot.legs.size())
+    owner.Fail("the controller has " + std::to_string(given) + " angles or phases, and the robot " +
+                   std::to_string(mechanism.robot.legs.size()) + " legs",
+               "Give one for each leg, hindmost first.");
+  if (initial && initial->mode != StartMode::kFlight)
+    owner.Fail("a robot begins in flight", "Remove mode and contact_x_m of initial.");
+}
+
+}  // namespace hoplab

@@ -1,0 +1,5 @@
+#include "model/effects/robot_leg.h"
+
+namespace hoplab::effects {
+extern constexpr Effect motor_gain_4 = MakeEffect<effect_detail::MotorGainOf<4>>();
+}

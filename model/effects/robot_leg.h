@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "model/effects/effect.h"
+
+namespace hoplab::effect_detail {
+
+// What may be amiss with one leg of a robot alone, or with its motor. `leg` counts from the
+// hindmost, 1. Against one modulus (damping) that all legs share, one leg that is stiffer (less
+// damped) is the others being softer (more damped), so these point one way.
+
+inline constexpr std::array<std::string_view, kMaxLegs + 1> kSoftLeg = {
+    "", "leg 1 (the hindmost) is softer than the others: a crack, a loose clamp, another batch",
+    "leg 2 is softer than the others: a crack, a loose clamp, another batch",
+    "leg 3 is softer than the others: a crack, a loose clamp, another batch",
+    "leg 4 is softer than the others: a crack, a loose clamp, another batch"};
+inline constexpr std::array<std::string_view, kMaxLegs + 1> kDampedLeg = {
+    "", "the material of leg 1 (the hindmost) is more viscous than that of the others",
+    "the material of leg 2 is more viscous than that of the others",
+    "the material of leg 3 is more viscous than that of the others",
+    "the material of leg 4 is more viscous than that of the others"};
+inline constexpr std::array<std::string_view, kMaxLegs + 1> kWeakMotor = {
+    "", "the motor of leg 1 (the hindmost) is weaker or stronger than its controller thinks",
+    "the motor of leg 2 is weaker or stronger than its controller thinks",
+    "the motor of leg 3 is weaker or stronger than its controller thinks",
+    "the motor of leg 4 is weaker or stronger than its controller thinks"};
+
+constexpr EffectInfo InfoOfLeg(int leg, std::string_view name, std::string_view equation,
+                               std::string_view sentence,
+                               std::span<const EffectParameter> parameters) {
+  return {.name = name,
+          .kind = EffectKind::kParameter,
+          .equation = equation,
+          .sentence = sentence,
+          .for_legs = false,
+          .for_ball = false,
+          .dissipative = false,
+          .parameters = parameters,
+          .for_robot = true,
+          .robot_leg = leg};
+}
+
+template <int leg>
+struct LegStiffness {
+  static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
+      "", "leg_stiffness_1", "leg_stiffness_2", "leg_stiffness_3", "leg_stiffness_4"};
+  static constexpr std::array kParameters = {EffectParameter{"loss", "-", 0.0, 0.0, 0.95, 0.1}};
+  static constexpr EffectInfo kInfo =
+      InfoOfLeg(leg, kNames[leg], "E (1 - loss) of that leg (M78)", kSoftLeg[leg], kParameters);
+
+  template <class T>
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    parameters.robot->E_scale[leg - 1] *= 1.0 - p[0];
+  }
+};
+
+template <int leg>
+struct LegDamping {
+  static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
+      "", "leg_damping_1", "leg_damping_2", "leg_damping_3", "leg_damping_4"};
+  static constexpr std::array kParameters = {EffectParameter{"tau", "s", 0.0, 0.0, 0.1, 2e-4}};
+  static constexpr EffectInfo kInfo = InfoOfLeg(
+      leg, kNames[leg], "leg_damping + tau of that leg (M78)", kDampedLeg[leg], kParameters);
+
+  template <class T>
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    parameters.robot->extra_damping[leg - 1] += p[0];
+  }
+};
+
+template <int leg>
+struct MotorGainOf {
+  static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
+      "", "motor_gain_1", "motor_gain_2", "motor_gain_3", "motor_gain_4"};
+  static constexpr std::array kParameters = {EffectParameter{"gamma", "-", 0.0, -0.9, 2.0, 0.05}};
+  static constexpr EffectInfo kInfo =
+      InfoOfLeg(leg, kNames[leg], "that motor gives (1 + gamma) of the torque it is told (M75)",
+                kWeakMotor[leg], kParameters);
+
+  template <class T>
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    parameters.robot->gain_of[leg - 1] *= 1.0 + p[0];
+  }
+};
+
+}  // namespace hoplab::effect_detail

@@ -1,0 +1,332 @@
+#include "model/mechanisms/robot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/laws/leg_load.h"
+#include "model/mechanisms/inertia.h"
+#include "model/mechanisms/robot_events_inl.h"
+
+namespace hoplab {
+
+template <class T>
+Robot<T>::Robot(const MechanismSetup<T>& setup)
+    : p_(setup.parameters),
+      robot_(*p_.robot),
+      effects_(setup.effects),
+      legs_(robot_.legs),
+      has_body_force_(effects_.HasBodyForce()) {
+  const Inertia<T> weight(p_);
+  gravity_x_ = weight.gravity_x;
+  gravity_y_ = weight.gravity_y;
+  fall_height_ =
+      p_.fall_height == p_.fall_height ? p_.fall_height : robot_detail::kLowestHip * Value(p_.r);
+  using std::cos;
+  using std::sin;
+  clamp_ = robot_.clamp / p_.r;
+  cos_clamp_ = cos(clamp_);
+  sin_clamp_ = sin(clamp_);
+  for (int i = 0; i < legs_; ++i) {
+    const T& E = robot_.own_moduli ? robot_.E[i] : p_.E;
+    leg_[i].arc =
+        ClampedArc<T>(p_.r, robot_.E_scale[i] * E * p_.I, robot_.damping + robot_.extra_damping[i],
+                      robot_.friction, robot_.clamp);
+    leg_[i].clock = MotorClock<T>(robot_, i, p_.time_origin);
+    gain_[i] = robot_.motor_gain * robot_.gain_of[i];
+  }
+  ListGuards(Mode::kFlight);
+}
+
+template <class T>
+typename Robot<T>::Hip Robot<T>::HipOf(const Frame& frame, int leg, const T* z) const {
+  const Vector2<T> at = frame.Turn(robot_.hip_x[leg], robot_.hip_y[leg]);
+  const T& turn = z[Pitch() + 1];
+  return {at.x,
+          at.y,
+          z[kVx] - turn * at.y,
+          z[kVy] + turn * at.x,
+          frame.pitch + z[Angle(leg)],
+          turn + z[Rate(leg)]};
+}
+
+// M77: a piece of the circle that turns with the hub.
+template <class T>
+typename Robot<T>::Hip Robot<T>::ClampOf(const Hip& hip) const {
+  using std::cos;
+  using std::sin;
+  if (IsZero(robot_.clamp)) return hip;
+  const T s = p_.r * sin(hip.angle), c = p_.r * cos(hip.angle);
+  const T x = s - (s * cos_clamp_ + c * sin_clamp_), y = (c * cos_clamp_ - s * sin_clamp_) - c;
+  return {hip.x + x,          hip.y + y, hip.vx - hip.rate * y, hip.vy + hip.rate * x,
+          hip.angle + clamp_, hip.rate};
+}
+
+template <class T>
+ClampedPlace<T> Robot<T>::PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const {
+  return PlaceAt(leg, i, ClampOf(of), z);
+}
+
+template <class T>
+ClampedPlace<T> Robot<T>::PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const {
+  return {z[Contact(i)] - z[kX] - hip.x,
+          z[kY] + hip.y,
+          robot_detail::kPi - hip.angle + 2.0 * robot_detail::kPi * leg.turns,
+          hip.vx,
+          hip.vy,
+          -hip.rate};
+}
+
+// Whole turns that bring an angle into (-pi, pi].
+template <class T>
+int Robot<T>::TurnsOf(double angle) {
+  return static_cast<int>(std::ceil((angle - robot_detail::kPi) / (2.0 * robot_detail::kPi)));
+}
+
+// M74: how far below its hip the unloaded leg reaches [m].
+template <class T>
+T Robot<T>::Reach(const T& angle) const {
+  using std::cos;
+  const T b = angle - 2.0 * robot_detail::kPi * TurnsOf(Value(angle));
+  return Value(b) > 0.0 ? T(p_.r * (1.0 + cos(b))) : T(2.0 * p_.r * cos(b));
+}
+
+// M75: what the motor is told to give, before its limit [N m].
+template <class T>
+T Robot<T>::Command(int leg, const T& t, const T* z) const {
+  T angle = robot_.angle[leg], rate(0.0);
+  if (robot_.control == MotorControl::kClock) {
+    const Leg& own = leg_[leg];
+    angle = own.clock.Angle(own.piece, t);
+    rate = own.clock.Rate(own.piece);
+  }
+  return robot_.motor_kp * (angle - z[Angle(leg)]) + robot_.motor_kd * (rate - z[Rate(leg)]);
+}
+
+template <class T>
+T Robot<T>::Torque(int leg, const T& t, const T* z) const {
+  if (robot_.control == MotorControl::kLocked) return T(0.0);
+  const double side = leg_[leg].limit;
+  return side == 0.0 ? Command(leg, t, z) : T(side * robot_.torque_limit);
+}
+
+// M72, M73.
+template <class T>
+void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
+  const Frame frame(z[Pitch()] - p_.slope);
+  const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
+  const T& turn = z[Pitch() + 1];
+  T force_x(0.0), force_y(0.0), moment(0.0);
+  const bool locked = robot_.control == MotorControl::kLocked;
+  for (int i = 0; i < legs_; ++i) {
+    const Leg& leg = leg_[i];
+    T on_hip(0.0);
+    if (IsDown(leg)) {
+      const Hip hip = HipOf(frame, i, z);
+      const Hip end = ClampOf(hip);
+      const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceAt(leg, i, end, z));
+      const T fx = load.fx + load.damped_x, fy = load.fy + load.damped_y;
+      on_hip = load.moment + load.damped_moment + (end.x - hip.x) * fy - (end.y - hip.y) * fx;
+      force_x += fx;
+      force_y += fy;
+      moment += (hip.x - com.x) * fy - (hip.y - com.y) * fx + on_hip;
+    }
+    dz[Angle(i)] = locked ? T(0.0) : z[Rate(i)];
+    dz[Rate(i)] = locked ? T(0.0) : T((gain_[i] * Torque(i, t, z) + on_hip) / robot_.rotor_inertia);
+    dz[Contact(i)] = T(0.0);
+  }
+  if (has_body_force_) {
+    const Vector2<T> push = effects_.BodyForce(
+        {t + p_.time_origin, z[kX], z[kY], z[kVx], z[kVy], ModeNow() != Mode::kFlight});
+    force_x += push.x;
+    force_y += push.y;
+  }
+  const T spin = moment / robot_.pitch_inertia;
+  dz[kX] = z[kVx];
+  dz[kY] = z[kVy];
+  dz[kVx] = force_x / p_.m + gravity_x_ + spin * com.y + turn * turn * com.x;
+  dz[kVy] = force_y / p_.m + gravity_y_ - spin * com.x + turn * turn * com.y;
+  dz[Pitch()] = turn;
+  dz[Pitch() + 1] = spin;
+}
+
+// ---- start, discrete state, knots ------------------------------------------------------------
+
+// A start gives the body's motion, and the pitch and its rate; motors begin on their reference.
+template <class T>
+void Robot<T>::CompleteStart(T* z, int given) const {
+  if (given > 6) return;
+  for (int i = 0; i < legs_; ++i) {
+    z[Angle(i)] = robot_.angle[i];
+    z[Rate(i)] = T(0.0);
+    if (robot_.control != MotorControl::kClock) continue;
+    const MotorClock<T>& clock = leg_[i].clock;
+    const int piece = clock.PieceAt(0.0);
+    z[Angle(i)] = clock.Angle(piece, T(0.0));
+    z[Rate(i)] = clock.Rate(piece);
+  }
+}
+
+template <class T>
+void Robot<T>::FindLimits(double t, const T* z) {
+  for (int i = 0; i < legs_; ++i) {
+    const double command = Value(Command(i, T(t), z));
+    leg_[i].limit = std::abs(command) > robot_.torque_limit ? (command > 0.0 ? 1 : -1) : 0;
+  }
+}
+
+template <class T>
+Mode Robot<T>::Begin(Mode, T* z) {
+  for (int i = 0; i < legs_; ++i) {
+    Leg& leg = leg_[i];
+    leg.stance = Stance::kFlight;
+    leg.slides = 0.0;
+    leg.turns = 0;
+    leg.piece = leg.clock.PieceAt(0.0);
+  }
+  FindLimits(0.0, z);
+  for (int i = 0; i < legs_; ++i) BeginOnFoot(i, z);
+  const Mode mode = ModeNow();
+  ListGuards(mode);
+  return mode;
+}
+
+template <class T>
+void Robot<T>::SaveDiscreteState(DiscreteState& to) const {
+  for (int i = 0; i < legs_; ++i) {
+    const Leg& leg = leg_[i];
+    for (int value : {static_cast<int>(leg.stance), leg.turns, leg.limit, leg.piece}) to.Put(value);
+    to.Put(leg.slides);
+    leg.arc.Save(to);
+  }
+}
+template <class T>
+void Robot<T>::LoadDiscreteState(DiscreteState& from) {
+  for (int i = 0; i < legs_; ++i) {
+    Leg& leg = leg_[i];
+    leg.stance = static_cast<Stance>(static_cast<int>(from.Take()));
+    for (int* value : {&leg.turns, &leg.limit, &leg.piece}) *value = static_cast<int>(from.Take());
+    leg.slides = from.Take();
+    leg.arc.Load(from);
+  }
+  ListGuards(ModeNow());
+}
+
+// A state that did not come out of a run: a leg with a contact coordinate is on the ground there.
+template <class T>
+void Robot<T>::StartSearch(Mode mode, const double* z) {
+  for (int i = 0; i < legs_; ++i) {
+    Leg& leg = leg_[i];
+    leg.stance = Stance::kFlight;
+    leg.slides = 0.0;
+    leg.piece = leg.clock.PieceAt(0.0);
+    if (mode == Mode::kFlight || z[Contact(i)] == 0.0) continue;
+    leg.turns = TurnsOf(z[Pitch()] + z[Angle(i)]);
+    leg.stance = Stance::kRolling;
+    leg.arc.StartAt(0.0);
+  }
+}
+
+template <class T>
+double Robot<T>::NextKnot(Mode) const {
+  double next = std::numeric_limits<double>::infinity();
+  if (robot_.control != MotorControl::kClock) return next;
+  for (int i = 0; i < legs_; ++i) next = std::min(next, Value(leg_[i].clock.End(leg_[i].piece)));
+  return next;
+}
+
+template <class T>
+std::optional<T> Robot<T>::PassKnot(Mode mode, double t, T* z) {
+  if (robot_.control != MotorControl::kClock) return std::nullopt;
+  int due = 0;
+  for (int i = 1; i < legs_; ++i)
+    if (leg_[i].clock.End(leg_[i].piece) < leg_[due].clock.End(leg_[due].piece)) due = i;
+  Leg& leg = leg_[due];
+  const T instant = leg.clock.End(leg.piece);
+  ++leg.piece;
+  // The rate of the reference jumps, and with it the command: on which side of its limit it is then
+  // is part of the knot.
+  const double command = Value(Command(due, T(t), z));
+  leg.limit = std::abs(command) > robot_.torque_limit ? (command > 0.0 ? 1 : -1) : 0;
+  ListGuards(mode);
+  return instant;
+}
+
+// ---- what it tells ---------------------------------------------------------------------------
+
+template <class T>
+std::optional<BallisticFlight<T>> Robot<T>::FreeFlight() const {
+  return BallisticFlight<T>{gravity_x_, gravity_y_, T(0.0)};
+}
+
+template <class T>
+double Robot<T>::FirstStep(Mode mode, const T*) const {
+  return mode == Mode::kFlight ? 1e-3 : 2e-4;
+}
+
+template <class T>
+Observation<T> Robot<T>::Observe(Mode mode, const T& t, const T* z) const {
+  Observation<T> seen = this->Unseen();
+  seen[Channel::kBodyX] = z[kX];
+  seen[Channel::kBodyY] = z[kY];
+  seen[Channel::kBodyVx] = z[kVx];
+  seen[Channel::kBodyVy] = z[kVy];
+  seen.robot.emplace();
+  for (T& c : *seen.robot) c = T(std::numeric_limits<double>::quiet_NaN());
+  seen[Channel::kBodyPitch] = z[Pitch()];
+  const Frame frame(z[Pitch()] - p_.slope);
+  T force_x(0.0), force_y(0.0);
+  for (int i = 0; i < legs_; ++i) {
+    const Leg& leg = leg_[i];
+    const bool down = mode != Mode::kFlight && IsDown(leg);
+    seen[OfLeg(Channel::kLegAngle1, i)] = z[Angle(i)];
+    seen[OfLeg(Channel::kHipTorque1, i)] = Torque(i, t, z);
+    seen[OfLeg(Channel::kContact1, i)] = T(down ? 1.0 : 0.0);
+    if (!down) continue;
+    const Hip hip = HipOf(frame, i, z);
+    const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z));
+    const T fx = load.fx + load.damped_x, fy = load.fy + load.damped_y;
+    force_x += fx;
+    force_y += fy;
+    // X0 is where the arc would begin to be laid down (M81); the contact lies its length on.
+    T foot = z[kX] + ClampOf(hip).x + load.lead;
+    if (leg.stance == Stance::kRolling) foot += p_.r * load.arc;
+    seen[OfLeg(Channel::kLegContactX1, i)] = foot;
+    seen[OfLeg(Channel::kLegContactY1, i)] = T(0.0);
+    seen[OfLeg(Channel::kLegArc1, i)] = load.arc;
+    seen[OfLeg(Channel::kLegForceX1, i)] = fx;
+    seen[OfLeg(Channel::kLegForceY1, i)] = fy;
+  }
+  seen[Channel::kGroundForceX] = force_x;
+  seen[Channel::kGroundForceY] = force_y;
+  seen[Channel::kContact] = T(mode == Mode::kFlight ? 0.0 : 1.0);
+  return seen;
+}
+
+template <class T>
+T Robot<T>::Energy(Mode, const T* z) const {
+  const Frame frame(z[Pitch()] - p_.slope);
+  const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
+  const T& turn = z[Pitch() + 1];
+  const T centre[4] = {z[kX] + com.x, z[kY] + com.y, z[kVx] - turn * com.y, z[kVy] + turn * com.x};
+  T energy = Inertia<T>(p_).Energy(centre) + 0.5 * robot_.pitch_inertia * turn * turn;
+  for (int i = 0; i < legs_; ++i) {
+    const Leg& leg = leg_[i];
+    if (IsDown(leg))
+      energy += leg.arc.StrainEnergy(FootOf(leg), PlaceOf(leg, i, HipOf(frame, i, z), z));
+    if (robot_.control == MotorControl::kLocked) continue;
+    energy += 0.5 * robot_.rotor_inertia * z[Rate(i)] * z[Rate(i)];
+    if (robot_.control == MotorControl::kHeld) {
+      const T off = robot_.angle[i] - z[Angle(i)];
+      energy += 0.5 * robot_.motor_kp * off * off;
+    }
+  }
+  return energy;
+}
+
+template class Robot<double>;
+template class Robot<Jet<1>>;
+template class Robot<Jet<kNarrowJet>>;
+template class Robot<Jet<kWideJet>>;
+
+}  // namespace hoplab

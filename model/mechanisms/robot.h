@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+
+#include "model/hybrid/hybrid_system.h"
+#include "model/laws/clamped/clamped_arc.h"
+#include "model/mechanisms/mechanism_setup.h"
+#include "model/mechanisms/motor_clock.h"
+
+namespace hoplab {
+
+/// A rigid body with pitch on up to four clamped arcs, each turned by a motor at its hip (section 8
+/// of the equation sheet). State: x, y, vx, vy of the body's reference point, pitch and its rate,
+/// the motors' angles, their rates, and of each leg the contact coordinate (X0 while it rolls, x_c
+/// on its toe). Flight is when no leg is on the ground; which ones are and how is a discrete state.
+template <class T>
+class Robot final : public HybridSystem<T> {
+ public:
+  explicit Robot(const MechanismSetup<T>& setup);
+
+  int size() const override { return 6 + 3 * legs_; }
+  void Derivative(Mode mode, const T& t, const T* z, T* dz) const override;
+  int GuardCount(Mode mode) const override;
+  GuardSpec Guard(Mode mode, int i) const override;
+  void Guards(Mode mode, const T& t, const T* z, T* g) const override;
+  ResetResult Reset(Mode mode, int i, const T& t, T* z) override;
+
+  bool CompletesAnyStart() const override { return true; }
+  void CompleteStart(T* z, int given) const override;
+  Mode Begin(Mode mode, T* z) override;
+  void SaveDiscreteState(DiscreteState& to) const override;
+  void LoadDiscreteState(DiscreteState& from) override;
+  void StartSearch(Mode mode, const double* z) override;
+  double NextKnot(Mode mode) const override;
+  std::optional<T> PassKnot(Mode mode, double t, T* z) override;
+  std::optional<BallisticFlight<T>> FreeFlight() const override;
+  double FirstStep(Mode mode, const T* z) const override;
+  Observation<T> Observe(Mode mode, const T& t, const T* z) const override;
+  T Energy(Mode mode, const T* z) const override;
+
+ private:
+  /// What a leg does on the ground, or that it is off it.
+  enum class Stance { kFlight, kRolling, kToe };
+  struct Leg {
+    Stance stance = Stance::kFlight;
+    double slides = 0.0;  // direction of its foot
+    int turns = 0;        // whole turns taken off the hip's angle since it landed
+    int limit = 0;        // side of the torque limit its motor is at
+    int piece = 0;        // of its clock
+    ClampedArc<T> arc = {};
+    MotorClock<T> clock = {};
+  };
+  /// The guards there are, in the order they fire.
+  struct GuardRef {
+    EventKind event;
+    int leg;
+    double scale;
+    double side =
+        0.0;  // the direction the foot would slide at its cone; it slides as it snaps away
+  };
+  /// The hip of a leg: from the reference point, its velocity, the angle of the leg on the ground.
+  struct Hip {
+    T x, y;    // from the reference point, frame of the ground [m]
+    T vx, vy;  // [m/s]
+    T angle;   // beta [rad], whole turns included
+    T rate;    // [rad/s]
+  };
+
+  int Pitch() const { return 4; }
+  int Angle(int leg) const { return 6 + leg; }
+  int Rate(int leg) const { return 6 + legs_ + leg; }
+  int Contact(int leg) const { return 6 + 2 * legs_ + leg; }
+  bool HasCone() const { return Value(robot_.friction) < std::numeric_limits<double>::infinity(); }
+  bool IsDown(const Leg& leg) const { return leg.stance != Stance::kFlight; }
+  static Footing FootOf(const Leg& leg) { return {leg.stance == Stance::kRolling, leg.slides}; }
+
+  /// The same of the end of the clamp, where the leg begins to bend.
+  Hip ClampOf(const Hip& hip) const;
+  struct Frame;  // sine and cosine of the body's pitch over the ground
+  Hip HipOf(const Frame& frame, int leg, const T* z) const;
+  ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const;
+  /// The same from the end of the clamp.
+  ClampedPlace<T> PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const;
+  static int TurnsOf(double angle);
+  T Reach(const T& angle) const;
+  T Command(int leg, const T& t, const T* z) const;
+  T Torque(int leg, const T& t, const T* z) const;
+  void FindLimits(double t, const T* z);
+  void ListGuards(Mode mode);
+  Mode ModeNow() const;
+  std::optional<Outcome> Land(int i, T* z);
+  void BeginOnFoot(int i, T* z);
+  void LiftOff(int i, T* z);
+
+  Parameters<T> p_;
+  RobotParameters<T> robot_;
+  ActiveEffects<T> effects_;
+  int legs_;
+  T clamp_, cos_clamp_, sin_clamp_;  // the angle the clamp spans [rad]
+  T gravity_x_, gravity_y_;
+  bool has_body_force_;
+  double fall_height_;
+  std::array<Leg, kMaxLegs> leg_;
+  std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]
+  std::array<GuardRef, kMaxGuards> guards_;
+  int guard_count_ = 0;
+};
+
+}  // namespace hoplab

@@ -1,0 +1,270 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/laws/leg_load.h"
+#include "model/mechanisms/robot.h"
+
+// Guards and resets of a robot: what its legs and motors do next.
+
+namespace hoplab {
+
+namespace robot_detail {
+inline constexpr double kPi = std::numbers::pi;
+// A leg that has rolled up to this arc has fallen [rad].
+inline constexpr double kLeastArc = 0.2;
+// A leg that begins deeper below the ground than this cannot stand on it [rest radii].
+inline constexpr double kDeepest = 0.4;
+// Lowest hip, in rest radii, where nothing else is said.
+inline constexpr double kLowestHip = 0.3;
+}  // namespace robot_detail
+
+template <class T>
+struct Robot<T>::Frame {
+  T cos_pitch, sin_pitch, pitch;
+
+  explicit Frame(const T& pitch_over_ground) : pitch(pitch_over_ground) {
+    using std::cos;
+    using std::sin;
+    cos_pitch = cos(pitch);
+    sin_pitch = sin(pitch);
+  }
+  Vector2<T> Turn(const T& x, const T& y) const {
+    return {cos_pitch * x - sin_pitch * y, sin_pitch * x + cos_pitch * y};
+  }
+};
+
+template <class T>
+void Robot<T>::ListGuards(Mode mode) {
+  guard_count_ = 0;
+  const auto add = [this](const GuardRef& guard) { guards_[guard_count_++] = guard; };
+  const double weight = Value(p_.m) * std::abs(Value(gravity_y_)), r = Value(p_.r);
+  for (int i = 0; i < legs_; ++i)
+    if (!IsDown(leg_[i])) add({EventKind::kTouchdown, i, r});
+  for (int i = 0; i < legs_; ++i) {
+    const Leg& leg = leg_[i];
+    if (!IsDown(leg)) continue;
+    if (leg.slides != 0.0) {
+      add({EventKind::kLiftoff, i, weight});
+      if (Value(robot_.friction) > 0.0) {
+        add({EventKind::kStick, i, 1.0});
+        add({EventKind::kLiftoff, i, 1.0, /*side=*/leg.slides});  // it snaps away
+      }
+    } else if (HasCone()) {
+      add({EventKind::kSlide, i, weight, 1});
+      add({EventKind::kSlide, i, weight, -1});
+    } else {
+      add({EventKind::kLiftoff, i, weight});
+    }
+    if (leg.stance == Stance::kRolling) {
+      add({EventKind::kRollingToToe, i, 1.0});
+      add({EventKind::kFallArc, i, 1.0});
+    } else {
+      add({EventKind::kToeToRolling, i, 1.0});
+    }
+  }
+  for (int i = 0; i < legs_; ++i) add({EventKind::kFallHeight, i, r});
+  if (robot_.control != MotorControl::kLocked && std::isfinite(robot_.torque_limit))
+    for (int i = 0; i < legs_; ++i) add({EventKind::kTorqueLimit, i, robot_.torque_limit});
+  if (mode == Mode::kFlight) add({EventKind::kApex, 0, 1.0});
+  // While four legs roll and slide, all motors limited, there is no room for it: the hips tell.
+  if (guard_count_ < kMaxGuards) add({EventKind::kFallPitch, 0, 1.0});
+}
+
+template <class T>
+Mode Robot<T>::ModeNow() const {
+  for (int i = 0; i < legs_; ++i)
+    if (IsDown(leg_[i])) return Mode::kStance;
+  return Mode::kFlight;
+}
+
+template <class T>
+int Robot<T>::GuardCount(Mode) const {
+  return guard_count_;
+}
+
+template <class T>
+GuardSpec Robot<T>::Guard(Mode, int i) const {
+  const GuardRef& guard = guards_[i];
+  return {.event = guard.event, .scale = guard.scale, .leg = guard.leg};
+}
+
+template <class T>
+void Robot<T>::Guards(Mode, const T& t, const T* z, T* g) const {
+  using std::cos;
+  const Frame frame(z[Pitch()] - p_.slope);
+  std::array<Hip, kMaxLegs> hips;
+  std::array<ClampedLoad<T>, kMaxLegs> loads;
+  for (int i = 0; i < legs_; ++i) {
+    const Leg& leg = leg_[i];
+    hips[i] = HipOf(frame, i, z);
+    if (IsDown(leg))
+      loads[i] = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hips[i], z), false,
+                            /*with_slip=*/leg.slides != 0.0);
+  }
+  for (int k = 0; k < guard_count_; ++k) {
+    const GuardRef& guard = guards_[k];
+    const int i = guard.leg;
+    const Hip& hip = hips[i];
+    const ClampedLoad<T>& load = loads[i];
+    switch (guard.event) {
+      case EventKind::kTouchdown:
+        g[k] = z[kY] + hip.y - Reach(hip.angle);
+        break;
+      case EventKind::kLiftoff:
+        g[k] = guard.side != 0.0 ? T(load.yield - kLeastYield) : load.fy;
+        break;
+      case EventKind::kSlide:
+        g[k] = robot_.friction * load.fy + guard.side * load.fx;
+        break;
+      case EventKind::kStick:
+        g[k] = leg_[i].slides * load.slip;
+        break;
+      case EventKind::kRollingToToe:
+        g[k] = leg_[i].arc.length() - load.arc;
+        break;
+      case EventKind::kToeToRolling:
+        g[k] = load.tip;
+        break;
+      case EventKind::kFallArc:
+        g[k] = load.arc - robot_detail::kLeastArc;
+        break;
+      case EventKind::kFallHeight:
+        g[k] = z[kY] + hip.y - fall_height_;
+        break;
+      case EventKind::kFallPitch:
+        g[k] = cos(z[Pitch()]) - std::cos(robot_.pitch_limit);
+        break;
+      case EventKind::kTorqueLimit: {
+        const T command = Command(i, t, z);
+        const double side = leg_[i].limit;
+        if (side != 0.0)
+          g[k] = side * command - robot_.torque_limit;
+        else
+          g[k] = robot_.torque_limit - (Value(command) < 0.0 ? T(-command) : command);
+        break;
+      }
+      default:
+        g[k] = z[kVy];  // apex
+    }
+  }
+}
+
+// M74: the leg lands with the part of its arc that is lowest, or on its toe.
+template <class T>
+std::optional<Outcome> Robot<T>::Land(int i, T* z) {
+  using std::cos;
+  using std::sin;
+  const Frame frame(z[Pitch()] - p_.slope);
+  Leg& leg = leg_[i];
+  const Hip hip = HipOf(frame, i, z);
+  leg.turns = TurnsOf(Value(hip.angle));
+  const T angle = hip.angle - 2.0 * robot_detail::kPi * leg.turns;
+  const bool rolling = Value(angle) > 0.0;
+  const T lead = (rolling ? 1.0 : 2.0) * p_.r * sin(angle);
+  z[Contact(i)] = z[kX] + hip.x + lead;
+  if (rolling) z[Contact(i)] -= p_.r * (leg.arc.length() - angle);
+  leg.stance = rolling ? Stance::kRolling : Stance::kToe;
+  const double tip = rolling ? 0.0 : -Value(angle);
+  leg.arc.StartAt(tip);
+  // The point of contact moves with the leg, that bends only from here on.
+  const double u = Value(lead), height = Value(Reach(hip.angle)), spin = Value(hip.rate);
+  const double vx = Value(hip.vx) + spin * height, vy = Value(hip.vy) + spin * u;
+  const double base = Value(leg.arc.length() - angle);
+  leg.slides = leg.arc.SlidesAtLanding(tip, base, vx, vy);
+  if (leg.slides == 0.0 && !leg.arc.PressesAtLanding(tip, base, vx, vy)) return Outcome::kNoSupport;
+  return std::nullopt;
+}
+
+// A leg that reaches below the ground where the run begins stands on it: as if it had landed
+// straight above and been pressed down (M78). One that cannot stand so is left in the ground.
+template <class T>
+void Robot<T>::BeginOnFoot(int i, T* z) {
+  Leg& leg = leg_[i];
+  const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), i, z);
+  const double depth = Value(Reach(hip.angle)) - Value(z[kY] + hip.y);
+  const double r = Value(p_.r);
+  if (!(depth > kAtZero * r) || depth > robot_detail::kDeepest * r) return;
+  Land(i, z);
+  leg.slides = 0.0;
+  const double mu = Value(robot_.friction);
+  ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
+  if (!(std::abs(Value(load.fx)) <= mu * Value(load.fy))) {
+    leg.slides = Value(load.fx) > 0.0 ? -1.0 : 1.0;
+    leg.arc.Restart();
+    load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
+  }
+  if (!(Value(load.fy) > 0.0)) LiftOff(i, z);
+}
+
+template <class T>
+void Robot<T>::LiftOff(int i, T* z) {
+  leg_[i].stance = Stance::kFlight;
+  leg_[i].slides = 0.0;
+  z[Contact(i)] = T(0.0);
+}
+
+template <class T>
+ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
+  const GuardRef guard = guards_[i];
+  Leg& leg = leg_[guard.leg];
+  std::optional<Outcome> end;
+  switch (guard.event) {
+    case EventKind::kTouchdown:
+      end = Land(guard.leg, z);
+      break;
+    case EventKind::kLiftoff:
+      LiftOff(guard.leg, z);
+      break;
+    case EventKind::kRollingToToe:
+      leg.stance = Stance::kToe;
+      if (leg.slides == 0.0) z[Contact(guard.leg)] += p_.r * leg.arc.length();
+      leg.arc.Restart();
+      break;
+    case EventKind::kToeToRolling:
+      leg.stance = Stance::kRolling;
+      if (leg.slides == 0.0) z[Contact(guard.leg)] -= p_.r * leg.arc.length();
+      leg.arc.Restart();
+      break;
+    case EventKind::kSlide: {
+      const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), guard.leg, z);
+      if (guard.side > 0 &&
+          !leg.arc.CanSlideForward(FootOf(leg), PlaceOf(leg, guard.leg, hip, z))) {
+        LiftOff(guard.leg, z);
+        break;
+      }
+      leg.slides = guard.side;
+      leg.arc.Restart();
+      break;
+    }
+    case EventKind::kStick: {
+      const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), guard.leg, z);
+      const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, guard.leg, hip, z), false);
+      z[Contact(guard.leg)] = z[kX] + ClampOf(hip).x + load.lead;
+      leg.slides = 0.0;
+      leg.arc.Restart();
+      break;
+    }
+    case EventKind::kTorqueLimit:
+      leg.limit = leg.limit != 0 ? 0 : Value(Command(guard.leg, t, z)) > 0.0 ? 1 : -1;
+      break;
+    case EventKind::kFallArc:
+      end = Outcome::kFellArc;
+      break;
+    case EventKind::kFallHeight:
+      end = Outcome::kFellHeight;
+      break;
+    case EventKind::kFallPitch:
+      end = Outcome::kFellPitch;
+      break;
+    default:
+      break;  // apex
+  }
+  const Mode mode = ModeNow();
+  ListGuards(mode);
+  return {mode, end};
+}
+
+}  // namespace hoplab

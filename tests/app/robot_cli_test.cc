@@ -1,0 +1,113 @@
+// A robot on clamped legs through the program: shipped scenarios and data.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/app/hoplab_process.h"
+
+namespace hoplab::testing {
+namespace {
+
+std::string Shipped(const std::string& name) {
+  return (std::filesystem::path(HOPLAB_SOURCE_DIR) / name).string();
+}
+
+class RobotCli : public ::testing::Test {
+ protected:
+  ProcessResult Hoplab(const std::vector<std::string>& arguments) {
+    return RunHoplab(arguments, temp_.path());
+  }
+  TempFolder temp_;
+};
+
+TEST_F(RobotCli, TheShippedScenariosRun) {
+  for (const char* name : {"experiments/robot-drop.yaml", "experiments/robot-walk.yaml"}) {
+    const ProcessResult run = Hoplab({"simulate", Shipped(name), "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto record = nlohmann::json::parse(run.out);
+    EXPECT_EQ(record.at("outcome"), "completed") << name;
+  }
+}
+
+TEST_F(RobotCli, WhatItGeneratesItFits) {
+  ASSERT_EQ(Hoplab({"generate", Shipped("experiments/robot-drop.yaml"), "--out", "made", "--set",
+                    "mechanism.legs=[{hip_m: [-0.12, 0]}, {hip_m: [0.12, 0], E_Pa: 18e9}]"})
+                .exit_code,
+            0);
+  const ProcessResult check = Hoplab({"check", "made"});
+  EXPECT_EQ(check.exit_code, 0) << check.err << check.out;
+  const ProcessResult fit =
+      Hoplab({"fit", "made", "--json", "--quiet", "--free", "E_1,E_2,leg_damping"});
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  for (const auto& p : nlohmann::json::parse(fit.out).at("parameters")) {
+    const std::string name = p.at("name");
+    if (name == "E_1") {
+      EXPECT_NEAR(p.at("value").get<double>(), 22e9, 0.15e9);
+    }
+    if (name == "E_2") {
+      EXPECT_NEAR(p.at("value").get<double>(), 18e9, 0.15e9);
+    }
+  }
+}
+
+// A robot of a physics engine, E I of its legs known: 21.991 GPa with the dataset's section.
+TEST_F(RobotCli, FindsTheModulusOfEachLegOfAnEnginesRobot) {
+  const ProcessResult fit = Hoplab({"fit", Shipped("datasets/robot-drops"), "--json", "--quiet"});
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  const auto record = nlohmann::json::parse(fit.out);
+  ASSERT_EQ(record.at("parameters").size(), 3u);  // E_1, E_2 and what damps them
+  for (const auto& p : record.at("parameters")) {
+    if (p.at("name") == "leg_damping") continue;
+    EXPECT_NEAR(p.at("value").get<double>(), 21.991e9, 0.03 * 21.991e9) << p.at("name");
+  }
+  const auto& rmse = record.at("test").at("rmse");
+  EXPECT_LT(rmse.at("body_x_m"), 2.0 * 0.0005);
+  EXPECT_LT(rmse.at("body_y_m"), 2.0 * 0.0005);
+  EXPECT_LT(rmse.at("body_pitch_rad"), 2.0 * 0.001);
+  EXPECT_LT(record.at("gradient_check").at("max_relative_error"), 1e-6);
+}
+
+// The leg that is soft is named, not its like, and the other trial says so, too.
+TEST_F(RobotCli, DiagnosisNamesTheSoftLeg) {
+  ASSERT_EQ(Hoplab({"generate", Shipped("experiments/robot-drop.yaml"), "--out", "made", "--with",
+                    "leg_stiffness_2:loss=0.2", "--set",
+                    "dataset.channels.hip_torque_2_N_m={sigma: 0.005}"})
+                .exit_code,
+            0);
+  const ProcessResult run =
+      Hoplab({"diagnose", "made", "--effects", "leg_stiffness_1,leg_stiffness_2,motor_gain_2",
+              "--json", "--quiet"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto record = nlohmann::json::parse(run.out);
+  EXPECT_EQ(record.at("verdict"), "named");
+  ASSERT_EQ(record.at("causes").size(), 1u);
+  const auto& cause = record.at("causes")[0];
+  EXPECT_EQ(cause.at("name"), "leg_stiffness_2");
+  EXPECT_NEAR(cause.at("parameters")[0].at("value").get<double>(), 0.2, 0.002);
+  EXPECT_GT(cause.at("held_out_gain").at("nats_per_sample").get<double>(), 0.2);
+  // A leg this robot does not have is no cause of it.
+  const ProcessResult third = Hoplab({"diagnose", "made", "--effects", "leg_stiffness_3"});
+  EXPECT_EQ(third.exit_code, 65);
+  EXPECT_NE(third.err.find("is of a leg this robot does not have"), std::string::npos) << third.err;
+}
+
+TEST_F(RobotCli, RefusesWhatDoesNotGoTogether) {
+  const auto refused = [&](const std::string& set, const std::string& why) {
+    const ProcessResult run =
+        Hoplab({"simulate", Shipped("experiments/robot-drop.yaml"), "--set", set});
+    EXPECT_EQ(run.exit_code, 65) << set;
+    EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+  };
+  refused("controller.angles_rad=[0.5]", "has 1 angles or phases, and the robot 2 legs");
+  refused("controller=null", "a robot needs a controller");
+  refused("touchdown_angle_deg=20", "said by its controller");
+  refused("mechanism.motor.kp_N_m_per_rad=-1", "kp_N_m_per_rad");
+  refused("initial.mode=stance", "contact_x_m");
+  const ProcessResult gait = Hoplab({"gait", Shipped("experiments/robot-walk.yaml")});
+  EXPECT_EQ(gait.exit_code, 65);
+  EXPECT_NE(gait.err.find("has no return map of speed and height alone"), std::string::npos)
+      << gait.err;
+}
+
+}  // namespace
+}  // namespace hoplab::testing
