@@ -9,6 +9,7 @@
 #include "datasets/suspect_things.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/null_fit.h"
+#include "fitting/discovery/promising.h"
 #include "fitting/discovery/stability.h"
 
 namespace hoplab {
@@ -17,12 +18,6 @@ namespace {
 // Streams of the seed.
 constexpr std::uint64_t kDetectionStream = 21, kResampleStream = 22, kBootstrapStream = 23,
                         kForcesStream = 24;
-// Terms that are refitted one by one: the most promising by the linear model.
-constexpr int kRefitted = 16;
-// Of them picked beside each other, under each of the two noises.
-constexpr int kPicked = 4;
-// Of the refitted those of one family of shapes.
-constexpr int kOfOneFamily = 4;
 // Shapes within this many steps of the grid are one.
 constexpr double kSameShape = 0.3;
 // Terms of the library this near in shape say the same in a resample.
@@ -95,7 +90,7 @@ class Search {
     NamingOptions naming;
     for (const int i : promising) {
       Term term = library[static_cast<std::size_t>(i)];
-      if (term.shape) term = Shaped(term, SizeOf(colored, i));
+      if (term.shape) term = Shaped(term, ColumnSize(colored, i));
       const bool again = std::any_of(out_.terms.begin(), out_.terms.end(), [&](const Term& t) {
         return AreNeighbours(t, term, kSameShape);
       });
@@ -121,21 +116,6 @@ class Search {
                    LineariseAt(out_.base.null, tried, *train_, options_.fit.jobs), *train_, naming);
   }
 
-  // A family of shapes is as likely as one term: its members share that.
-  static double PriceOf(const Term& term, const std::vector<Term>& library) {
-    if (!term.shape) return 0.0;
-    const auto members = std::count_if(library.begin(), library.end(), [&](const Term& t) {
-      return t.shape && t.shape->family == term.shape->family;
-    });
-    return std::log(static_cast<double>(members));
-  }
-
-  // The size of one column that explains the residuals best.
-  static double SizeOf(const Linearisation& at, int column) {
-    const double square = at.columns.col(column).squaredNorm();
-    return square > 0.0 ? -at.columns.col(column).dot(at.r) / square : 0.0;
-  }
-
   // The term with the shape that fits best, from the one it has; itself where that cannot be told.
   Term Shaped(const Term& term, double size) const {
     const Candidate freed(&FormulaEffect(WithFreeShape(term)));
@@ -147,41 +127,6 @@ class Search {
     if (!with.ok()) return term;
     const Eigen::VectorXd values = with.ValuesOf(0);
     return AtShape(term, {values.data() + 1, static_cast<std::size_t>(values.size() - 1)});
-  }
-
-  // What is picked beside each other under either noise, then what scores best alone; of one family
-  // of shapes no more than two.
-  static std::vector<int> Promising(const std::vector<Term>& library,
-                                    const std::vector<int>& leaders, const Linearisation& white,
-                                    const Linearisation& colored) {
-    std::vector<int> promising;
-    const auto add = [&](int column) {
-      const Term& term = library[static_cast<std::size_t>(column)];
-      const auto alike = std::count_if(promising.begin(), promising.end(), [&](int other) {
-        const Term& t = library[static_cast<std::size_t>(other)];
-        return term.shape && t.shape && t.shape->family == term.shape->family;
-      });
-      if (static_cast<int>(promising.size()) < kRefitted && alike < kOfOneFamily &&
-          std::find(promising.begin(), promising.end(), column) == promising.end())
-        promising.push_back(column);
-    };
-    for (const Linearisation* at : {&white, &colored})
-      for (const LinearPick& pick : PickForward(*at, leaders, kPicked, 0.0)) add(pick.column);
-    std::vector<std::pair<double, int>> alone;
-    for (const int j : leaders) {
-      double best = 0.0;
-      for (const Linearisation* at : {&white, &colored}) {
-        const double square = at->columns.col(j).squaredNorm();
-        const double along = at->columns.col(j).dot(at->r);
-        // Under each noise in its own nats.
-        if (square > 0.0) best = std::max(best, 0.5 * along * along / square / at->chi2());
-      }
-      alone.emplace_back(-best, j);
-    }
-    std::stable_sort(alone.begin(), alone.end());
-    for (const auto& [gain, j] : alone) add(j);
-    std::sort(promising.begin(), promising.end());
-    return promising;
   }
 
   // ---- what was found
@@ -387,69 +332,26 @@ std::string_view NameOf(DiscoveryVerdict verdict) {
   return "";
 }
 
-Discovery Discover(const Dataset& dataset, const DiagnosisOptions& options) {
-  Discovery out;
-  FitProblem problem = MakeProblem(dataset, WithLegsAlike(options.problem));
-  out.base.refusal = UnreadableTimes(dataset);
-  std::vector<TrialProblem> train;
-  if (out.base.refusal.empty())
-    FitNull(std::move(problem), options, out.base, train);
-  else
-    out.base.problem = std::move(problem);
+Discovery DiscoverFrom(const Diagnosis& base, const DiagnosisOptions& options) {
   const auto stopped = [&] { return options.fit.stop && *options.fit.stop; };
-  if (out.base.refusal.empty() && !stopped()) Search(options, out).Run(train);
+  Discovery out;
+  out.base = base;
+  if (base.refusal.empty() && !stopped())
+    Search(options, out).Run(TrialsOf(base.problem, TrialRole::kTrain));
   out.base.interrupted = stopped();
   return out;
 }
 
-namespace {
-
-// The model a diagnosis ended with, its causes a part of it.
-Diagnosis WithItsCauses(Diagnosis base, const DiagnosisOptions& options,
-                        const std::vector<TrialProblem>& train) {
-  base.null = base.naming.best;
-  base.plain = base.null;
-  base.plain.problem.noise = {};
-  RefitSettings settings = SettingsOf(options, train);
-  settings.discrepancy = Discrepancy::kNone;
-  Settle(base.plain, settings);
-  base.null.members.clear();
-  base.plain.members.clear();
-  base.problem = base.null.problem;
-  return base;
-}
-
-// Mean square of the held-out errors over the channels' noise.
-double HeldOutSquare(const Discovery& d) {
-  double sum = 0.0;
-  for (std::size_t c = 0; c < d.after.test.rmse.size(); ++c) {
-    const double ratio = d.after.test.rmse[c] / d.base.problem.channels[c].sigma;
-    sum += ratio * ratio;
-  }
-  return sum;
-}
-
-}  // namespace
-
-Discovery DiscoverBeside(const Diagnosis& diagnosis, const DiagnosisOptions& options) {
-  const std::vector<TrialProblem> train = TrialsOf(diagnosis.problem, TrialRole::kTrain);
-  const auto from = [&](const Diagnosis& base) {
-    Discovery out;
-    out.base = base;
-    if (base.refusal.empty()) Search(options, out).Run(train);
-    out.base.interrupted = options.fit.stop && *options.fit.stop;
-    return out;
-  };
-  if (!diagnosis.extension) return from(diagnosis);
-  Discovery beside = from(WithItsCauses(diagnosis, options, train));
-  if (!diagnosis.CausesMayStandIn() || beside.base.interrupted) return beside;
-  Discovery instead = from(diagnosis);
-  instead.in_place_of_causes = true;
-  const bool found = instead.verdict == DiscoveryVerdict::kFound;
-  if (found != (beside.verdict == DiscoveryVerdict::kFound)) return found ? instead : beside;
-  if (instead.after.test.rmse.empty() || beside.after.test.rmse.empty()) return beside;
-  // A few in a hundred decide nothing: then the simpler model does.
-  return HeldOutSquare(instead) < 1.05 * HeldOutSquare(beside) ? instead : beside;
+Discovery Discover(const Dataset& dataset, const DiagnosisOptions& options) {
+  FitProblem problem = MakeProblem(dataset, WithLegsAlike(options.problem));
+  Diagnosis base;
+  base.refusal = UnreadableTimes(dataset);
+  std::vector<TrialProblem> train;
+  if (base.refusal.empty())
+    FitNull(std::move(problem), options, base, train);
+  else
+    base.problem = std::move(problem);
+  return DiscoverFrom(base, options);
 }
 
 }  // namespace hoplab

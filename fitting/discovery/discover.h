@@ -69,6 +69,9 @@ struct Discovery {
 /// used. Throws InputError for options that do not suit the dataset.
 Discovery Discover(const Dataset& dataset, const DiagnosisOptions& options);
 
+/// The same from the null fits of `base`, on its train trials.
+Discovery DiscoverFrom(const Diagnosis& base, const DiagnosisOptions& options);
+
 /// The same for the model that a diagnosis ended with, its causes among it. Where these do not
 /// explain the misfit, also for the model without them, and what does better on held-out trials is
 /// told.

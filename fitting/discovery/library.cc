@@ -13,8 +13,6 @@ namespace {
 
 // Part of a natural size that a missing term is expected to have.
 constexpr double kExpected = 0.05;
-// Bounds of a coefficient, in expected sizes.
-constexpr double kBound = 1e3;
 
 // One factor of a term: a power of a variable, with its unit and size.
 struct Factor {
@@ -29,12 +27,6 @@ struct Factor {
 std::string Raised(const std::string& unit, int exponent) {
   if (exponent == 1 || unit == "1") return unit;
   return "(" + unit + ")^" + std::to_string(exponent);
-}
-
-// One significant digit, so that a formula is readable.
-double Rounded(double value) {
-  const double digit = std::pow(10.0, std::floor(std::log10(value)));
-  return std::max(1.0, std::round(value / digit)) * digit;
 }
 
 // How a power is told.
@@ -127,7 +119,7 @@ class Library {
     source.acts_as = place;
     source.formula = text;
     source.parameters = {{"c", TextOf(unit) == "-" ? "1" : TextOf(unit), 0.0, std::nullopt,
-                          -kBound * size, kBound * size, size}};
+                          -kCoefficientBound * size, kCoefficientBound * size, size}};
     Term term;
     term.words = a.words.empty() && b.words.empty() ? "" : Words(a, b);
     term.phase = phase.words;
@@ -298,7 +290,8 @@ class Library {
     source.name = "term_" + std::to_string(terms_.size() + 1);
     source.acts_as = place;
     source.formula = "c * " + inside;
-    source.parameters = {{"c", unit, 0.0, std::nullopt, -kBound * size, kBound * size, size}};
+    source.parameters = {
+        {"c", unit, 0.0, std::nullopt, -kCoefficientBound * size, kCoefficientBound * size, size}};
     Term term;
     term.shape = TermShape{place + " " + inside, {}};
     for (const Held& h : held) {
@@ -355,7 +348,7 @@ class Library {
     std::nth_element(lengths.begin(),
                      lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2),
                      lengths.end());
-    const double step = 0.5 / Rounded(lengths[lengths.size() / 2]);
+    const double step = 0.5 / RoundedToOneDigit(lengths[lengths.size() / 2]);
     for (const std::string place : {"body_force_x", "body_force_y"}) {
       for (int k = 2; k <= 2 * kMostPeriods; ++k) {
         for (const double phase : {0.0, 0.5 * std::numbers::pi}) {
@@ -380,98 +373,10 @@ class Library {
   std::vector<Term> terms_;
 };
 
-// What a channel says over all trials.
-Extent ExtentOf(const FitProblem& problem, Channel which) {
-  Extent range;
-  const auto channel = std::find_if(problem.channels.begin(), problem.channels.end(),
-                                    [&](const ChannelProblem& c) { return c.channel == which; });
-  if (channel == problem.channels.end()) return range;
-  bool any = false;
-  for (const TrialProblem& t : problem.trials) {
-    for (auto i = static_cast<std::size_t>(channel - problem.channels.begin()); i < t.data.size();
-         i += problem.channels.size()) {
-      if (std::isnan(t.data[i])) continue;
-      range.least = any ? std::min(range.least, t.data[i]) : t.data[i];
-      range.most = any ? std::max(range.most, t.data[i]) : t.data[i];
-      any = true;
-    }
-  }
-  return range;
-}
-
 }  // namespace
-
-NaturalScales ScalesOf(const FitProblem& problem) {
-  NaturalScales s;
-  s.x = ExtentOf(problem, Channel::kBodyX);
-  s.y = ExtentOf(problem, Channel::kBodyY);
-  double longest = 0.0;
-  for (const TrialProblem& t : problem.trials)
-    if (!t.row_times.empty()) longest = std::max(longest, t.row_times.back());
-  const Parameters<double>& p = problem.trials.front().parameters;
-  if (!s.y.empty()) s.length = Rounded(s.y.most - s.y.least);
-  s.speed = Rounded(std::sqrt(2.0 * p.g * s.length));
-  if (longest > 0.0) s.time = Rounded(longest);
-  s.force = p.m * p.g;
-  return s;
-}
 
 std::vector<Term> TermLibrary(const FitProblem& problem, const NaturalScales& scales) {
   return Library(problem, scales).Build();
-}
-
-FormulaSource WithFreeExponent(const Term& term) {
-  HOPLAB_CHECK(term.power.has_value());
-  const TermPower& power = *term.power;
-  FormulaSource source = *SourceOf(*term.effect);
-  const FormulaParameter c = source.parameters.front();
-  const std::string unit(FindPlace(source.acts_as)->unit);
-  const double size = *c.typical * std::pow(power.scale, power.exponent);
-  source.name += "_power";
-  source.formula =
-      "c * " + (power.rest.empty() ? "" : power.rest + " * ") + "(" + power.base + "/u)^p";
-  source.parameters = {
-      {"c", unit == "-" ? "1" : unit, 0.0, std::nullopt, -kBound * size, kBound * size, size},
-      {"p", "1", power.exponent, std::nullopt, 0.3, 4.0, 0.5},
-      {"u", power.unit, std::nullopt, power.scale, 0.5 * power.scale, 2.0 * power.scale,
-       std::nullopt}};
-  return source;
-}
-
-FormulaSource WithFreeShape(const Term& term) {
-  HOPLAB_CHECK(term.shape.has_value());
-  FormulaSource source = *SourceOf(*term.effect);
-  source.name += "_shape";
-  for (std::size_t i = 1; i < source.parameters.size(); ++i) {
-    FormulaParameter& p = source.parameters[i];
-    p.null = p.value;
-    p.value.reset();
-    p.typical = term.shape->steps[i - 1];
-    // Near by: further away is the start of another term of the grid.
-    p.lower = std::max(p.lower, *p.null - 1.5 * *p.typical);
-    p.upper = std::min(p.upper, *p.null + 1.5 * *p.typical);
-  }
-  return source;
-}
-
-Term AtShape(const Term& term, std::span<const double> shape) {
-  FormulaSource source = *SourceOf(*term.effect);
-  for (std::size_t i = 1; i < source.parameters.size(); ++i) {
-    FormulaParameter& p = source.parameters[i];
-    p.value = std::clamp(shape[i - 1], p.lower, p.upper);
-  }
-  Term moved = term;
-  moved.effect = &FormulaEffect(source);
-  return moved;
-}
-
-bool AreNeighbours(const Term& a, const Term& b, double steps) {
-  if (!a.shape || !b.shape || a.shape->family != b.shape->family) return false;
-  const auto &of_a = SourceOf(*a.effect)->parameters, &of_b = SourceOf(*b.effect)->parameters;
-  for (std::size_t i = 1; i < of_a.size(); ++i) {
-    if (std::abs(*of_a[i].value - *of_b[i].value) > steps * a.shape->steps[i - 1]) return false;
-  }
-  return true;
 }
 
 }  // namespace hoplab
