@@ -20,8 +20,8 @@ constexpr int kSingleWidth = 4, kForwardWidth = 3, kPairWidth = 6, kPairsSettled
 constexpr std::size_t kScoreWidth = 4;
 // Nats a further cause must promise by the linear model to be tried.
 constexpr double kWorthATry = 4.0;
-// It must promise this share of the misfit beyond noise, or this in nats a sample (a fiftieth of the
-// noise's square). What explains less than both is a detail of the model, which the discrepancy
+// It must promise this share of the misfit beyond noise, or this in nats a sample (a fiftieth of
+// the noise's square). What explains less than both is a detail of the model, which the discrepancy
 // stands for.
 constexpr double kLeastShare = 1e-3, kLeastPerSample = 0.01;
 // Weights below this share of the best are not told.
