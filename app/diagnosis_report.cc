@@ -193,7 +193,7 @@ std::string BoundText(const CandidateResult& c) {
 double RelativeBound(const CandidateResult& c) {
   double most = 0.0;
   for (int k = 0; k < static_cast<int>(c.bound95.size()); ++k)
-    most = std::max(most, c.bound95[k] / c.candidate.Parameter(k).typical);
+    most = std::max(most, c.bound95[k] / std::abs(c.candidate.Parameter(k).typical));
   return most;
 }
 

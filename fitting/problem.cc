@@ -406,7 +406,8 @@ class Builder {
                           "Remove the line under `known` if it may be present after all."});
       problem_.shared.push_back(
           {name, std::string(info->unit), SensitivityDirection::EffectParameter(index, component),
-           info->lower, info->upper, problem_.effects[index].values[component], info->typical});
+           info->lower, info->upper, problem_.effects[index].values[component],
+           std::abs(info->typical)});
       return;
     }
     const ParameterId id = KnownParameter(name, place);

@@ -1,6 +1,7 @@
 #include "fitting/diagnosis/candidate.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/input_error.h"
 #include "fitting/model_of_spec.h"
@@ -90,7 +91,7 @@ FitProblem Extend(const FitProblem& problem, std::span<const Candidate> candidat
       extended.shared.push_back(
           {std::string(c.effect->info.name) + "." + std::string(p.name) + suffix,
            std::string(p.unit), SensitivityDirection::EffectParameter(index, place), p.lower,
-           p.upper, p.null, p.typical, c.only_recording});
+           p.upper, p.null, std::abs(p.typical), c.only_recording});
     }
   }
   return extended;

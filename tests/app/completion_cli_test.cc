@@ -99,7 +99,7 @@ TEST_F(CompletionCli, BashOffersEveryCommandAndEveryOptionOfEach) {
 TEST_F(CompletionCli, BashOffersLawsEffectsParametersChoicesAndFiles) {
   EXPECT_EQ(Bash({"fit", "--law", "c"}), Words{"consistent"});
   EXPECT_EQ(Bash({"fit", "--law", "=", "c"}), Words{"consistent"}) << "--law=c, as bash cuts it";
-  EXPECT_EQ(Bash({"fit", "--law", "="}).size(), 7u);
+  EXPECT_EQ(Bash({"fit", "--law", "="}).size(), 8u);
   EXPECT_EQ(Bash({"fit", "--with", "air_drag,torque_l"}), Words{"air_drag,torque_lag"});
   EXPECT_EQ(Bash({"fit", "--integrator", ""}), (Words{"dop853", "erkstep", "cvodes"}));
   EXPECT_EQ(Bash({"fit", "--fix", "kp"}), (Words{"kp=", "kp_place="}));

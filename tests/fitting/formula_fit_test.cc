@@ -102,6 +102,26 @@ TEST(FormulaInAProblem, TheDatasetsOwnIsACandidateAmongTheCatalogue) {
   EXPECT_EQ(MakeProblem(dataset, by_name).shared.back().name, "umbilical.k");
 }
 
+// Of what was found the sign is known, and the steps of a search have none.
+TEST(FormulaInAProblem, ATypicalSizeMayBeNegative) {
+  const std::string text =
+      "format: hoplab-effect/1\nname: cable\nacts_as: body_force_x\nformula: \"c * max(x - 0.5, "
+      "0)\"\n"
+      "parameters:\n  c: {unit: N/m, null: 0, lower: -200, upper: 200, typical: -2}\n";
+  const FormulaSource source = ParseEffectFile(text, "cable.yaml").source;
+  Dataset dataset = DatasetWith("umbilical.yaml");
+  dataset.effects = {ReadEffectFile(kFolder / "umbilical.yaml")};
+  dataset.effects[0].source = source;
+  ProblemOptions options;
+  options.with_effects = {"cable"};
+  const FitProblem problem = MakeProblem(dataset, options);
+  EXPECT_EQ(problem.shared.back().scale, 2.0);
+  const Candidate candidate(problem.effects.front().effect);
+  const FitProblem extended =
+      Extend(MakeProblem(DatasetWith("umbilical.yaml"), {}), {&candidate, 1});
+  EXPECT_EQ(extended.shared.back().scale, 2.0);
+}
+
 TEST(FormulaInAProblem, TwoOfOneNameAreRefused) {
   Dataset dataset = DatasetWith("umbilical.yaml");
   dataset.effects = {ReadEffectFile(kFolder / "umbilical.yaml"),
