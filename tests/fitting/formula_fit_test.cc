@@ -105,8 +105,7 @@ TEST(FormulaInAProblem, TheDatasetsOwnIsACandidateAmongTheCatalogue) {
 // Of what was found the sign is known, and the steps of a search have none.
 TEST(FormulaInAProblem, ATypicalSizeMayBeNegative) {
   const std::string text =
-      "format: hoplab-effect/1\nname: cable\nacts_as: body_force_x\nformula: \"c * max(x - 0.5, "
-      "0)\"\n"
+      "format: hoplab-effect/1\nname: cable\nacts_as: body_force_x\nformula: \"c * x\"\n"
       "parameters:\n  c: {unit: N/m, null: 0, lower: -200, upper: 200, typical: -2}\n";
   const FormulaSource source = ParseEffectFile(text, "cable.yaml").source;
   Dataset dataset = DatasetWith("umbilical.yaml");
