@@ -162,6 +162,10 @@ void CheckSize(std::string_view text) {
 
 FormulaTree ParseFormula(std::string_view text) {
   CheckSize(text);
+  // The parser's classes of characters are those of ASCII.
+  const auto foreign = std::find_if(text.begin(), text.end(),
+                                    [](char c) { return static_cast<unsigned char>(c) > 127; });
+  if (foreign != text.end()) FailAt(text, static_cast<std::size_t>(foreign - text.begin()));
   if (Trim(text).empty())
     throw FormulaError(FormulaError::Of::kFormula, "is empty", "Write one, as \"-c * vx\".");
   FormulaTree tree;

@@ -91,6 +91,9 @@ bool operator==(const Unit& a, const Unit& b) {
 std::optional<Unit> ParseUnit(std::string_view text) {
   constexpr std::size_t kLongest = 60;  // more than that says nothing any more
   if (text.size() > kLongest) return std::nullopt;
+  // The parser's classes of characters are those of ASCII.
+  for (const char c : text)
+    if (static_cast<unsigned char>(c) > 127) return std::nullopt;
   Unit unit;
   const char* first = text.data();
   const char* const last = first + text.size();

@@ -12,7 +12,7 @@ struct FlatSystem {
   int size;        // of the whole vector, at most kMaxFlatSize
   int controlled;  // leading components that steer the step: the state
 };
-inline constexpr int kMaxFlatSize = kMaxStates * (1 + 8);
+inline constexpr int kMaxFlatSize = (kMaxStates * (1 + 8) + 3) / 4 * 4;  // whole packs of four
 
 /// Steps a flat system. The system outlives the stepper.
 class Stepper {
