@@ -81,9 +81,10 @@ enum class Table : std::uint64_t {
 };
 std::uint64_t NoiseSeed(Table table, int number);
 
-/// Number of seeds: `full`, or HOPLAB_STATISTICS_SEEDS if that is set and smaller.
+/// Number of seeds: `full`, or HOPLAB_STATISTICS_SEEDS if that is set and smaller; 1 with
+/// HOPLAB_STATISTICS_QUICK.
 int SeedCount(int full);
-/// HOPLAB_STATISTICS_EVERY = n: only every n-th effect is planted; else 1.
+/// Only every n-th effect is planted: 9 with HOPLAB_STATISTICS_QUICK, else 1.
 int EveryNth();
 
 /// `seeds` cases of each effect of the catalogue at `size`, one effect after the other; law, sign

@@ -1,0 +1,249 @@
+// Data made by others, where they are (HOPLAB_EXTRA_DATA): every record gives a fit and a diagnosis
+// under every law of its mechanism, or says what is not whole; the practice sets' truths are found;
+// and no search from a far start ends at a wrong place that it calls a result.
+// ctest -L statistics -R Foreign
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "datasets/read_dataset.h"
+#include "fitting/diagnosis/diagnosis.h"
+#include "tests/support/diagnosed_hops.h"
+
+namespace hoplab {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const fs::path kData = HOPLAB_EXTRA_DATA;
+
+int Jobs() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+double SharedValue(const FitProblem& problem, const Eigen::VectorXd& shared,
+                   const std::string& name) {
+  for (std::size_t i = 0; i < problem.shared.size(); ++i)
+    if (problem.shared[i].name == name) return shared[static_cast<Eigen::Index>(i)];
+  return std::nan("");
+}
+
+struct PracticeSet {
+  std::string name, law;
+  double modulus = 0.0;
+  std::vector<std::string> effects;
+  Dataset dataset;
+};
+
+std::vector<PracticeSet> PracticeSets() {
+  std::vector<PracticeSet> sets;
+  if (!fs::exists(kData / "practice/truth.json")) return sets;
+  std::ifstream file(kData / "practice/truth.json");
+  const Json truth = Json::parse(file);
+  for (const auto& [name, of] : truth.at("sets").items()) {
+    PracticeSet set{name, of.at("analyse_with_law"), of.at("E_true_Pa"), {}, {}};
+    for (const auto& [effect, size] : of.at("effects").items()) set.effects.push_back(effect);
+    set.dataset = ReadDataset(kData / "practice" / name);
+    sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
+// ---- every record, every law
+// ---------------------------------------------------------------------
+
+std::vector<fs::path> AllRecords() {
+  std::vector<fs::path> found;
+  for (const char* folder : {"practice", "rig", "ball-drops"}) {
+    if (!fs::exists(kData / folder)) continue;
+    for (const auto& entry : fs::directory_iterator(kData / folder))
+      if (fs::exists(entry.path() / "dataset.yaml")) found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::string> LawsFor(const Dataset& dataset) {
+  std::vector<std::string> laws;
+  for (const Law law : LawsOf(MechanismOf(MakeProblem(dataset, {}).law)))
+    laws.emplace_back(NameOf(law));
+  return laws;
+}
+
+struct Treated {
+  fs::path record;
+  std::string law, fit, diagnosis;
+  bool refused = false;
+};
+
+void RunBoth(const Dataset& dataset, Treated& run) {
+  DiagnosisOptions options;
+  options.problem.law = run.law;
+  const DatasetFit fit = FitDataset(dataset, options.problem, {});
+  run.fit = !fit.result.ok                 ? "REFUSED: " + fit.result.message
+            : !fit.result.stop.IsMinimum() ? "told: " + fit.result.stop.faults.front()
+            : !fit.left_out.empty()        ? std::to_string(fit.left_out.size()) + " left out"
+            : fit.by_hop                   ? "hop by hop"
+                                           : "whole";
+  const Diagnosis d = Diagnose(dataset, options);
+  run.diagnosis = d.refusal.empty() ? std::string(NameOf(d.verdict)) : "REFUSED: " + d.refusal;
+  run.refused = !fit.result.ok || !d.refusal.empty();
+}
+
+TEST(ForeignData, IsFittedAndDiagnosedUnderEveryLaw) {
+  std::vector<Treated> runs;
+  for (const fs::path& record : AllRecords()) {
+    for (const std::string& law : LawsFor(ReadDataset(record)))
+      runs.push_back({record, law, "", ""});
+  }
+  if (runs.empty()) GTEST_SKIP() << "no data in " << kData;
+  ParallelFor(static_cast<int>(runs.size()), Jobs(), [&](int i) {
+    Treated& run = runs[static_cast<std::size_t>(i)];
+    RunBoth(ReadDataset(run.record), run);
+    std::printf("%-20s %-17s fit: %-30s diagnose: %s\n", run.record.filename().c_str(),
+                run.law.c_str(), run.fit.c_str(), run.diagnosis.c_str());
+    std::fflush(stdout);
+  });
+  const auto refused =
+      std::count_if(runs.begin(), runs.end(), [](const Treated& r) { return r.refused; });
+  std::printf("%zu runs, %ld refused\n", runs.size(), static_cast<long>(refused));
+  EXPECT_EQ(refused, 0);
+}
+
+// ---- the practice sets' truths
+// -------------------------------------------------------------------
+
+struct Found {
+  double error = 0.0;  // of E with the true causes given, relative
+  bool named = false;  // the true causes are all in reported groups; adequate where there are none
+  std::string verdict;
+};
+
+Found Seek(const PracticeSet& set) {
+  Found out;
+  DiagnosisOptions options;
+  options.problem.law = set.law;
+  const Diagnosis d = Diagnose(set.dataset, options);
+  out.verdict = d.refusal.empty() ? std::string(NameOf(d.verdict)) : "refused";
+  std::vector<std::string> names;
+  for (std::size_t m = 0; m < d.naming.groups.size(); ++m) {
+    out.verdict += m == 0 ? ": " : " + ";
+    for (const std::string& name : testing::GroupNames(d.naming, m)) {
+      names.push_back(name);
+      out.verdict += name + " ";
+    }
+  }
+  out.named = set.effects.empty()
+                  ? d.verdict == Verdict::kAdequate
+                  : std::all_of(set.effects.begin(), set.effects.end(), [&](const auto& effect) {
+                      return std::find(names.begin(), names.end(), effect) != names.end();
+                    });
+  ProblemOptions told = options.problem;
+  told.with_effects = set.effects;
+  const DatasetFit fit = FitDataset(set.dataset, told, {});
+  out.error = SharedValue(fit.problem, fit.result.shared, "E") / set.modulus - 1.0;
+  return out;
+}
+
+TEST(ForeignData, ThePracticeSetsTruthsAreFound) {
+  const std::vector<PracticeSet> sets = PracticeSets();
+  if (sets.empty()) GTEST_SKIP() << "no data in " << kData;
+  std::vector<Found> found(sets.size());
+  ParallelFor(static_cast<int>(sets.size()), Jobs(), [&](int i) {
+    found[static_cast<std::size_t>(i)] = Seek(sets[static_cast<std::size_t>(i)]);
+  });
+  int with_cause = 0, near = 0, named = 0, none = 0, adequate = 0;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    std::string truth;
+    for (const std::string& effect : sets[i].effects) truth += effect + " ";
+    std::printf("%s: %s| %s| E %+.2f %% with the truth given\n", sets[i].name.c_str(),
+                truth.c_str(), found[i].verdict.c_str(), 100.0 * found[i].error);
+    if (sets[i].effects.empty()) {
+      ++none;
+      adequate += found[i].named;
+      continue;
+    }
+    ++with_cause;
+    near += std::abs(found[i].error) < 0.02;
+    named += found[i].named;
+  }
+  std::printf("E within 2 %%: %d of %d; causes in the named groups: %d; adequate: %d of %d\n", near,
+              with_cause, named, adequate, none);
+  EXPECT_EQ(near, with_cause);
+  EXPECT_GE(named, with_cause - 1);
+  EXPECT_GE(adequate, none - 1);
+}
+
+// ---- far starts
+// ----------------------------------------------------------------------------------
+
+struct Landing {
+  int reached = 0, told = 0, wrong = 0;
+  std::string wrongs;
+};
+
+Landing FromFarStarts(const PracticeSet& set, int starts) {
+  ProblemOptions options;
+  options.law = set.law;
+  FitOptions more;
+  more.starts = 8;
+  const DatasetFit best = FitDataset(set.dataset, options, more);
+  const double E = SharedValue(best.problem, best.result.shared, "E");
+  const double d = SharedValue(best.problem, best.result.shared, "d");
+  Landing out;
+  RandomStream random(40, 1);
+  for (int i = 0; i < starts; ++i) {
+    Dataset dataset = set.dataset;
+    const double by_E = std::exp2(random.Uniform(-1.0, 1.0)), by_d = random.Uniform(0.0, 3.0);
+    const auto shift = [&](MechanismSpec& m) {
+      m.c_leg.E_Pa *= by_E;
+      m.c_leg.damping_N_s_per_m *= by_d;
+    };
+    shift(dataset.mechanism);
+    for (Trial& t : dataset.trials) shift(t.mechanism);
+    const DatasetFit fit = FitDataset(dataset, options, {});
+    const double E_found = SharedValue(fit.problem, fit.result.shared, "E");
+    const double d_found = SharedValue(fit.problem, fit.result.shared, "d");
+    // Two estimates of the discrepancy are not the same to the last digit.
+    const bool same = fit.result.ok && std::abs(E_found / E - 1.0) < 2e-3 &&
+                      std::abs(d_found - d) < 0.02 * std::max(std::abs(d), 1.0);
+    const bool told = !fit.result.ok || !fit.result.stop.IsMinimum();
+    ++(same ? out.reached : told ? out.told : out.wrong);
+    if (same || told) continue;
+    char text[160];
+    std::snprintf(text, sizeof text, " [E x %.2f, d x %.2f: E %.2f GPa, d %.3f]", by_E, by_d,
+                  1e-9 * E_found, d_found);
+    out.wrongs += text;
+  }
+  return out;
+}
+
+TEST(ForeignData, FromFarStartsThereIsOneOptimumOrItIsTold) {
+  constexpr int kStarts = 40;
+  const std::vector<PracticeSet> sets = PracticeSets();
+  if (sets.empty()) GTEST_SKIP() << "no data in " << kData;
+  std::vector<Landing> landings(sets.size());
+  ParallelFor(static_cast<int>(sets.size()), Jobs(), [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    landings[k] = FromFarStarts(sets[k], kStarts);
+    std::printf("%s: %d of %d at the optimum, %d told as no result, %d wrong%s\n",
+                sets[k].name.c_str(), landings[k].reached, kStarts, landings[k].told,
+                landings[k].wrong, landings[k].wrongs.c_str());
+    std::fflush(stdout);
+  });
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    EXPECT_GE(landings[i].reached + landings[i].told, 0.95 * kStarts) << sets[i].name;
+    EXPECT_EQ(landings[i].wrong, 0) << sets[i].name << landings[i].wrongs;
+  }
+}
+
+}  // namespace
+}  // namespace hoplab
