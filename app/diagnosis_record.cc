@@ -281,29 +281,31 @@ Json HeldOutRecord(const FitProblem& problem, const HeldOutErrors& errors) {
   return record;
 }
 
+Json ForceRecord(const ReconstructedForce& f) {
+  Json points = Json::array(), terms = Json::array();
+  for (const ForcePoint& p : f.points) {
+    points.push_back({{"at", NumberOrNull(p.at)},
+                      {"value", NumberOrNull(p.value)},
+                      {"band95", NumberOrNull(p.band95)}});
+  }
+  for (const RegressionTerm& t : f.terms) {
+    terms.push_back({{"term", t.term},
+                     {"coefficient", NumberOrNull(t.coefficient)},
+                     {"inclusion", NumberOrNull(t.inclusion)}});
+  }
+  return {{"name", f.group.name},
+          {"against", TextOrNull(f.group.against)},
+          {"unit", f.group.unit},
+          {"score", NumberOrNull(f.score)},
+          {"p_value", NumberOrNull(f.p_value)},
+          {"points", points},
+          {"terms", terms}};
+}
+
 Json ForcesRecord(const std::optional<FreeForces>& free_forces) {
   if (!free_forces) return nullptr;
   Json out = Json::array();
-  for (const ReconstructedForce& f : free_forces->forces) {
-    Json points = Json::array(), terms = Json::array();
-    for (const ForcePoint& p : f.points) {
-      points.push_back({{"at", NumberOrNull(p.at)},
-                        {"value", NumberOrNull(p.value)},
-                        {"band95", NumberOrNull(p.band95)}});
-    }
-    for (const RegressionTerm& t : f.terms) {
-      terms.push_back({{"term", t.term},
-                       {"coefficient", NumberOrNull(t.coefficient)},
-                       {"inclusion", NumberOrNull(t.inclusion)}});
-    }
-    out.push_back({{"name", f.group.name},
-                   {"against", TextOrNull(f.group.against)},
-                   {"unit", f.group.unit},
-                   {"score", NumberOrNull(f.score)},
-                   {"p_value", NumberOrNull(f.p_value)},
-                   {"points", points},
-                   {"terms", terms}});
-  }
+  for (const ReconstructedForce& f : free_forces->forces) out.push_back(ForceRecord(f));
   return out;
 }
 

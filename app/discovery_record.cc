@@ -8,8 +8,12 @@
 #include "app/diagnosis_record.h"
 #include "app/diagnosis_tables.h"
 #include "app/discovery_words.h"
+#include "app/export/effect_code.h"
 #include "app/formula_words.h"
 #include "app/record_parts.h"
+#include "app/report_text.h"
+#include "base/text.h"
+#include "fitting/discovery/free_curve.h"
 
 namespace hoplab {
 namespace {
@@ -53,6 +57,7 @@ Json TermRecord(const FoundTerm& found, std::size_t place) {
           {"share", NumberOrNull(found.share)},
           {"selected_in", found.selected_in ? Json(*found.selected_in) : Json(nullptr)},
           {"equal", FormulasOf(found.equal)},
+          {"free", found.free_curve ? ForceRecord(*found.free_curve) : Json(nullptr)},
           {"file", DiscoveredFile(place)}};
 }
 
@@ -82,19 +87,6 @@ void AddCurve(const FoundTerm& found, std::size_t place, const NaturalScales& sc
   if (found.term.variables.empty() || found.values.empty()) return;
   const Effect& effect = FormulaEffect(found.source);
   const PlaceInfo& info = InfoOf(effect.formula->place());
-  const auto size = [&](const VariableInfo& v) {
-    if (v.unit == "m/s") return scales.speed;
-    if (v.unit == "m") return scales.length;
-    if (v.unit == "s") return scales.time;
-    if (v.unit == "N") return 2.0 * scales.force;
-    return v.usual;
-  };
-  // What the term is drawn over.
-  const auto range = [&](const VariableInfo& v) {
-    if (v.variable == FormulaVariable::kX && !scales.x.empty()) return scales.x;
-    if (v.variable == FormulaVariable::kY && !scales.y.empty()) return scales.y;
-    return Extent{v.never_negative ? 0.0 : -size(v), size(v)};
-  };
   const std::string& name = found.term.variables.front();
   constexpr int kPoints = 41;
   CornerSides sides;
@@ -105,9 +97,9 @@ void AddCurve(const FoundTerm& found, std::size_t place, const NaturalScales& sc
     double at = 0.0;
     for (const VariableInfo& v : info.variables) {
       const auto k = static_cast<std::size_t>(v.variable);
-      values[k] = size(v);
+      values[k] = NaturalSize(v, scales);
       if (v.name == name) {
-        const Extent over = range(v);
+        const Extent over = DrawnOver(v, scales);
         at = values[k] = over.least + (over.most - over.least) * i / (kPoints - 1);
       }
       view[k] = &values[k];
@@ -126,6 +118,16 @@ void AddCurve(const FoundTerm& found, std::size_t place, const NaturalScales& sc
     csv.Cell(c.ci95 ? with(c.ci95->second) : std::numeric_limits<double>::quiet_NaN()).EndRow();
   }
 }
+
+// A found term as the effect that is written to a file.
+FormulaSource WrittenSource(const FoundTerm& found, std::size_t place) {
+  FormulaSource source = found.source;
+  source.name = place == 0 ? "discovered" : "discovered_" + std::to_string(place + 1);
+  source.sentence = WordsOf(found);
+  return source;
+}
+
+std::string CodeFile(const FormulaSource& source) { return source.name + ".cc"; }
 
 }  // namespace
 
@@ -196,15 +198,36 @@ std::map<std::string, std::string> DiscoveryFiles(const Discovery& d) {
   const NaturalScales scales = ScalesOf(d.base.problem);
   for (std::size_t i = 0; i < d.found.size(); ++i) {
     AddCurve(d.found[i], i, scales, curves);
-    FormulaSource source = d.found[i].source;
-    source.name = i == 0 ? "discovered" : "discovered_" + std::to_string(i + 1);
-    source.sentence = WordsOf(d.found[i]);
-    files[DiscoveredFile(i)] =
-        EffectFileText(source, std::string(NameOf(d.verdict)) + ": " + SizesOf(d.found[i]) +
-                                   "; typical is the size found");
+    files[DiscoveredFile(i)] = EffectFileText(
+        WrittenSource(d.found[i], i), std::string(NameOf(d.verdict)) + ": " + SizesOf(d.found[i]) +
+                                          "; typical is the size found");
   }
   files["discovered.csv"] = curves.text();
   return files;
+}
+
+std::map<std::string, std::string> DiscoveryCode(const Discovery& d) {
+  std::map<std::string, std::string> files;
+  for (std::size_t i = 0; i < d.found.size(); ++i) {
+    const FormulaSource source = WrittenSource(d.found[i], i);
+    if (UnknownToCode(source).empty()) files[CodeFile(source)] = EffectCodeOf(source, source.name);
+  }
+  return files;
+}
+
+std::string CodeReport(const Discovery& d, bool colours) {
+  std::string text;
+  for (std::size_t i = 0; i < d.found.size(); ++i) {
+    const FormulaSource source = WrittenSource(d.found[i], i);
+    const std::vector<std::string> unknown = UnknownToCode(source);
+    text += Labelled("code",
+                     unknown.empty()
+                         ? CodeFile(source) + ", for model/effects"
+                         : "none of " + DiscoveredFile(i) + ": a compiled effect does not know " +
+                               Join(unknown) + " there",
+                     colours);
+  }
+  return text;
 }
 
 }  // namespace hoplab

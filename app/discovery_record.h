@@ -22,6 +22,12 @@ Json DiscoveryRecord(const Dataset& dataset, const std::string& dataset_argument
 /// discovered.csv (the found terms over their variables), residuals.csv and the effect files.
 std::map<std::string, std::string> DiscoveryFiles(const Discovery& d);
 
+/// What is found as C++ effects (docs/adding/effect.md): discovered.cc, discovered_2.cc, ...; none
+/// of a term that a compiled effect cannot know.
+std::map<std::string, std::string> DiscoveryCode(const Discovery& d);
+/// Which those are, for a terminal.
+std::string CodeReport(const Discovery& d, bool colours);
+
 /// What the terminal shows.
 std::string DiscoveryReport(const Discovery& d, bool colours);
 

@@ -35,12 +35,6 @@ std::string Direction(const FoundTerm& found) {
   return "";
 }
 
-std::string Number(double value) {
-  std::string text = FormatDouble(value);
-  // YAML knows no number that begins with a point or ends with one.
-  return text;
-}
-
 }  // namespace
 
 std::string WordsOf(const FoundTerm& found) {
@@ -101,9 +95,9 @@ std::string EffectFileText(const FormulaSource& source, const std::string& remar
                      "\"\nparameters:\n";
   for (const FormulaParameter& p : source.parameters) {
     text += "  " + p.name + ": {unit: \"" + p.unit + "\", " +
-            (p.null ? "null: " + Number(*p.null) : "value: " + Number(*p.value)) +
-            ", lower: " + Number(p.lower) + ", upper: " + Number(p.upper) +
-            (p.typical ? ", typical: " + Number(*p.typical) : "") + "}\n";
+            (p.null ? "null: " + FormatDouble(*p.null) : "value: " + FormatDouble(*p.value)) +
+            ", lower: " + FormatDouble(p.lower) + ", upper: " + FormatDouble(p.upper) +
+            (p.typical ? ", typical: " + FormatDouble(*p.typical) : "") + "}\n";
   }
   return text + "sentence: \"" + source.sentence + "\"\n";
 }

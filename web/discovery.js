@@ -8,10 +8,19 @@ function discoveredPlot(found) {
   const pick = (column) => curves.pick(column, rows);
   const unit = {body_force_x: 'N', body_force_y: 'N', body_force_along: 'N', body_force_across: 'N', chord_force: 'N', hip_torque: 'N m',
     landing_velocity_along: 'm/s', landing_velocity_across: 'm/s', touchdown_angle: 'rad', reading_x: 'm', reading_y: 'm', restitution: '-'}[found.acts_as];
-  return plot('What it adds, over its variable; other variables at their natural sizes. The band is 95 %.', () => ({
+  const free = list(found.free?.points).filter((p) => isNumber(p.value) && isNumber(p.at) && isNumber(p.band95));
+  // A hat that the data hardly see would hide the curve.
+  const span = Math.max(...pick('high').map(Math.abs), ...pick('low').map(Math.abs), ...pick('value').map(Math.abs));
+  const seen = free.filter((p) => p.band95 < 2 * span);
+  const caption = seen.length
+    ? 'What it adds, over its variable, with its 95 % band; the points are what acts there free of any formula.'
+    : 'What it adds, over its variable; other variables at their natural sizes. The band is 95 %.';
+  return plot(caption, () => ({
     traces: [
       {mode: 'lines', x: pick('at'), y: pick('low'), line: {width: 0}, hoverinfo: 'skip', showlegend: false},
       {mode: 'lines', x: pick('at'), y: pick('high'), fill: 'tonexty', line: {width: 0}, hoverinfo: 'skip', showlegend: false},
+      ...(seen.length ? [{mode: 'markers', name: 'free of any formula', x: seen.map((p) => p.at), y: seen.map((p) => p.value), marker: {color: colour('two'), size: 7},
+        error_y: {type: 'data', array: seen.map((p) => p.band95), color: colour('two'), thickness: 1.5}, hovertemplate: `%{x:.4g}: %{y:.4g} ${unit}<extra>free</extra>`}] : []),
       {mode: 'lines', name: words(found.acts_as), x: pick('at'), y: pick('value'), line: {color: colour('one')}, hovertemplate: `%{x:.4g}: %{y:.4g} ${unit}<extra></extra>`}],
     layout: {xaxis: {title: {text: pick('variable')[0]}}, yaxis: {title: {text: `${words(found.acts_as)} [${unit}]`}, zeroline: true}, showlegend: false},
   }), {height: 260});

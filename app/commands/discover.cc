@@ -22,6 +22,7 @@ struct DiscoverSettings : RunSettings {
   std::uint64_t seed = 1;
   std::string span = "whole_else_hops";
   std::string discrepancy = "matern";
+  bool code = false;
 };
 
 DiagnosisOptions OptionsOf(const DiscoverSettings& settings) {
@@ -52,6 +53,7 @@ ExitCode RunDiscover(const DiscoverSettings& settings, Console& console) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
   std::map<std::string, std::string> files = DiscoveryFiles(found);
+  if (settings.code) files.merge(DiscoveryCode(found));
   files["run.json"] = TextOf(record);
   const std::string kept = folder.Write(files).string();
   if (settings.json) {
@@ -62,6 +64,7 @@ ExitCode RunDiscover(const DiscoverSettings& settings, Console& console) {
     for (const std::string& note : found.base.notes)
       console.out << Labelled("note", note, console.out_colours);
     console.out << DiscoveryReport(found, console.out_colours)
+                << (settings.code ? CodeReport(found, console.out_colours) : "")
                 << Styled("\n  run folder   ", Emphasis::kFaint, console.out_colours) << kept
                 << '\n';
   }
@@ -84,6 +87,7 @@ void AddDiscoverCommand(CLI::App& app, Invocation& invocation) {
                  "whole traces, else single hops where a law falls (default), whole or hops")
       ->check(OneOf({"whole_else_hops", "whole", "hops"}))
       ->option_text("NAME");
+  sub.add_flag("--code", settings->code, "Also write what is found as a C++ effect");
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-discover-NNN)");
   sub.footer(
       "Examples:\n"

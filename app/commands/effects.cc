@@ -5,6 +5,7 @@
 
 #include "app/effect_catalogue.h"
 #include "app/effect_words.h"
+#include "app/export/effect_code.h"
 #include "app/formula_words.h"
 #include "app/quantity.h"
 #include "app/record_parts.h"
@@ -22,7 +23,7 @@ namespace {
 struct EffectsSettings {
   std::string name;  // empty: all
   std::string law;   // likewise
-  bool markdown = false, json = false;
+  bool markdown = false, code = false, json = false;
 };
 
 Json RecordOf(const Effect& effect) {
@@ -127,6 +128,15 @@ std::vector<const Effect*> Chosen(const EffectsSettings& settings) {
   return chosen;
 }
 
+// The formula of a file in C++.
+std::string CodeOfFile(const Effect& effect, const std::string& given) {
+  if (const FormulaSource* source = SourceOf(effect)) return EffectCodeOf(*source, given);
+  throw InputError({"--code", given.empty() ? "" : Printable(given), "is for a file with a formula",
+                    given.empty() ? "Name one: hoplab effects FILE --code."
+                                  : "An effect of the catalogue is code: model/effects/" +
+                                        std::string(effect.info.name) + ".cc."});
+}
+
 void CheckLaw(const std::string& name) {
   std::vector<std::string> known;
   for (const Law law : AllLaws()) known.emplace_back(NameOf(law));
@@ -148,6 +158,8 @@ ExitCode RunEffects(const EffectsSettings& settings, Console& console) {
       if (effect->formula) record["effects"].back().update(FormulaRecord(*effect));
     }
     console.out << TextOf(record);
+  } else if (settings.code) {
+    console.out << CodeOfFile(*effects.front(), settings.name);
   } else if (settings.markdown) {
     console.out << EffectCatalogue(effects);
   } else if (settings.name.empty()) {
@@ -166,11 +178,13 @@ void AddEffectsCommand(CLI::App& app, Invocation& invocation) {
   sub.add_option("EFFECT", settings->name, "One effect in full, or a file with a formula: checked");
   sub.add_option("--law", settings->law, "Only those that go with this law")->option_text("LAW");
   sub.add_flag("--markdown", settings->markdown, "As a page of documentation (docs/effects.md)");
+  sub.add_flag("--code", settings->code, "The formula of a file as a C++ effect");
   sub.footer(
       "Examples:\n"
       "  hoplab effects --law consistent\n"
       "  hoplab effects air_drag\n"
       "  hoplab effects umbilical.yaml\n"
+      "  hoplab effects umbilical.yaml --code > model/effects/umbilical.cc\n"
       "  hoplab effects --json");
   OnParsed(sub, invocation, settings, RunEffects);
 }

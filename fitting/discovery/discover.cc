@@ -9,6 +9,7 @@
 #include "datasets/suspect_things.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/null_fit.h"
+#include "fitting/discovery/free_curve.h"
 #include "fitting/discovery/promising.h"
 #include "fitting/discovery/stability.h"
 
@@ -171,8 +172,22 @@ class Search {
       if (out_.found[m].term.power) FreeExponent(m);
       if (out_.found[m].term.shape) FreeShape(m);
     }
+    DrawFree();
     std::stable_sort(out_.found.begin(), out_.found.end(),
                      [](const FoundTerm& a, const FoundTerm& b) { return a.share > b.share; });
+  }
+
+  // Each term's curve free of its formula, beside the others, under the noise of the best model.
+  void DrawFree() {
+    const NaturalScales scales = ScalesOf(out_.base.problem);
+    for (std::size_t m = 0; m < out_.found.size() && !Stopped(); ++m) {
+      const bool alone = out_.found.size() == 1;
+      if (!alone && (m >= out_.naming.without.size() || !out_.naming.without[m].ok())) continue;
+      Extension rest = alone ? out_.base.plain : out_.naming.without[m];
+      rest.problem.noise = out_.naming.best.problem.noise;
+      out_.found[m].free_curve = FreeCurve(out_.found[m].term, rest, *train_, scales,
+                                           options_.fit.jobs, Seed(kForcesStream));
+    }
   }
 
   static FoundValue ValueAt(const Extension& e, const Uncertainty& u, int place) {
@@ -303,11 +318,17 @@ class Search {
       out_.reason = "the best formula makes held-out trials worse";
       return;
     }
+    if (!first.selected_in && !out_.gain.IsClaim()) {
+      out_.reason =
+          "with one fitted trial, and held-out ones that do not confirm it, nothing says whether "
+          "another would show the same";
+      return;
+    }
     out_.verdict = DiscoveryVerdict::kFound;
     out_.reason = first.selected_in
                       ? "picked in " + FormatDouble(std::round(100.0 * *first.selected_in)) +
                             " % of the resamples of the trials"
-                      : "with one fitted trial nothing says whether another would show the same";
+                      : "of one fitted trial, and held-out trials confirm it";
   }
 
   const DiagnosisOptions& options_;

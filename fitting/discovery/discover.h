@@ -10,7 +10,8 @@
 namespace hoplab {
 
 enum class DiscoveryVerdict {
-  kFound,          // a formula that stays when trials are drawn anew
+  kFound,          // a formula that stays when trials are drawn anew; of one fitted trial, that
+                   // held-out trials confirm
   kNothingStable,  // something is missing, and no formula stays
   kNotNeeded       // nothing is missing that these data could show
 };
@@ -44,6 +45,8 @@ struct FoundTerm {
   std::optional<double> selected_in;   // share of the resamples; absent with one trial
   std::vector<const Effect*> equal;    // terms these data cannot tell from it, itself left out
   std::vector<const Effect*> as_good;  // terms that do as well in its place
+  /// What acts there free of the formula, over its variable; absent where that cannot be drawn.
+  std::optional<ReconstructedForce> free_curve;
   /// Ready for --with: the typical size is the one found.
   FormulaSource source;
 };

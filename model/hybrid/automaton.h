@@ -106,7 +106,8 @@ struct GuardCrossing {
 /// |guard|/scale below which a guard counts as at zero: rounding of a state of size one.
 inline constexpr double kAtZero = 1e-11;
 
-inline constexpr int kMaxGuards = 28;
+/// Four legs of a robot that roll and slide, their motors limited, have 29.
+inline constexpr int kMaxGuards = 29;
 /// Most states of a mechanism, and of what a stepper integrates: with eight sensitivities of each.
 inline constexpr int kMaxStates = 18;
 

@@ -69,8 +69,7 @@ void Robot<T>::ListGuards(Mode mode) {
   if (robot_.control != MotorControl::kLocked && std::isfinite(robot_.torque_limit))
     for (int i = 0; i < legs_; ++i) add({EventKind::kTorqueLimit, i, robot_.torque_limit});
   if (mode == Mode::kFlight) add({EventKind::kApex, 0, 1.0});
-  // While four legs roll and slide, all motors limited, there is no room for it: the hips tell.
-  if (guard_count_ < kMaxGuards) add({EventKind::kFallPitch, 0, 1.0});
+  add({EventKind::kFallPitch, 0, 1.0});
 }
 
 template <class T>

@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "datasets/read_scenario.h"
 #include "fitting/discovery/discover.h"
+#include "fitting/discovery/promising.h"
 #include "fitting/discovery/stability.h"
 #include "fitting/generate.h"
 #include "tests/support/hop_scenarios.h"
@@ -115,6 +116,46 @@ TEST(TermLibrary, HasEachFormulaOnceAndItsCoefficientInFront) {
   EXPECT_FALSE(places.contains("restitution")) << "that is of a ball";
 }
 
+std::vector<const Term*> OfFamily(const std::vector<Term>& terms, const std::string& part) {
+  std::vector<const Term*> found;
+  for (const Term& t : terms)
+    if (t.shape && t.shape->family.find(part) != std::string::npos) found.push_back(&t);
+  return found;
+}
+
+TEST(TermLibrary, AShapeIsFreedNearItsPlaceOnTheGrid) {
+  const FitProblem problem = MakeProblem(HopDataset(), {});
+  const NaturalScales scales = ScalesOf(problem);
+  const std::vector<Term> terms = TermLibrary(problem, scales);
+  const std::vector<const Term*> limits = OfFamily(terms, "body_force_x max(x - limit, 0)");
+  ASSERT_GE(limits.size(), 3u);
+  for (const Term* t : limits) {
+    const FormulaParameter& held = SourceOf(*t->effect)->parameters.at(1);
+    const double step = t->shape->steps.at(0);
+    EXPECT_GT(*held.value, scales.x.least);
+    EXPECT_LT(*held.value, scales.x.most);
+    const FormulaSource source = WithFreeShape(*t);
+    const FormulaParameter& freed = source.parameters.at(1);
+    EXPECT_EQ(freed.null, held.value);
+    EXPECT_FALSE(freed.value);
+    EXPECT_GE(freed.lower, *held.value - 1.5 * step);
+    EXPECT_LE(freed.upper, *held.value + 1.5 * step);
+    EXPECT_FALSE(FormulaEffect(source).info.parameters[1].is_shape);
+  }
+  EXPECT_TRUE(AreNeighbours(*limits[0], *limits[1], 1.01));
+  EXPECT_FALSE(AreNeighbours(*limits[0], *limits[1], 0.99));
+  EXPECT_FALSE(AreNeighbours(*limits[0], *OfFamily(terms, "max(limit - x, 0)").at(0), 9.0));
+  // A shape stays within its bounds.
+  const double far = 1e3;
+  const Term moved = AtShape(*limits[0], {&far, 1});
+  const FormulaParameter& at = SourceOf(*moved.effect)->parameters[1];
+  EXPECT_EQ(*at.value, at.upper);
+  // A family has the chance of one term.
+  const auto members = static_cast<double>(limits.size());
+  EXPECT_NEAR(PriceOf(*limits[0], terms), std::log(members), 1e-12);
+  EXPECT_EQ(PriceOf(terms.front(), terms), 0.0);
+}
+
 // With its exponent where it was, a term with a free one is the same term.
 TEST(TermLibrary, AFreeExponentBeginsAtTheTerm) {
   const FitProblem problem = MakeProblem(HopDataset(), {});
@@ -182,6 +223,93 @@ TEST(Discover, DragOfABallWithItsExponent) {
   // What is written is an effect again, at the size found.
   const Effect& again = FormulaEffect(found.source);
   EXPECT_EQ(again.info.parameters[0].typical, found.values.front().value);
+}
+
+// Hops with an effect that no catalogue has, at its typical size.
+Dataset HopsWith(const std::string& acts_as, const std::string& formula,
+                 const std::string& parameters) {
+  Scenario s = HopScenario(2);
+  s.law = "large_deflection";
+  EffectSpec spec;
+  spec.formula = ParseEffectFile("format: hoplab-effect/1\nname: planted\nacts_as: " + acts_as +
+                                     "\nformula: \"" + formula + "\"\nparameters:\n" + parameters,
+                                 "planted.yaml");
+  spec.name = "planted";
+  spec.at_typical = true;
+  s.effects = {spec};
+  return GenerateDataset(s, {.seed = 3}).dataset;
+}
+DiagnosisOptions LargeDeflection() {
+  DiagnosisOptions options;
+  options.problem.law = "large_deflection";
+  return options;
+}
+// Near the truth for its interval, and determined.
+void ExpectValue(const FoundTerm& found, std::size_t i, const std::string& name, double truth) {
+  ASSERT_LT(i, found.values.size());
+  const FoundValue& v = found.values[i];
+  EXPECT_EQ(v.name, name);
+  ASSERT_TRUE(v.ci95) << name;
+  const double half = 0.5 * (v.ci95->second - v.ci95->first);
+  EXPECT_NEAR(v.value, truth, 2.0 * half) << name;
+  EXPECT_LT(half, 0.25 * std::abs(truth)) << name << " is not determined";
+}
+
+const char* const kCable =
+    "  k: {unit: N/m, null: 0, lower: 0, upper: 200, typical: 0.6}\n"
+    "  x_end: {unit: m, value: 0.4, lower: -10, upper: 10}\n";
+
+TEST(Discover, ACableWithTheEndOfItsSlack) {
+  const Discovery d =
+      Discover(HopsWith("body_force_x", "-k * max(x - x_end, 0)", kCable), LargeDeflection());
+  ASSERT_EQ(d.verdict, DiscoveryVerdict::kFound) << d.reason;
+  ASSERT_EQ(d.found.size(), 1u);
+  const FoundTerm& found = d.found.front();
+  EXPECT_EQ(found.source.acts_as, "body_force_x");
+  EXPECT_EQ(found.source.formula, "c * max(x - limit, 0)");
+  ExpectValue(found, 0, "c", -0.6);
+  ExpectValue(found, 1, "limit", 0.4);
+  // What is written has them both.
+  EXPECT_EQ(found.source.parameters[0].typical, found.values[0].value);
+  EXPECT_EQ(found.source.parameters[1].value, found.values[1].value);
+}
+
+TEST(Discover, AnImbalanceWithItsFrequency) {
+  const Discovery d =
+      Discover(HopsWith("body_force_y", "a * sin(2 * pi * f * t)",
+                        "  a: {unit: N, null: 0, lower: -10, upper: 10, typical: 0.5}\n"
+                        "  f: {unit: Hz, value: 4.3, lower: 0, upper: 50}\n"),
+               LargeDeflection());
+  ASSERT_EQ(d.verdict, DiscoveryVerdict::kFound) << d.reason;
+  const FoundTerm& found = d.found.front();
+  EXPECT_EQ(found.source.acts_as, "body_force_y");
+  ASSERT_EQ(found.values.size(), 3u);
+  EXPECT_NEAR(std::abs(found.values[0].value), 0.5, 0.05);
+  ExpectValue(found, 1, "frequency", 4.3);
+}
+
+// Causes that only stand in give their place to the formula.
+TEST(Discover, BesideADiagnosisAndInPlaceOfItsCauses) {
+  const Dataset dataset = HopsWith("body_force_x", "-k * max(x - x_end, 0)", kCable);
+  DiagnosisOptions options = LargeDeflection();
+  options.candidates.only = {"air_drag", "constant_force", "sensor_scale_x"};
+  const Diagnosis diagnosis = Diagnose(dataset, options);
+  ASSERT_TRUE(diagnosis.extension) << diagnosis.refusal;
+  ASSERT_TRUE(diagnosis.CausesMayStandIn()) << diagnosis.reason;
+  const Discovery d = DiscoverBeside(diagnosis, options);
+  EXPECT_EQ(d.verdict, DiscoveryVerdict::kFound) << d.reason;
+  EXPECT_TRUE(d.in_place_of_causes);
+  ASSERT_FALSE(d.found.empty());
+  EXPECT_EQ(d.found.front().source.formula, "c * max(x - limit, 0)");
+}
+
+// With one fitted trial only held-out trials can confirm a formula.
+TEST(Discover, OneTrialAloneProvesNothing) {
+  Dataset dataset = HopsWith("body_force_x", "-k * max(x - x_end, 0)", kCable);
+  dataset.trials.resize(1);
+  const Discovery d = Discover(dataset, LargeDeflection());
+  EXPECT_FALSE(d.gain.IsClaim());
+  EXPECT_NE(d.verdict, DiscoveryVerdict::kFound) << d.reason;
 }
 
 TEST(Discover, NothingWhereNothingIsMissing) {

@@ -2,9 +2,14 @@
 // scratch tree, whatever else is in it is a link to the project or built already.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/discovery_words.h"
+#include "app/export/effect_code.h"
+#include "tests/support/formulas.h"
 #include "tests/support/run_process.h"
 
 namespace hoplab {
@@ -42,6 +47,41 @@ void WriteFiles(const std::string& page, const std::string& language, const fs::
   }
 }
 
+// Formulas that are added as code too, named so that the file stays free for the formula.
+struct AddedFormula {
+  FormulaSource source;
+  std::vector<std::string> sizes;  // parameter=value
+};
+std::vector<AddedFormula> AddedFormulas() {
+  using testing::Factor;
+  using testing::Shape;
+  const auto named = [](const char* name, FormulaSource source) {
+    source.name = name;
+    return source;
+  };
+  return {
+      {named(
+           "drag_along",
+           testing::Source("body_force_along", "-c * (speed/v0)^p - c * sin(2 * pi * f * t)^2",
+                           {Factor("c", "N", -10.0, 10.0, 0.1), Shape("v0", "m/s", 1.3, 0.1, 10.0),
+                            Shape("p", "1", 1.7, 0.5, 3.0), Shape("f", "Hz", 2.5, 0.1, 10.0)})),
+       {"c=0.2"}},
+      {named("chord_while_loading",
+             testing::Source("chord_force", "-(k * max(s - s0, 0) + b * rate) * loading",
+                             {Factor("k", "N", -1e3, 1e3, 10.0), Factor("b", "N s/m", -10, 10, 1),
+                              Shape("s0", "1", 0.005, 0.0, 0.5)})),
+       {"k=40", "b=0.5"}},
+      {named("landing_slip",
+             testing::Source("landing_velocity_across", "-zeta * across/(1 + abs(theta))",
+                             {Factor("zeta", "1", 0.0, 1.0, 0.01)})),
+       {"zeta=0.05"}},
+      {named("place_by_speed",
+             testing::Source(
+                 "touchdown_angle", "a * (vx - v1) - a * sqrt(vx * v1)/2",
+                 {Factor("a", "rad s/m", -1.0, 1.0, 0.02), Shape("v1", "m/s", 1.0, 0.1, 2.0)})),
+       {"a=0.03"}}};
+}
+
 class Adding : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -54,6 +94,13 @@ class Adding : public ::testing::Test {
     fs::create_symlink(kSource / "experiments/three-drops.yaml",
                        tree_->path() / "experiments/three-drops.yaml");
     fs::copy_file(kSource / "tests/app/adding/CMakeLists.txt", tree_->path() / "CMakeLists.txt");
+    for (const AddedFormula& f : AddedFormulas()) {
+      FormulaSource coded = f.source;
+      coded.name = "code_of_" + f.source.name;
+      testing::WriteText(effects / (coded.name + ".cc"), EffectCodeOf(coded, "formula"));
+      testing::WriteText(tree_->path() / (f.source.name + ".yaml"),
+                         EffectFileText(f.source, "the same as a formula"));
+    }
     WriteFiles("effect.md", "cpp", tree_->path());
     WriteFiles("mechanism.md", "cpp", tree_->path());
     WriteFiles("experiment.md", "yaml", tree_->path());
@@ -106,6 +153,8 @@ class Adding : public ::testing::Test {
     return printed;
   }
 
+  static fs::path tree() { return tree_->path(); }
+
  private:
   static inline testing::TempFolder* tree_ = nullptr;
   static inline bool built_ = false;
@@ -123,6 +172,37 @@ TEST_F(Adding, AnEffectInAFileOfItsOwnIsListedExplainedAndNamedByADiagnosis) {
   const std::string others = Run("hoplab", {"effects"}).out;
   EXPECT_NE(others.find("safety_line"), std::string::npos);
   EXPECT_NE(others.find("air_drag"), std::string::npos);
+}
+
+// What --code writes moves the body as the formula does.
+TEST_F(Adding, AFormulaAsCodeIsTheFormula) {
+  const auto ends = [](const std::string& effect, const std::vector<std::string>& sizes) {
+    std::vector<std::string> arguments = {"simulate", "experiments/three-drops.yaml", "--json",
+                                          "--out",    (tree() / "run").string(),      "--force"};
+    for (const std::string& size : sizes) {
+      arguments.emplace_back("--with");
+      arguments.push_back(effect + ":" + size);
+    }
+    const ProcessResult run = Run("hoplab", arguments);
+    EXPECT_EQ(run.exit_code, 0) << effect << run.err;
+    const auto record = nlohmann::json::parse(run.out);
+    std::vector<double> values = {record["end_time_s"]};
+    for (const char* name : {"x_m", "y_m", "vx_m_per_s", "vy_m_per_s"})
+      values.push_back(record["final_state"][name]);
+    return values;
+  };
+  const std::vector<double> plain = ends("", {});
+  for (const AddedFormula& f : AddedFormulas()) {
+    const std::string name = f.source.name;
+    const std::vector<double> formula = ends(name + ".yaml", f.sizes),
+                              code = ends("code_of_" + name, f.sizes);
+    double moved = 0.0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      EXPECT_NEAR(code[i], formula[i], 1e-7) << name;  // the solver's, across corners
+      moved = std::max(moved, std::abs(formula[i] - plain[i]));
+    }
+    EXPECT_GT(moved, 1e-3) << name << " changes nothing";
+  }
 }
 
 TEST_F(Adding, AMechanismHoldsAgainstItsClosedForm) {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/free_forces.h"
+#include "fitting/discovery/scales.h"
+#include "fitting/discovery/term.h"
+
+namespace hoplab {
+
+/// The size a variable of a place has in these data.
+double NaturalSize(const VariableInfo& variable, const NaturalScales& scales);
+
+/// What a variable of a place is drawn over: where the body was, else its natural size.
+Extent DrawnOver(const VariableInfo& variable, const NaturalScales& scales);
+
+/// What acts at a term's place over its variable, free of its formula: hats of even width, in the
+/// phase the term has, fitted to what `base` (the model without the term) leaves. Nothing for a
+/// term of several variables, or of a frequency, which hats cannot follow.
+std::optional<ReconstructedForce> FreeCurve(const Term& term, const Extension& base,
+                                            const std::vector<TrialProblem>& train,
+                                            const NaturalScales& scales, int jobs,
+                                            std::uint64_t seed);
+
+}  // namespace hoplab
