@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -22,6 +23,7 @@
 #include "bench/rig_fit.h"
 #include "bench/study_cell.h"
 #include "model/mechanisms/leg.h"
+#include "tests/support/formulas.h"
 
 namespace hoplab::bench {
 namespace {
@@ -61,6 +63,7 @@ class Comparison {
   Report Run() {
     AddProblems();
     AddSimulations();
+    AddFormulas();
     fit_ = timer_.Add("fit", [this] { fit_ok_ = fit_ok_ && FitRigDrops().ok; });
     cell_ = timer_.Add("cell", [this] { cell_ok_ = cell_ok_ && RunStudyCell(); });
     const std::vector<PeerProgram> programs = {FindScipy(), FindOctave()};
@@ -92,6 +95,10 @@ class Comparison {
     PeerStance odeint;
     int our_timing = 0, odeint_timing = 0;
     std::map<std::string, PeerRun> programs;
+  };
+  struct FormulaPair {
+    std::string effect;
+    int code, formula;
   };
   struct Simulation {
     SimulationRow row;
@@ -154,7 +161,41 @@ class Comparison {
     }
   }
 
+  // Effects of the catalogue, and the same written as formulas.
+  void AddFormulas() {
+    const Law law = Law::kLargeDeflection;
+    const Parameters<double> leg = LegParameters(law);
+    for (const testing::WrittenEffect& e : testing::WrittenEffects(leg.m * leg.g)) {
+      const Effect& compiled = *FindEffect(e.catalogue);
+      if (!AppliesTo(compiled, law) || !testing::IsWrittenUnder(e.catalogue, law)) continue;
+      const auto timed = [&](const Effect& effect) {
+        effects_.push_back(std::make_unique<EffectSetting>(EffectSetting::Null(effect)));
+        effects_.back()->values[0] = compiled.info.parameters[0].typical;
+        SimulationRequest request = HopRequest(law, 4);
+        request.effects = {effects_.back().get(), 1};
+        return AddRun(request);
+      };
+      const int as_code = timed(compiled);
+      formulas_.push_back({e.catalogue, as_code, timed(FormulaEffect(e.formula))});
+    }
+  }
+
+  void CollectFormulas() {
+    double worst = 0.0;
+    std::string which;
+    for (const FormulaPair& f : formulas_) {
+      const double ratio = timer_.timing(f.formula).Min() / timer_.timing(f.code).Min();
+      Note(fmt::format("One hop with 4 sensitivities, {} as a formula / compiled: {:.2f} x.",
+                       f.effect, ratio));
+      if (ratio > worst) which = f.effect;
+      worst = std::max(worst, ratio);
+    }
+    AddBound(fmt::format("formula / compiled, worst of {} effects ({})", formulas_.size(), which),
+             worst, 2.0, true, "x");
+  }
+
   void Collect() {
+    CollectFormulas();
     for (const Problem& problem : problems_) CollectProblem(problem);
     for (const Simulation& s : simulations_) {
       report_.simulations.push_back(s.row);
@@ -240,6 +281,8 @@ class Comparison {
   std::filesystem::path scratch_;
   std::vector<Problem> problems_;
   std::vector<Simulation> simulations_;
+  std::vector<std::unique_ptr<EffectSetting>> effects_;  // what requests point at
+  std::vector<FormulaPair> formulas_;
   int fit_ = 0, cell_ = 0;
   bool fit_ok_ = true, cell_ok_ = true, failed_ = false;
 };
