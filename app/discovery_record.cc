@@ -88,29 +88,13 @@ void AddCurve(const FoundTerm& found, std::size_t place, const NaturalScales& sc
   const Effect& effect = FormulaEffect(found.source);
   const PlaceInfo& info = InfoOf(effect.formula->place());
   const std::string& name = found.term.variables.front();
+  const VariableInfo* variable = FindVariable(info, name);
+  if (variable == nullptr) return;
+  const Extent over = DrawnOver(*variable, scales);
   constexpr int kPoints = 41;
-  CornerSides sides;
-  sides.fill(kFreeSide);
   for (int i = 0; i < kPoints; ++i) {
-    std::array<double, kFormulaVariables> values{};
-    FormulaView<double> view{};
-    double at = 0.0;
-    for (const VariableInfo& v : info.variables) {
-      const auto k = static_cast<std::size_t>(v.variable);
-      values[k] = NaturalSize(v, scales);
-      if (v.name == name) {
-        const Extent over = DrawnOver(v, scales);
-        at = values[k] = over.least + (over.most - over.least) * i / (kPoints - 1);
-      }
-      view[k] = &values[k];
-    }
-    std::array<double, kMaxEffectParameters> p{};
-    for (std::size_t k = 0; k < effect.info.parameters.size(); ++k)
-      p[k] = effect.info.parameters[k].null;
-    const auto with = [&](double c) {
-      p[0] = c;
-      return effect.formula->Evaluate(p.data(), view, sides);
-    };
+    const double at = over.least + (over.most - over.least) * i / (kPoints - 1);
+    const auto with = [&](double c) { return FormulaAt(effect, name, at, c, scales); };
     const FoundValue& c = found.values.front();
     csv.Cell(DiscoveredFile(place)).Cell(found.source.acts_as).Cell(name).Cell(at);
     csv.Cell(with(c.value));

@@ -48,7 +48,12 @@ fs::path WriteCopies(int trials, const fs::path& scratch) {
 double ModulusIn(const fs::path& run) {
   std::ifstream file(run / "run.json");
   const nlohmann::json record = nlohmann::json::parse(file);
-  for (const nlohmann::json& p : record.at("parameters"))
+  const char* of = record.contains("parameters")      ? "parameters"
+                   : record.at("extension").is_null() ? "/null/parameters"
+                                                      : "/extension/parameters";
+  const nlohmann::json& parameters =
+      of[0] == '/' ? record.at(nlohmann::json::json_pointer(of)) : record.at(of);
+  for (const nlohmann::json& p : parameters)
     if (p.at("name") == "E") return p.at("value");
   return std::nan("");
 }

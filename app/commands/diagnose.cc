@@ -82,8 +82,9 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
   Progress progress(console, settings.quiet);
   options.fit.stop = interrupt.flag();
   ShowProgress(options, progress);
-  const DiagnosisRun run = RunDiagnosis(dataset, options);
+  DiagnosisRun run = RunDiagnosis(dataset, options);
   std::optional<Discovery> discovery;
+  run.formula_sought = settings.discover;
   if (settings.discover && WantsFormula(run)) discovery = DiscoverBeside(run.diagnosis, options);
   progress.Clear();
 

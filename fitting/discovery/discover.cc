@@ -177,16 +177,12 @@ class Search {
                      [](const FoundTerm& a, const FoundTerm& b) { return a.share > b.share; });
   }
 
-  // Each term's curve free of its formula, beside the others, under the noise of the best model.
   void DrawFree() {
     const NaturalScales scales = ScalesOf(out_.base.problem);
-    for (std::size_t m = 0; m < out_.found.size() && !Stopped(); ++m) {
-      const bool alone = out_.found.size() == 1;
-      if (!alone && (m >= out_.naming.without.size() || !out_.naming.without[m].ok())) continue;
-      Extension rest = alone ? out_.base.plain : out_.naming.without[m];
-      rest.problem.noise = out_.naming.best.problem.noise;
-      out_.found[m].free_curve = FreeCurve(out_.found[m].term, rest, *train_, scales,
-                                           options_.fit.jobs, Seed(kForcesStream));
+    for (FoundTerm& found : out_.found) {
+      if (Stopped()) return;
+      found.free_curve = FreeCurve(found.term, out_.naming.best, *train_, scales, options_.fit.jobs,
+                                   Seed(kForcesStream));
     }
   }
 
@@ -238,6 +234,13 @@ class Search {
       rest = RefitWithout(best, static_cast<int>(m), out_.base.plain.problem, settings);
     else
       rest.problem.noise = best.problem.noise;
+    // The freer term is the term itself where it begins: so does all else begin at the best.
+    int place = best.problem.shared_count() - best.parameter_count();
+    for (std::size_t k = 0; k < m; ++k) place += best.members[k].parameter_count();
+    const Eigen::Index after = best.shared.size() - place - best.members[m].parameter_count();
+    rest.shared.head(place) = best.shared.head(place);
+    rest.shared.tail(after) = best.shared.tail(after);
+    rest.starts = best.starts;
     rest.cost = std::numeric_limits<double>::infinity();
     return Refit(rest, std::span(&freed, 1), sizes, settings);
   }
@@ -275,8 +278,8 @@ class Search {
     const Extension& best = out_.naming.best;
     const Candidate freed(&FormulaEffect(WithFreeExponent(found.term)));
     const TermPower& power = *found.term.power;
-    Eigen::VectorXd sizes(2);
-    sizes << found.values.front().value * std::pow(power.scale, power.exponent), 0.0;
+    Eigen::VectorXd sizes = NullValues(std::span(&freed, 1));
+    sizes[0] = found.values.front().value * std::pow(power.scale, power.exponent);
     const Extension with = Freed(m, freed, sizes);
     if (!with.ok()) return;
     const Uncertainty u = UncertaintyOf(with);

@@ -1,5 +1,9 @@
 #include "fitting/discovery/free_curve.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "fitting/diagnosis/linearise_at.h"
 
 namespace hoplab {
@@ -8,21 +12,14 @@ namespace {
 constexpr int kHats = 9;
 constexpr double kFar = 1e6;  // no physical bound
 
-// The factor that a term acts in a phase by; empty: always.
-std::string PhaseOf(const Term& term) {
-  const std::string& formula = SourceOf(*term.effect)->formula;
+// The factor by which a formula of the library acts in one phase; empty: always.
+std::string PhaseOf(const Formula& formula) {
   for (const char* phase : {"(1 - in_stance)", "in_stance", "(1 - loading)", "loading"})
-    if (!term.phase.empty() && formula.find(phase) != std::string::npos) return phase;
+    if (formula.source().formula.find(phase) != std::string::npos) return phase;
   return "";
 }
 
 bool FollowsAFrequency(const Term& term) { return term.shape && term.variables.front() == "t"; }
-
-const VariableInfo* VariableOf(const PlaceInfo& place, const std::string& name) {
-  for (const VariableInfo& v : place.variables)
-    if (v.name == name) return &v;
-  return nullptr;
-}
 
 // One hat: 1 at its centre, 0 from the neighbours' centres on.
 const Effect& Hat(const Term& term, const PlaceInfo& place, const VariableInfo& v, double centre,
@@ -30,7 +27,7 @@ const Effect& Hat(const Term& term, const PlaceInfo& place, const VariableInfo& 
   FormulaSource source;
   source.name = "hat_" + std::to_string(number);
   source.acts_as = place.name;
-  const std::string name(v.name), phase = PhaseOf(term);
+  const std::string name(v.name), phase = PhaseOf(*term.effect->formula);
   source.formula =
       "c * max(1 - abs(" + name + " - centre)/width, 0)" + (phase.empty() ? "" : " * " + phase);
   const std::string unit(v.unit == "-" ? "1" : v.unit);
@@ -40,6 +37,28 @@ const Effect& Hat(const Term& term, const PlaceInfo& place, const VariableInfo& 
       {"width", unit, std::nullopt, width, 0.0, kFar, std::nullopt}};
   source.sentence = "a hat over " + name;
   return FormulaEffect(source);
+}
+
+// The model with the term's coefficient held where it is, and that value.
+std::pair<Extension, double> Held(const Extension& best, const Effect& effect) {
+  std::pair<Extension, double> out{best, 0.0};
+  Extension& held = out.first;
+  for (std::size_t e = 0; e < held.problem.effects.size(); ++e) {
+    if (held.problem.effects[e].effect != &effect) continue;
+    std::vector<SharedParameter>& shared = held.problem.shared;
+    const auto place = std::find_if(shared.begin(), shared.end(), [&](const SharedParameter& s) {
+      const SensitivityDirection& d = s.direction;
+      return d.of == SensitivityDirection::Of::kEffect && d.index == static_cast<int>(e) &&
+             d.component == 0;
+    });
+    if (place == shared.end()) continue;
+    const auto i = static_cast<Eigen::Index>(place - shared.begin()), n = held.shared.size() - 1;
+    out.second = held.problem.effects[e].values[0] = held.shared[i];
+    held.shared.segment(i, n - i) = best.shared.tail(n - i);
+    held.shared.conservativeResize(n);
+    shared.erase(place);
+  }
+  return out;
 }
 
 }  // namespace
@@ -59,13 +78,38 @@ Extent DrawnOver(const VariableInfo& v, const NaturalScales& scales) {
   return {v.never_negative ? 0.0 : -size, size};
 }
 
-std::optional<ReconstructedForce> FreeCurve(const Term& term, const Extension& base,
+double FormulaAt(const Effect& effect, std::string_view variable, double at, double c,
+                 const NaturalScales& scales) {
+  const Formula& formula = *effect.formula;
+  std::array<double, kFormulaVariables> values{};
+  FormulaView<double> view{};
+  for (const VariableInfo& v : InfoOf(formula.place()).variables) {
+    const auto k = static_cast<std::size_t>(v.variable);
+    values[k] = v.name == variable ? at : NaturalSize(v, scales);
+    view[k] = &values[k];
+  }
+  const std::string phase = PhaseOf(formula);
+  if (phase == "(1 - in_stance)")
+    values[static_cast<std::size_t>(FormulaVariable::kInStance)] = 0.0;
+  // A leg that is loaded shortens.
+  double& rate = values[static_cast<std::size_t>(FormulaVariable::kChordRate)];
+  if (phase == "loading") rate = -std::abs(rate);
+  std::array<double, kMaxEffectParameters> p{};
+  for (std::size_t k = 0; k < effect.info.parameters.size(); ++k)
+    p[k] = effect.info.parameters[k].null;
+  p[0] = c;
+  CornerSides sides;
+  sides.fill(kFreeSide);
+  return formula.Evaluate(p.data(), view, sides);
+}
+
+std::optional<ReconstructedForce> FreeCurve(const Term& term, const Extension& best,
                                             const std::vector<TrialProblem>& train,
                                             const NaturalScales& scales, int jobs,
                                             std::uint64_t seed) {
   if (term.variables.size() != 1 || FollowsAFrequency(term)) return std::nullopt;
   const PlaceInfo& place = InfoOf(term.effect->formula->place());
-  const VariableInfo* v = VariableOf(place, term.variables.front());
+  const VariableInfo* v = FindVariable(place, term.variables.front());
   if (v == nullptr) return std::nullopt;
   const Extent over = DrawnOver(*v, scales);
   const double width = (over.most - over.least) / (kHats - 1);
@@ -83,9 +127,13 @@ std::optional<ReconstructedForce> FreeCurve(const Term& term, const Extension& b
   basis.hypotheses.push_back(
       {0, kHats, Eigen::VectorXd::Constant(kHats, -kFar), Eigen::VectorXd::Constant(kHats, kFar)});
   basis.groups.push_back(std::move(group));
-  FreeForces free = Reconstruct(LineariseAt(base, basis.probes, train, jobs), basis, seed);
+  const auto [held, c] = Held(best, *term.effect);
+  FreeForces free = Reconstruct(LineariseAt(held, basis.probes, train, jobs), basis, seed);
   if (free.forces.empty()) return std::nullopt;
-  return std::move(free.forces.front());
+  ReconstructedForce& curve = free.forces.front();
+  for (ForcePoint& p : curve.points) p.value += FormulaAt(*term.effect, v->name, p.at, c, scales);
+  curve.terms.clear();  // of the hats alone
+  return std::move(curve);
 }
 
 }  // namespace hoplab

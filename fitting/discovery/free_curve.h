@@ -16,10 +16,16 @@ double NaturalSize(const VariableInfo& variable, const NaturalScales& scales);
 /// What a variable of a place is drawn over: where the body was, else its natural size.
 Extent DrawnOver(const VariableInfo& variable, const NaturalScales& scales);
 
-/// What acts at a term's place over its variable, free of its formula: hats of even width, in the
-/// phase the term has, fitted to what `base` (the model without the term) leaves. Nothing for a
-/// term of several variables, or of a frequency, which hats cannot follow.
-std::optional<ReconstructedForce> FreeCurve(const Term& term, const Extension& base,
+/// What a formula adds where `variable` is `at`, in the phase in which it acts, other variables at
+/// their natural sizes and its first parameter, the coefficient, `c`; shapes at their given values.
+double FormulaAt(const Effect& effect, std::string_view variable, double at, double c,
+                 const NaturalScales& scales);
+
+/// What acts at a term's place over its variable, free of its formula: the formula as fitted, and
+/// hats of even width, in the phase the term has, fitted to what `best` leaves; the term's
+/// coefficient stays where it is, all other values are free. Nothing for a term of several
+/// variables, or of a frequency, which hats cannot follow.
+std::optional<ReconstructedForce> FreeCurve(const Term& term, const Extension& best,
                                             const std::vector<TrialProblem>& train,
                                             const NaturalScales& scales, int jobs,
                                             std::uint64_t seed);

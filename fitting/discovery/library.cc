@@ -190,6 +190,9 @@ class Library {
     AddSigned(rate, "rate", "m/s", s_.speed, "the rate of the chord");
     AddPlain(t, "t", "s", s_.time, "time");
     const Factor elastic{"elastic", "N", 2.0 * s_.force, "the elastic force", "elastic", {}};
+    const Factor stiffness{
+        "stiffness",     "N/m",       force / (kExpected * kCompression * s_.length),
+        "the stiffness", "stiffness", {}};
     const std::vector<Phase> phases = {
         {}, {"loading", "while the leg is loaded"}, {"(1 - loading)", "while the leg is unloaded"}};
     for (const Phase& phase : phases) {
@@ -205,6 +208,7 @@ class Library {
     Add("chord_force", force, rate[0], {}, elastic);
     Add("chord_force", force, rate[1], {}, elastic);
     Add("chord_force", force, rate[1], {}, s[1]);
+    Add("chord_force", force, rate[1], {}, stiffness);
     Add("chord_force", force, elastic, {}, t[0]);
     Add("chord_force", force, s[0], {}, t[0]);
   }

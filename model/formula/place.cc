@@ -94,5 +94,10 @@ const PlaceInfo* FindPlace(std::string_view name) {
     if (p.name == name) return &p;
   return nullptr;
 }
+const VariableInfo* FindVariable(const PlaceInfo& place, std::string_view name) {
+  for (const VariableInfo& v : place.variables)
+    if (v.name == name) return &v;
+  return nullptr;
+}
 
 }  // namespace hoplab

@@ -74,5 +74,7 @@ struct PlaceInfo {
 std::span<const PlaceInfo> AllPlaces();
 const PlaceInfo& InfoOf(FormulaPlace place);
 const PlaceInfo* FindPlace(std::string_view name);
+/// Null if a formula there does not know it.
+const VariableInfo* FindVariable(const PlaceInfo& place, std::string_view name);
 
 }  // namespace hoplab

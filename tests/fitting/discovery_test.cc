@@ -288,6 +288,30 @@ TEST(Discover, AnImbalanceWithItsFrequency) {
   ExpectValue(found, 1, "frequency", 4.3);
 }
 
+TEST(Discover, ACubicDamperWithItsExponentAndTheCurveFreeOfTheFormula) {
+  const Discovery d =
+      Discover(HopsWith("chord_force", "-c * rate^3",
+                        "  c: {unit: N s^3/m^3, null: 0, lower: 0, upper: 100, typical: 2}\n"),
+               LargeDeflection());
+  ASSERT_EQ(d.verdict, DiscoveryVerdict::kFound) << d.reason;
+  const FoundTerm& found = d.found.front();
+  EXPECT_EQ(found.source.formula, "c * rate^3");
+  ExpectValue(found, 0, "c", -2.0);
+  ASSERT_TRUE(found.exponent);
+  ASSERT_TRUE(found.exponent->value.ci95) << found.exponent->value.value;
+  EXPECT_LT(found.exponent->value.ci95->first, 3.0);
+  EXPECT_GT(found.exponent->value.ci95->second, 3.0);
+  EXPECT_GE(found.exponent->gain, -1e-3);  // it begins at the whole number
+  ASSERT_TRUE(found.free_curve);
+  int told = 0;
+  for (const ForcePoint& p : found.free_curve->points) {
+    if (!std::isfinite(p.band95)) continue;
+    ++told;
+    EXPECT_NEAR(p.value, -2.0 * p.at * p.at * p.at, 2.0 * p.band95) << p.at;
+  }
+  EXPECT_GE(told, 3);
+}
+
 // Causes that only stand in give their place to the formula.
 TEST(Discover, BesideADiagnosisAndInPlaceOfItsCauses) {
   const Dataset dataset = HopsWith("body_force_x", "-k * max(x - x_end, 0)", kCable);

@@ -143,13 +143,8 @@ struct Counts {
       times = count;
       most = formula;
     }
-    return {name,
-            Cell("%d", cases),
-            share(found),
-            share(right),
-            share(wrong),
-            share(near),
-            name == "all" ? "" : "`" + most + "`"};
+    return {name,           Cell("%d", cases), share(found), share(right),
+            share(offered), share(wrong),      share(near),  name == "all" ? "" : "`" + most + "`"};
   }
 };
 
@@ -160,8 +155,7 @@ TEST(DiscoveryStatistics, AnEffectOutsideTheCatalogueIsFoundAsAFormula) {
   Report report("8-discover", "A formula for an effect that no list holds");
   report.Say(
       "Each effect that can be written as a formula at 4 delta80, not in the catalogue. Shares in "
-      "per "
-      "cent. `Right`: place and variables of a told term are the true ones, or those of a term "
+      "per cent. `Right`: place and variables of a told term are the true ones, or those of a term "
       "whose column is the same. `Offered`: right, or a term told to do as well is. `Certain and "
       "wrong`: told as found, and the truth is not offered. `Near`: the held-out error "
       "is within 10 %% of that of a fit with the true effect.");
