@@ -180,20 +180,29 @@ Extension Refits::Ordered(Extension e, const CandidateSet& order, const Candidat
 
 std::vector<CandidateSet> Refits::SettleParts(const CandidateSet& set) {
   const std::vector<CandidateSet> parts = Eliminations(set);
+  // From the same whole the same would come of it.
+  const auto [of_set, is_first] = parted_.try_emplace(set, White(set).cost);
+  if (!is_first && of_set->second == White(set).cost) {
+    SettleAll(parts);
+    return parts;
+  }
+  of_set->second = White(set).cost;
+  constexpr double kSame = 0.01;  // nats
   // A part that was not tried yet, or was tried from elsewhere and fits worse, is refitted from the
   // whole: where that has found a better valley, its parts are in it too.
   std::vector<Extension> from_whole(parts.size());
   planned_ += static_cast<int>(parts.size());
   ParallelFor(static_cast<int>(parts.size()), options_.jobs, [&](int i) {
     if (Stopped() || parts[i].empty()) return;
-    from_whole[i] = RefitWithout(White(set), i, plain_.problem, refit_);
+    RefitSettings settings = refit_;
+    if (Usable(parts[i])) settings.give_up_above = White(parts[i]).cost - kSame;
+    from_whole[i] = RefitWithout(White(set), i, plain_.problem, settings);
     from_whole[i].settled = false;
     Report(parts[i], ", from the whole");
   });
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].empty() || !from_whole[i].ok()) continue;
     Entry& known = models_[parts[i]];
-    constexpr double kSame = 0.01;  // nats
     if (known.white.ok() && known.white.cost < from_whole[i].cost + kSame) continue;
     known.white = std::move(from_whole[i]);
     known.settled = Extension();

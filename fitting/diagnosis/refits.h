@@ -78,6 +78,7 @@ class Refits {
   Naming& naming_;
   RefitSettings refit_;
   std::map<CandidateSet, Entry> models_;
+  std::map<CandidateSet, double> parted_;  // cost of a whole when its parts were refitted from it
   std::mutex mutex_;
   int planned_ = 0;
 };

@@ -68,17 +68,39 @@ SecondOrderAcross<S> SecondOrderAcrossAt(const S& phi, const S& sin, const S& co
               q * cos * (0.375 * (K2 * K2) - 0.625 * K2 + 0.28125 * one) / S2};
 }
 
+// Derivatives of the elastica's energy that a scalar asks for: M65 has the first ones, and every
+// differentiation one more.
+template <class S>
+inline constexpr int kEnergyOrder = kJetWidth<S> == 0 ? 1 : 2;
+template <class T>
+inline constexpr int kEnergyOrder<Tangent<T>> = kEnergyOrder<T> + 1;
+// The energy at a load, from what is known of it at one near by.
+template <class S>
+auto EnergyNear(double phi, double f, double f_known, elastica::Derivatives<2> known) {
+  if constexpr (2 < kEnergyOrder<S>) {
+    return elastica::EnergyTo3(phi, f);
+  } else {
+    constexpr double kNear = 1e-11;
+    const double df = f - f_known;
+    if (!(std::abs(df) < kNear)) return elastica::EnergyTo2(phi, f);
+    known[0][0] += df * known[0][1];
+    known[0][1] += df * known[0][2];
+    known[1][0] += df * known[1][1];
+    return known;
+  }
+}
+
 // The derivative [by x][by y] of a function of two variables, from all of them at their values.
-inline double Lift2(double, double, const elastica::Derivatives<3>& d, int i, int j) {
+template <class D>
+double Lift2(double, double, const D& d, int i, int j) {
   return d[i][j];
 }
-template <int N>
-Jet<N> Lift2(const Jet<N>& x, const Jet<N>& y, const elastica::Derivatives<3>& d, int i, int j) {
+template <int N, class D>
+Jet<N> Lift2(const Jet<N>& x, const Jet<N>& y, const D& d, int i, int j) {
   return Jet<N>(d[i][j], d[i + 1][j] * x.v + d[i][j + 1] * y.v);
 }
-template <class T>
-Tangent<T> Lift2(const Tangent<T>& x, const Tangent<T>& y, const elastica::Derivatives<3>& d, int i,
-                 int j) {
+template <class T, class D>
+Tangent<T> Lift2(const Tangent<T>& x, const Tangent<T>& y, const D& d, int i, int j) {
   const T by_x = Lift2(x.value, y.value, d, i + 1, j), by_y = Lift2(x.value, y.value, d, i, j + 1);
   return {Lift2(x.value, y.value, d, i, j), by_x * x.rate[0] + by_y * y.rate[0],
           by_x * x.rate[1] + by_y * y.rate[1]};
@@ -95,9 +117,9 @@ struct BeyondM2b {
   S turn;    // of the tip
   S energy;  // strain energy, over E I/r
 };
-template <class S, class Bending, class Second>
-BeyondM2b<S> BeyondM2bAt(const S& phi, const S& f, const elastica::Derivatives<3>& d,
-                         const Bending& bending, const Second& second) {
+template <class S, class Energy, class Bending, class Second>
+BeyondM2b<S> BeyondM2bAt(const S& phi, const S& f, const Energy& d, const Bending& bending,
+                         const Second& second) {
   const auto G = [&](int i, int j) { return Lift2(phi, f, d, i, j); };
   const auto first = [&](int k) { return Lift(phi, bending.data(), k); };
   const auto next = [&](int k) { return Lift(phi, second.data(), k); };
@@ -207,11 +229,12 @@ template <class S, class P>
       const double least = elastica::kLoadBegin / elastica::LoadScale(phi_now) / per_N;
       const double most = elastica::kLoadEnd / elastica::LoadScale(phi_now) / per_N;
       constexpr double kLastStep = 1e-8;  // over the greatest force
-      double F = std::isnan(at.F_near) ? Value(out.F) : at.F_near, slope = 1.0;
+      double F = std::isnan(at.F_near) ? Value(out.F) : at.F_near, slope = 1.0, f = 0.0;
+      elastica::Derivatives<2> G{};
       for (int round = 0; round < 30; ++round) {
         F = F < most ? (F > least ? F : least) : most;  // NaN is most
-        const double f = per_N * F;
-        const elastica::Derivatives<2> G = elastica::EnergyTo2(phi_now, f);
+        f = per_N * F;
+        G = elastica::EnergyTo2(phi_now, f);
         const double C0 = Value(C) - 0.5 * now * per_N * shapes.bending[0];
         const double A0 = Value(out.A2) - now * per_N * per_N * shapes.second_order[0];
         const double miss =
@@ -224,7 +247,7 @@ template <class S, class P>
       }
       if (!elastica::InDomain(phi_now, per_N * F)) F = std::numeric_limits<double>::quiet_NaN();
       out.F = S(P(F));
-      const elastica::Derivatives<3> table = elastica::EnergyTo3(phi_now, per_N * F);
+      const auto table = EnergyNear<S>(phi_now, per_N * F, f, G);
       const auto at_load = [&](const S& load) {
         return BeyondM2bAt<S>(phi, unit_f * load, table, shapes.bending, shapes.second_order);
       };
