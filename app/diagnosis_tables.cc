@@ -110,20 +110,18 @@ std::string ResidualsTable(const Diagnosis& d, const HeldOutErrors* extended) {
   return csv.text();
 }
 
-namespace {
-
-// Evidence for the effects of the extension at the null fit, row by row and summed up since the
-// trial's first; an effect of one trial only counts there.
-std::string EvidenceTable(const Diagnosis& d) {
+std::string EvidenceTable(const Extension& null, std::span<const Candidate> members,
+                          const std::vector<std::string>& names) {
   CsvText csv({"effect", "parameter", "trial", "time_s", "channel", "mode", "running", "evidence"});
-  const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
-  for (const Candidate& member : d.naming.best.members) {
+  const std::vector<TrialProblem> train = TrialsOf(null.problem, TrialRole::kTrain);
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const Candidate& member = members[m];
     const std::array one = {member};
-    const FitProblem problem = Extend(d.null.problem, one);
+    const FitProblem problem = Extend(null.problem, one);
     Eigen::VectorXd shared(problem.shared_count());
-    shared << d.null.shared, NullValues(one);
+    shared << null.shared, NullValues(one);
     const Linearisation at =
-        Linearise(problem, d.null.problem.shared_count(), train, shared, d.null.starts, 1);
+        Linearise(problem, null.problem.shared_count(), train, shared, null.starts, 1);
     for (int k = 0; k < member.parameter_count(); ++k) {
       const Eigen::VectorXd evidence = RunningEvidence(at, k);
       double running = 0.0;
@@ -135,11 +133,11 @@ std::string EvidenceTable(const Diagnosis& d) {
         if (!member.only_recording.empty() && member.only_recording != trial.recording) continue;
         running = evidence[row] + (label.trial == running_trial ? running : 0.0);
         running_trial = label.trial;
-        csv.Cell(member.effect->info.name)
+        csv.Cell(names[m])
             .Cell(member.Parameter(k).name)
             .Cell(trial.file)
             .Cell(trial.begin_s + label.time)
-            .Cell(ChannelNameOf(d.problem, label.channel))
+            .Cell(ChannelNameOf(null.problem, label.channel))
             .Cell(NameOf(label.mode))
             .Cell(running)
             .Cell(evidence[row])
@@ -149,6 +147,8 @@ std::string EvidenceTable(const Diagnosis& d) {
   }
   return csv.text();
 }
+
+namespace {
 
 std::string Forces(const FreeForces& free_forces) {
   CsvText csv({"force", "unit", "against", "at", "value", "band95"});
@@ -209,7 +209,11 @@ std::map<std::string, std::string> DiagnosisTables(const DiagnosisRun& run) {
     tables["trajectories.csv"] = Trajectories(d);
     tables["events.csv"] = Events(d);
   }
-  if (!d.naming.best.members.empty()) tables["evidence.csv"] = EvidenceTable(d);
+  if (const std::vector<Candidate>& members = d.naming.best.members; !members.empty()) {
+    std::vector<std::string> names;
+    for (const Candidate& c : members) names.emplace_back(c.effect->info.name);
+    tables["evidence.csv"] = EvidenceTable(d.null, members, names);
+  }
   if (d.free_forces) tables["forces.csv"] = Forces(*d.free_forces);
   if (!run.energy.hops.empty()) tables["energy.csv"] = EnergyTable(run.energy);
   return tables;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "app/diagnosis_record.h"
 
@@ -12,6 +14,11 @@ namespace hoplab {
 /// (where free ones were reconstructed), energy. Times are those of the dataset's own files. What
 /// was not reached is left out.
 std::map<std::string, std::string> DiagnosisTables(const DiagnosisRun& run);
+
+/// Evidence for effects that a model lacks, beside its fitted values: row by row and summed up
+/// since the trial's first; an effect of one trial only counts there. `names`: of the members.
+std::string EvidenceTable(const Extension& null, std::span<const Candidate> members,
+                          const std::vector<std::string>& names);
 
 /// Measured, simulated before, and with the extended model's errors simulated after.
 std::string ResidualsTable(const Diagnosis& d, const HeldOutErrors* extended);

@@ -178,6 +178,13 @@ std::map<std::string, std::string> DiscoveryFiles(const Discovery& d) {
   if (!d.base.before.trials.empty())
     files["residuals.csv"] = ResidualsTable(d.base, d.found.empty() ? nullptr : &d.after);
   if (d.found.empty()) return files;
+  std::vector<Candidate> terms;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < d.found.size(); ++i) {
+    terms.emplace_back(d.found[i].term.effect);
+    names.push_back(WrittenSource(d.found[i], i).name);
+  }
+  files["evidence.csv"] = EvidenceTable(d.base.null, terms, names);
   CsvText curves({"file", "acts_as", "variable", "at", "value", "low", "high"});
   const NaturalScales scales = ScalesOf(d.base.problem);
   for (std::size_t i = 0; i < d.found.size(); ++i) {

@@ -19,7 +19,8 @@ Json DiscoveryPart(const Discovery& d);
 Json DiscoveryRecord(const Dataset& dataset, const std::string& dataset_argument,
                      const DiagnosisOptions& options, const Discovery& d);
 
-/// discovered.csv (the found terms over their variables), residuals.csv and the effect files.
+/// discovered.csv (the found terms over their variables), evidence.csv (where along the trials they
+/// speak), residuals.csv and the effect files.
 std::map<std::string, std::string> DiscoveryFiles(const Discovery& d);
 
 /// What is found as C++ effects (docs/adding/effect.md): discovered.cc, discovered_2.cc, ...; none

@@ -372,7 +372,6 @@ void DiscoveryHeadline(const Json& record, Headline& out) {
   out.figures.push_back(ErrorFigure(record, "test error before", "/held_out/before"));
   out.figures.push_back(
       ErrorFigure(record, "test error after", "/held_out/after", "/held_out/before"));
-  out.figures.push_back(Figure(record, "terms tried", "/library", ""));
 }
 
 void ComparisonHeadline(const Json& record, Headline& out) {

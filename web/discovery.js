@@ -58,6 +58,8 @@ function discoveryReport() {
           ...(extended ? [{column: 'after', name: 'simulated after', kind: 'one', model: 'after'}] : [])],
         caption: 'Each channel with its residual below it, simulated minus measured.', runsOf: () => []}));
   }
-  forcesPart();
+  if (found.length) section('Where along a trial it speaks', evidencePlot());
+  // A found formula is drawn with its own free curve: forces each alone would tell another story.
+  if (run.verdict !== 'found') forcesPart();
   runDetails();
 }

@@ -131,7 +131,7 @@ std::vector<const Effect*> Chosen(const EffectsSettings& settings) {
 // The formula of a file in C++.
 std::string CodeOfFile(const Effect& effect, const std::string& given) {
   if (const FormulaSource* source = SourceOf(effect)) return EffectCodeOf(*source, given);
-  throw InputError({"--code", given.empty() ? "" : Printable(given), "is for a file with a formula",
+  throw InputError({"--code", given.empty() ? "" : Printable(given), "needs a file with a formula",
                     given.empty() ? "Name one: hoplab effects FILE --code."
                                   : "An effect of the catalogue is code: model/effects/" +
                                         std::string(effect.info.name) + ".cc."});

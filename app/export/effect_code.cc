@@ -361,7 +361,7 @@ std::vector<std::string> UnknownToCode(const FormulaSource& source) {
 std::string EffectCodeOf(const FormulaSource& source, const std::string& place) {
   if (const std::vector<std::string> unknown = UnknownToCode(source); !unknown.empty())
     throw InputError({place, "acts_as = " + source.acts_as + " with " + Join(unknown),
-                      "a compiled effect does not know this there",
+                      "a compiled effect does not know them there",
                       "Keep the file: every command takes it with --with."});
   const Effect& effect = FormulaEffect(source);
   const std::string hook = HookCode(*effect.formula), type = TypeName(source.name);

@@ -14,6 +14,7 @@ const kinds = {
   check: {moves: false}, // tables alone
   fit: {hover: /\b(mm?|s)\b/, moves: true},
   diagnose: {hover: /\b(mm?|s)\b/, moves: true},
+  discover: {hover: /\b(N|mm?|s)\b/, moves: false},
   design: {hover: /\b(deg|m|m\/s)\b/, moves: false},
   gait: {hover: /per hop|m\/s|\bm\b/, moves: true},
   optimize: {hover: /\bdeg\b/, moves: true},

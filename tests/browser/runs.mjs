@@ -18,6 +18,7 @@ export function makeRuns() {
   hoplab('fit', 'windy', '--quiet', '--out', 'windy-fit');
   hoplab('report', 'fit', 'windy-fit', '--out', 'report');
   hoplab('diagnose', 'windy', '--effects', 'air_drag,guide_viscous_friction,ground_slope,sensor_delay', '--quiet', '--out', 'diagnose');
+  hoplab('discover', 'windy', '--quiet', '--out', 'discover');
   hoplab('design', join(source, 'datasets/rig-drops'), '--sharpen', 'E', '--budget', '60', '--map', '5', '--quiet', '--out', 'design');
   hoplab('gait', scenario('controlled-hopping'), '--along', 'theta_td=0.6:0.8', '--quiet', '--out', 'gait');
   hoplab('optimize', scenario('fastest-convergence'), '--seeds', '2', '--budget', '40', '--map', '6', '--quiet', '--out', 'optimize');
