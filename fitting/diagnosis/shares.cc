@@ -9,14 +9,16 @@
 namespace hoplab {
 namespace {
 
-// Whether some channel's held-out error is larger without a cause by what an engineer would see.
-bool MakesAnError(const std::vector<double>& without, const std::vector<double>& with) {
-  constexpr double kSeen = 1.1;
-  for (std::size_t c = 0; c < std::min(without.size(), with.size()); ++c) {
-    if (without[c] > kSeen * with[c]) return true;
-  }
-  return false;
+// By what factor some channel's held-out error is larger without a cause.
+double ErrorGrowsBy(const std::vector<double>& without, const std::vector<double>& with) {
+  double most = 0.0;
+  for (std::size_t c = 0; c < std::min(without.size(), with.size()); ++c)
+    most = std::max(most, without[c] / with[c]);
+  return most;
 }
+// What an engineer would see; and what he needs no interval for, where the noise of a model that
+// lacks the cause is so large that likelihoods tell little.
+constexpr double kSeen = 1.1, kPlain = 1.25;
 
 }  // namespace
 
@@ -50,9 +52,10 @@ std::vector<CauseReport> TakeApart(const Naming& naming, const SharesRequest& re
     if (!errors.test.rmse.empty()) cause.rmse_without = errors.test.rmse;
     cause.gain = CompareHeldOut(without, errors, *request.after, request.seed, nullptr);
     const bool measured = cause.gain.ci95.has_value();
-    const bool material = cause.share >= request.material ||
-                          MakesAnError(cause.rmse_without, request.after->test.rmse);
-    cause.main = material && (!measured || cause.gain.IsClaim());
+    const double grows = ErrorGrowsBy(cause.rmse_without, request.after->test.rmse);
+    const bool explains = cause.share >= request.material;
+    const bool confirmed = !measured || cause.gain.IsClaim() || (explains && grows > kPlain);
+    cause.main = (explains || grows > kSeen) && confirmed;
   });
   std::stable_sort(causes.begin(), causes.end(),
                    [](const CauseReport& a, const CauseReport& b) { return a.share > b.share; });
