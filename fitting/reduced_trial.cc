@@ -9,14 +9,8 @@ ReducedTrial::ReducedTrial(int residuals, int columns)
       jacobian_(residuals_.size(), columns),
       qr_(residuals, columns) {}
 
-void ReducedTrial::Reduce(const TrialEvaluation& evaluation, bool jacobians,
-                          const Eigen::VectorXd& scale) {
+void ReducedTrial::Reduce(const TrialEvaluation& evaluation, const Eigen::VectorXd& scale) {
   const Eigen::Index columns = jacobian_.cols();
-  if (!jacobians) {
-    residuals_.setZero();
-    residuals_[0] = evaluation.residuals.norm();
-    return;
-  }
   whole_ = evaluation.jacobian * scale.asDiagonal();
   if (whole_.rows() <= columns + 1) {
     residuals_ = evaluation.residuals;

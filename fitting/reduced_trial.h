@@ -15,9 +15,8 @@ class ReducedTrial {
   /// `residuals` rows and `columns` columns of the whole.
   ReducedTrial(int residuals, int columns);
 
-  /// Of a complete evaluation; column k of its Jacobian is taken times `scale[k]`. Without
-  /// jacobians one row holds the length of r and the others are zero.
-  void Reduce(const TrialEvaluation& evaluation, bool jacobians, const Eigen::VectorXd& scale);
+  /// Of a complete evaluation; column k of its Jacobian is taken times `scale[k]`.
+  void Reduce(const TrialEvaluation& evaluation, const Eigen::VectorXd& scale);
 
   int rows() const { return static_cast<int>(residuals_.size()); }
   const Eigen::VectorXd& residuals() const { return residuals_; }

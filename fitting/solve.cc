@@ -5,166 +5,107 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "base/check.h"
-#include "base/parallel.h"
-#include "fitting/reduced_trial.h"
+#include "fitting/trial_evaluations.h"
 
 namespace hoplab {
 namespace {
 
-std::string Reason(const TrialProblem& trial, const Trajectory& trajectory) {
-  char at[48];
-  std::snprintf(at, sizeof at, " at %.3f s", trajectory.end_time);
-  return trial.file + ": " +
-         (IsComplete(trajectory.outcome) ? std::string("other contacts than the trace shows")
-                                         : std::string(SentenceOf(trajectory.outcome)) + at);
-}
-
-// Simulates every trial once per point, in parallel, before Ceres asks its residual blocks one by
-// one: so that sums are formed in one order whatever the number of threads.
-class Evaluations : public ceres::EvaluationCallback {
- public:
-  Evaluations(const SolveRequest& request)
-      : request_(request),
-        problem_(*request.problem),
-        trials_(*request.trials),
-        shared_(problem_.shared_count()),
-        evaluations_(trials_.size()),
-        run_shared_(Eigen::VectorXd::Constant(shared_.size(), std::nan(""))) {
-    for (const TrialProblem& trial : trials_) {
-      evaluators_.emplace_back(problem_, trial);
-      reduced_.emplace_back(evaluators_.back().residual_count(), evaluators_.back().column_count());
-      own_begin_.push_back(own_begin_.back() + trial.own_count());
-    }
-    own_ = Eigen::VectorXd::Zero(own_begin_.back());
-    for (int i = 0; i < problem_.shared_count(); ++i)
-      shared_[i] = request.shared[i] / problem_.shared[i].scale;
-  }
-
-  // A line search and the step it ends in ask for one point under two names.
-  void PrepareForEvaluation(bool jacobians, bool) override {
-    const bool known = run_own_.size() == own_.size() && shared_ == run_shared_ && own_ == run_own_;
-    if (known && (have_jacobian_ || !jacobians)) return;
-    Run(jacobians);
-    for (std::size_t i = 0; i < trials_.size(); ++i) {
-      if (!evaluations_[i].complete) ++rejected_[Reason(trials_[i], evaluations_[i].trajectory)];
-    }
-  }
-  void Run(bool jacobians) {
-    have_jacobian_ = jacobians;
-    run_shared_ = shared_;
-    run_own_ = own_;
-    const Eigen::VectorXd shared = SharedValues();
-    ParallelFor(static_cast<int>(trials_.size()), request_.jobs, [&](int i) {
-      const OwnValues own = OwnValuesOf(i);
-      evaluators_[i].Evaluate({shared, own, jacobians, request_.loss, /*fly_on=*/true,
-                               /*whiten=*/false},
-                              evaluations_[i]);
-      if (evaluations_[i].evaluated)
-        reduced_[i].Reduce(evaluations_[i], jacobians, ColumnScales(trials_[i]));
-    });
-  }
-
-  // Values in their own units.
-  Eigen::VectorXd SharedValues() const {
-    Eigen::VectorXd values(shared_.size());
-    for (int i = 0; i < values.size(); ++i) values[i] = shared_[i] * problem_.shared[i].scale;
-    return values;
-  }
-  OwnValues OwnValuesOf(int trial) const {
-    OwnValues values = request_.starts[trial];
-    for (int k = 0; k < values.size(); ++k)
-      values[k] += own_[own_begin_[trial] + k] * trials_[trial].own[k].scale;
-    return values;
-  }
-  double* shared() { return shared_.data(); }
-  double* own(int trial) { return own_.data() + own_begin_[trial]; }
-  const TrialEvaluation& evaluation(int trial) const { return evaluations_[trial]; }
-  bool AllComplete() const {
-    return std::all_of(evaluations_.begin(), evaluations_.end(),
-                       [](const TrialEvaluation& e) { return e.complete; });
-  }
-  double Cost() const {
-    double sum = 0.0;
-    for (const TrialEvaluation& e : evaluations_) sum += 0.5 * e.residuals.squaredNorm();
-    return sum;
-  }
-  const ReducedTrial& reduced(int trial) const { return reduced_[trial]; }
-  const std::map<std::string, int>& rejected() const { return rejected_; }
-  void ForgetRejected() { rejected_.clear(); }
-
- private:
-  Eigen::VectorXd ColumnScales(const TrialProblem& trial) const {
-    const int n = problem_.shared_count();
-    Eigen::VectorXd scale(n + trial.own_count());
-    for (int k = 0; k < n; ++k) scale[k] = problem_.shared[k].scale;
-    for (int k = 0; k < trial.own_count(); ++k) scale[n + k] = trial.own[k].scale;
-    return scale;
-  }
-
-  const SolveRequest& request_;
-  const FitProblem& problem_;
-  const std::vector<TrialProblem>& trials_;
-  std::vector<TrialEvaluator> evaluators_;
-  std::vector<ReducedTrial> reduced_;
-  Eigen::VectorXd shared_;  // value/scale
-  /// (value - first value)/scale of all trials in one piece: Ceres takes the blocks of a group in
-  /// the order of their addresses, and sums must be formed in one order.
-  Eigen::VectorXd own_;
-  std::vector<int> own_begin_ = {0};  // one a trial, and the end
-  std::vector<TrialEvaluation> evaluations_;
-  Eigen::VectorXd run_shared_;  // where `evaluations_` are
-  Eigen::VectorXd run_own_;
-  bool have_jacobian_ = false;
-  std::map<std::string, int> rejected_;
-};
-
-// One trial, reduced, as Evaluations holds it. Blocks: shared, own.
+// One trial, reduced. Blocks: shared, own.
 class TrialCost : public ceres::CostFunction {
  public:
-  TrialCost(int shared_count, int own_count, const Evaluations& evaluations, int index)
-      : shared_count_(shared_count), evaluations_(evaluations), index_(index) {
-    set_num_residuals(evaluations.reduced(index).rows());
+  TrialCost(int shared_count, int own_count, const TrialEvaluations& evaluations, int index)
+      : evaluations_(evaluations), index_(index) {
+    set_num_residuals(evaluations.RowCount(index));
     mutable_parameter_block_sizes()->push_back(shared_count);
     if (own_count > 0) mutable_parameter_block_sizes()->push_back(own_count);
   }
 
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
-    // Not even a free flight leads on from there: a rejected step; Evaluations keeps the reason.
-    if (!evaluations_.evaluation(index_).evaluated) return false;
-    const ReducedTrial& trial = evaluations_.reduced(index_);
-    const int rows = num_residuals();
-    std::copy(trial.residuals().data(), trial.residuals().data() + rows, residuals);
-    if (!jacobians) return true;
-    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    const auto own_count = trial.jacobian().cols() - shared_count_;
-    if (jacobians[0])
-      Eigen::Map<RowMajor>(jacobians[0], rows, shared_count_) =
-          trial.jacobian().leftCols(shared_count_);
-    if (own_count > 0 && jacobians[1])
-      Eigen::Map<RowMajor>(jacobians[1], rows, own_count) = trial.jacobian().rightCols(own_count);
+    // Not even a free flight leads on from there: a rejected step; the evaluations keep the reason.
+    if (!evaluations_.IsEvaluated(index_)) return false;
+    const bool has_own = parameter_block_sizes().size() > 1;
+    evaluations_.Copy(index_, residuals, jacobians ? jacobians[0] : nullptr,
+                      jacobians && has_own ? jacobians[1] : nullptr);
     return true;
   }
 
  private:
-  int shared_count_;
-  const Evaluations& evaluations_;
+  const TrialEvaluations& evaluations_;
   int index_;
+};
+
+bool IsOnLower(const SharedParameter& s, double value) { return value <= s.lower + 1e-9 * s.scale; }
+bool IsOnUpper(const SharedParameter& s, double value) { return value >= s.upper - 1e-9 * s.scale; }
+
+using Places = std::vector<int>;  // of shared values
+bool Contains(const Places& places, int k) {
+  return std::find(places.begin(), places.end(), k) != places.end();
+}
+
+// The shared values on a bound that the cost pushes outward, at the last point with derivatives.
+Places PushedOut(const SolveRequest& request, const TrialEvaluations& evaluations) {
+  Places out;
+  const Eigen::VectorXd values = evaluations.SharedValues();
+  for (int k = 0; k < request.problem->shared_count(); ++k) {
+    const SharedParameter& s = request.problem->shared[static_cast<std::size_t>(k)];
+    const bool lower = IsOnLower(s, values[k]), upper = IsOnUpper(s, values[k]);
+    if ((!lower && !upper) || Contains(request.held, k)) continue;
+    const double gradient = evaluations.Gradient(k);
+    if (lower ? gradient >= 0.0 : gradient <= 0.0) out.push_back(k);
+  }
+  return out;
+}
+
+// What a run of Ceres moves, and for how long.
+struct RunSettings {
+  Places held;
+  Places not_to_bound;  // values that were tried on their bound in vain
+  int max_iterations = 0;
 };
 
 class Watch : public ceres::IterationCallback {
  public:
-  explicit Watch(const SolveRequest& request) : request_(request) {}
+  Watch(const SolveRequest& request, const TrialEvaluations& evaluations,
+        const RunSettings& settings)
+      : request_(request), evaluations_(evaluations), settings_(settings) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     if (request_.progress) request_.progress(summary.iteration, summary.cost);
     if (request_.stop && *request_.stop) return ceres::SOLVER_ABORT;
     // A step not taken has the cost of where it would have led.
     costs_.push_back(costs_.empty() ? summary.cost : std::fmin(costs_.back(), summary.cost));
+    if (summary.step_is_successful)
+      met_bound_ = MeetsBound();
+    else
+      beyond_ = TriedBeyond();
+    if (met_bound_ || !beyond_.empty()) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     return IsHopeless() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
+  /// The search ended since a value that was free came to a bound.
+  bool met_bound() const { return met_bound_; }
+  /// It ended since a step was not taken that led beyond the bounds of these free values.
+  const Places& beyond() const { return beyond_; }
 
  private:
+  bool MeetsBound() const {
+    if (request_.hold_shared) return false;
+    const Places out = PushedOut(request_, evaluations_);
+    return std::any_of(out.begin(), out.end(), [&](int k) { return !Contains(settings_.held, k); });
+  }
+  // Ceres ends a step on the bounds it would cross, the other values moved as if it had not.
+  Places TriedBeyond() const {
+    Places beyond;
+    if (request_.hold_shared) return beyond;
+    const Eigen::VectorXd tried = evaluations_.TriedShared();
+    for (int k = 0; k < tried.size(); ++k) {
+      const SharedParameter& s = request_.problem->shared[static_cast<std::size_t>(k)];
+      if ((IsOnLower(s, tried[k]) || IsOnUpper(s, tried[k])) && !Contains(settings_.held, k) &&
+          !Contains(settings_.not_to_bound, k))
+        beyond.push_back(k);
+    }
+    return beyond;
+  }
   // Too far above for ten more iterations at the pace of the last three.
   bool IsHopeless() const {
     constexpr std::size_t kPaceOver = 3;
@@ -176,6 +117,10 @@ class Watch : public ceres::IterationCallback {
 
   std::vector<double> costs_;
   const SolveRequest& request_;
+  const TrialEvaluations& evaluations_;
+  const RunSettings& settings_;
+  bool met_bound_ = false;
+  Places beyond_;
 };
 
 void HoldComponents(ceres::Problem& problem, double* block, int size,
@@ -202,84 +147,101 @@ SolveStatus StatusOf(const ceres::Solver::Summary& summary) {
   }
 }
 
-// One run of Ceres.
-SolveResult SolveOnce(const SolveRequest& request) {
-  const FitProblem& problem = *request.problem;
-  const std::vector<TrialProblem>& trials = *request.trials;
-  HOPLAB_CHECK(request.starts.size() == trials.size());
-  HOPLAB_CHECK(request.shared.size() == problem.shared_count());
+std::vector<int> AllShared(const FitProblem& problem) {
+  std::vector<int> all(static_cast<std::size_t>(problem.shared_count()));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
 
-  Evaluations evaluations(request);
-  SolveResult result;
-  result.shared = request.shared;
-  result.starts = request.starts;
+// The values where the evaluations are.
+void Take(const SolveRequest& request, TrialEvaluations& evaluations, SolveResult& result) {
+  evaluations.PrepareForEvaluation(false, false);
+  result.complete = evaluations.IsComplete();
+  result.shared = evaluations.SharedValues();
+  result.starts.clear();
+  for (std::size_t i = 0; i < request.trials->size(); ++i)
+    result.starts.push_back(evaluations.OwnValuesOf(static_cast<int>(i)));
+}
 
-  evaluations.Run(false);
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    const TrialEvaluation& e = evaluations.evaluation(static_cast<int>(i));
-    if (e.evaluated) continue;
-    result.status = SolveStatus::kNoStart;
-    result.message = Reason(trials[i], e.trajectory);
-    return result;
+// Whether a search can begin where the evaluations are; where not, `result` says why.
+bool CanBegin(const SolveRequest& request, TrialEvaluations& evaluations, SolveResult& result) {
+  evaluations.PrepareForEvaluation(!std::isfinite(request.start_below), false);
+  result.status = SolveStatus::kNoStart;
+  for (int i = 0; i < static_cast<int>(request.trials->size()); ++i) {
+    if (evaluations.IsEvaluated(i)) continue;
+    result.message = evaluations.ReasonOf(i);
+    return false;
   }
   if (evaluations.Cost() > request.start_below) {
-    result.status = SolveStatus::kNoStart;
     result.message = "the search would begin too far away";
-    return result;
+    return false;
   }
+  evaluations.ForgetRejected();
+  return true;
+}
 
-  ceres::Problem::Options problem_options;
-  problem_options.evaluation_callback = &evaluations;
-  ceres::Problem ceres_problem(problem_options);
+// The unknowns, their bounds, and which of them are held.
+void Describe(const SolveRequest& request, const Places& held, TrialEvaluations& evaluations,
+              ceres::Problem& to, ceres::ParameterBlockOrdering& ordering) {
+  const FitProblem& problem = *request.problem;
+  const std::vector<TrialProblem>& trials = *request.trials;
   // Own values belong to one trial each: Ceres eliminates them trial by trial, so that the cost of
   // a step grows with the number of trials and no faster.
-  auto* ordering = new ceres::ParameterBlockOrdering;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const int index = static_cast<int>(i), own_count = trials[i].own_count();
     std::vector<double*> blocks = {evaluations.shared()};
     if (own_count > 0) blocks.push_back(evaluations.own(index));
-    ceres_problem.AddResidualBlock(
-        new TrialCost(problem.shared_count(), own_count, evaluations, index), nullptr, blocks);
+    to.AddResidualBlock(new TrialCost(problem.shared_count(), own_count, evaluations, index),
+                        nullptr, blocks);
     if (own_count == 0) continue;
-    ordering->AddElementToGroup(evaluations.own(index), 0);
-    std::vector<int> held;
+    ordering.AddElementToGroup(evaluations.own(index), 0);
+    std::vector<int> held_own;
     for (int k = 0; k < own_count; ++k) {
-      if (request.hold_starts || !trials[i].own[k].free) held.push_back(k);
+      if (request.hold_starts || !trials[i].own[static_cast<std::size_t>(k)].free)
+        held_own.push_back(k);
     }
-    HoldComponents(ceres_problem, evaluations.own(index), own_count, held);
+    HoldComponents(to, evaluations.own(index), own_count, held_own);
   }
-  ordering->AddElementToGroup(evaluations.shared(), 1);
-  std::vector<int> held = request.held;
-  if (request.hold_shared) {
-    held.clear();
-    for (int k = 0; k < problem.shared_count(); ++k) held.push_back(k);
+  ordering.AddElementToGroup(evaluations.shared(), 1);
+  HoldComponents(to, evaluations.shared(), problem.shared_count(), held);
+  if (request.hold_shared) return;
+  for (int k = 0; k < problem.shared_count(); ++k) {
+    const SharedParameter& s = problem.shared[static_cast<std::size_t>(k)];
+    to.SetParameterLowerBound(evaluations.shared(), k, s.lower / s.scale);
+    to.SetParameterUpperBound(evaluations.shared(), k, s.upper / s.scale);
   }
-  HoldComponents(ceres_problem, evaluations.shared(), problem.shared_count(), held);
-  if (!request.hold_shared) {
-    for (int k = 0; k < problem.shared_count(); ++k) {
-      const SharedParameter& s = problem.shared[k];
-      ceres_problem.SetParameterLowerBound(evaluations.shared(), k, s.lower / s.scale);
-      ceres_problem.SetParameterUpperBound(evaluations.shared(), k, s.upper / s.scale);
-    }
-  }
+}
+
+// One run of Ceres, from where the evaluations are to where they are then.
+struct Run {
+  SolveResult result;
+  Places beyond;  // as Watch has it
+};
+Run RunCeres(const SolveRequest& request, const RunSettings& settings,
+             TrialEvaluations& evaluations) {
+  ceres::Problem::Options problem_options;
+  problem_options.evaluation_callback = &evaluations;
+  ceres::Problem problem(problem_options);
+  auto* ordering = new ceres::ParameterBlockOrdering;
+  Describe(request, settings.held, evaluations, problem, *ordering);
 
   ceres::Solver::Options options;
   const bool eliminates = !request.hold_shared && !request.hold_starts;
   options.linear_solver_type = eliminates ? ceres::DENSE_SCHUR : ceres::DENSE_QR;
   options.linear_solver_ordering.reset(ordering);
-  options.max_num_iterations = request.max_iterations;
+  options.max_num_iterations = settings.max_iterations;
   options.function_tolerance = request.function_tolerance;
   options.parameter_tolerance = 1e-11;
   options.gradient_tolerance = 1e-12;
   // Beyond a fall the cost jumps where the sequence of events changes: such a step only shrinks the
   // region.
   options.max_num_consecutive_invalid_steps = 60;
-  options.line_search_interpolation_type = ceres::QUADRATIC;  // cubic asks for Jacobians
-  options.max_num_line_search_step_size_iterations = 5;       // the trust region shrinks after that
+  // A step beyond a bound ends on it, and Solve holds what meets one: no line search along it.
+  options.max_num_line_search_step_size_iterations = 0;
   options.logging_type = ceres::SILENT;
-  Watch watch(request);
+  options.update_state_every_iteration = true;
+  Watch watch(request, evaluations, settings);
   options.callbacks.push_back(&watch);
-  evaluations.ForgetRejected();
 
   // What Ceres logs of a failed step its summary says as well; it is no user's message.
   static const bool silent = [] {
@@ -289,75 +251,17 @@ SolveResult SolveOnce(const SolveRequest& request) {
   static_cast<void>(silent);
 
   ceres::Solver::Summary summary;
-  ceres::Solve(options, &ceres_problem, &summary);
+  ceres::Solve(options, &problem, &summary);
 
-  result.status = StatusOf(summary);
-  result.shared = evaluations.SharedValues();
-  for (std::size_t i = 0; i < trials.size(); ++i)
-    result.starts[i] = evaluations.OwnValuesOf(static_cast<int>(i));
+  Run run{.beyond = watch.beyond()};
+  SolveResult& result = run.result;
+  const bool stopped = watch.met_bound() || !run.beyond.empty();
+  result.status = stopped ? SolveStatus::kIterationLimit : StatusOf(summary);
   result.cost = summary.final_cost + summary.fixed_cost;
-  result.iterations = static_cast<int>(summary.iterations.size());
-  result.rejected = evaluations.rejected();
-  evaluations.PrepareForEvaluation(false, false);
-  result.complete = evaluations.AllComplete();
+  result.iterations = static_cast<int>(summary.iterations.size()) - 1;  // the first only looks
   if (result.status == SolveStatus::kFailed) result.message = summary.message;
-  return result;
-}
-
-// The shared values a result has on a bound, besides those held already.
-std::vector<int> OnBounds(const SolveRequest& request, const SolveResult& result) {
-  std::vector<int> on;
-  for (int k = 0; k < request.problem->shared_count(); ++k) {
-    const SharedParameter& s = request.problem->shared[k];
-    const double near = 1e-9 * s.scale;
-    const bool bound = result.shared[k] <= s.lower + near || result.shared[k] >= s.upper - near;
-    const bool held = std::find(request.held.begin(), request.held.end(), k) != request.held.end();
-    if (bound && !held) on.push_back(k);
-  }
-  return on;
-}
-
-// Which of the values `on` a bound the cost would pull back inside, by its gradient at `at`.
-std::vector<int> PulledInside(const SolveRequest& request, const SolveResult& at,
-                              const std::vector<int>& on) {
-  SolveRequest there = request;
-  there.shared = at.shared;
-  there.starts = at.starts;
-  Evaluations evaluations(there);
-  evaluations.Run(true);
-  std::vector<int> inside;
-  for (int k : on) {
-    const SharedParameter& s = request.problem->shared[static_cast<std::size_t>(k)];
-    double gradient = 0.0;
-    for (std::size_t i = 0; i < request.trials->size(); ++i) {
-      const TrialEvaluation& e = evaluations.evaluation(static_cast<int>(i));
-      if (e.evaluated) gradient += e.jacobian.col(k).dot(e.residuals);
-    }
-    const bool on_lower = at.shared[k] <= s.lower + 1e-9 * s.scale;
-    if (on_lower ? gradient < 0.0 : gradient > 0.0) inside.push_back(k);
-  }
-  return inside;
-}
-
-// Goes on from where `best` ended with `held` values held; `best` becomes what comes out if its
-// cost is less. Whether it gained.
-bool GoOn(const SolveRequest& request, const std::vector<int>& held, SolveResult& best) {
-  // Below this share of the cost a gain is the solver's own tolerance.
-  constexpr double kGain = 1e-9;
-  SolveRequest again = request;
-  again.held.insert(again.held.end(), held.begin(), held.end());
-  again.shared = best.shared;
-  again.starts = best.starts;
-  SolveResult next = SolveOnce(again);
-  if (!IsUsable(next.status)) return false;
-  const bool gained = next.cost < best.cost * (1.0 - kGain);
-  // At the optimum the costs of two runs differ by rounding: the one that says it has converged
-  // counts, or a run cut short there would never be called converged.
-  if (!(next.cost <= best.cost * (1.0 + kGain))) return false;
-  next.iterations += best.iterations;
-  for (const auto& [reason, count] : best.rejected) next.rejected[reason] += count;
-  best = std::move(next);
-  return gained;
+  Take(request, evaluations, result);
+  return run;
 }
 
 }  // namespace
@@ -386,34 +290,55 @@ bool IsUsable(SolveStatus status) {
 }
 
 SolveResult Solve(const SolveRequest& request) {
-  if (request.hold_shared) return SolveOnce(request);
+  // At the optimum the costs of two runs differ by rounding.
+  constexpr double kSame = 1e-9;
+  constexpr int kMaxRounds = 12;
+  TrialEvaluations evaluations(request);
+  SolveResult best;
+  if (!CanBegin(request, evaluations, best)) {
+    best.shared = request.shared;
+    best.starts = request.starts;
+    return best;
+  }
   // A trust region cut by a bound crawls: the step it would take is projected, and what is left of
-  // it gains little. So the first run is short; what lies on a bound then, and is not pulled back
-  // inside by the gradient, is held there while the rest is solved, until nothing changes.
-  constexpr int kFirstIterations = 6, kMaxRounds = 6;
-  SolveRequest first = request;
-  first.max_iterations = std::min(request.max_iterations, kFirstIterations);
-  SolveResult best = SolveOnce(first);
-  std::vector<int> held;
-  for (int round = 0; round < kMaxRounds && IsUsable(best.status); ++round) {
-    if (best.status == SolveStatus::kGaveUp) break;
-    std::vector<int> on = OnBounds(request, best);
-    if (!on.empty()) {
-      const std::vector<int> inside = PulledInside(request, best, on);
-      std::erase_if(
-          on, [&](int k) { return std::find(inside.begin(), inside.end(), k) != inside.end(); });
+  // it gains little. So a value that comes to a bound, or would go beyond one, is put and held
+  // there while the rest is solved. What the gradient pulls inside at the end of a run is free in
+  // the next, until nothing changes.
+  RunSettings settings{.held = request.held};
+  if (request.hold_shared) settings.held = AllShared(*request.problem);
+  Places put;  // on their bounds before this run
+  int iterations = 0;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    settings.max_iterations = request.max_iterations - iterations;
+    const Run run = RunCeres(request, settings, evaluations);
+    const SolveResult& next = run.result;
+    iterations += std::max(next.iterations, 1);
+    const bool last = iterations >= request.max_iterations || round + 1 == kMaxRounds;
+    if (round > 0 && !(IsUsable(next.status) && next.cost <= best.cost * (1.0 + kSame))) {
+      if (put.empty() || last || next.status == SolveStatus::kInterrupted) break;
+      settings.not_to_bound.insert(settings.not_to_bound.end(), put.begin(), put.end());
+      std::erase_if(settings.held, [&](int k) { return Contains(put, k); });
+      put.clear();
+      evaluations.MoveTo(best.shared, best.starts);
+      continue;
     }
-    const bool settled = best.status == SolveStatus::kConverged && on == held;
-    if (settled || request.max_iterations <= kFirstIterations) break;
-    held = on;
-    SolveRequest rest = request;
-    rest.max_iterations = request.max_iterations - best.iterations;
-    if (rest.max_iterations < 1) {
+    const bool gained = round == 0 || next.cost < best.cost * (1.0 - kSame);
+    best = next;
+    if (request.hold_shared || !IsUsable(best.status) || best.status == SolveStatus::kGaveUp) break;
+    Places held = request.held;
+    for (const Places& more : {PushedOut(request, evaluations), run.beyond})
+      held.insert(held.end(), more.begin(), more.end());
+    if (held == settings.held || (!gained && best.status == SolveStatus::kConverged)) break;
+    if (last) {
       best.status = SolveStatus::kIterationLimit;
       break;
     }
-    if (!GoOn(rest, held, best) && best.status != SolveStatus::kConverged) break;
+    settings.held = held;
+    put = run.beyond;
+    evaluations.TakeTried(put);
   }
+  best.iterations = iterations;
+  best.rejected = evaluations.rejected();
   return best;
 }
 

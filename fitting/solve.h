@@ -24,7 +24,7 @@ struct SolveRequest {
   std::vector<int> held;                              // shared values held one by one
   Loss loss;
   int max_iterations = 100;
-  double function_tolerance = 1e-14;  // relative change of the cost that counts as converged
+  double function_tolerance = 1e-12;  // relative change of the cost that counts as converged
   /// A beginning above this cost is none (`kNoStart`).
   double start_below = std::numeric_limits<double>::infinity();
   /// A search that would not get below this cost at its present pace ends.

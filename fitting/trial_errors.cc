@@ -40,6 +40,7 @@ OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
   request.shared = shared;
   request.starts = {trial.start};
   request.hold_shared = true;
+  request.function_tolerance = 1e-10;  // of thousands: far below one standard error
   request.loss = options.loss;
   request.stop = options.stop;
   SolveResult best = Solve(request);

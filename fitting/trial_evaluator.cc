@@ -146,7 +146,11 @@ void TrialEvaluator::Simulate(const EvaluationRequest& request, const Integrator
   sim.horizon = horizon_;
   sim.row_times = trial_->row_times;
   sim.channels = channels_;
-  if (request.want_jacobian) sim.directions = directions_;
+  const ColumnRange columns = ColumnsOf(request);
+  if (request.want_jacobian)
+    sim.directions = std::span(directions_)
+                         .subspan(static_cast<std::size_t>(columns.first),
+                                  static_cast<std::size_t>(columns.count));
   sim.integrator = integrator;
   // Hop traces take hundreds of steps. Values at which one takes this many (a leg that chatters, a
   // damper far too stiff) are not where a fit is going, and must not hold it up.
@@ -160,15 +164,16 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
   out.complete = out.evaluated = false;
   out.data_residuals = static_cast<int>(trial_->sample_count);
   out.residuals.resize(residual_count_);
-  const int shared = problem_->shared_count(), width = column_count();
-  if (request.want_jacobian) out.jacobian.resize(residual_count_, width);
+  const int columns_wanted = ColumnsOf(request).count;
+  const auto width = static_cast<std::size_t>(columns_wanted);
+  if (request.want_jacobian) out.jacobian.resize(residual_count_, columns_wanted);
 
   int next = 0;
   bool complete = true;
   const auto add = [&](double residual, const double* slopes, double scale) {
     out.residuals[next] = residual;
     if (request.want_jacobian) {
-      for (int k = 0; k < width; ++k) out.jacobian(next, k) = scale * slopes[k];
+      for (int k = 0; k < columns_wanted; ++k) out.jacobian(next, k) = scale * slopes[k];
     }
     ++next;
   };
@@ -183,7 +188,7 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
     add((trajectory.samples[cell] - trial_->data[cell]) * weight,
         request.want_jacobian ? &trajectory.sensitivities[cell * width] : nullptr, weight);
   }
-  const std::vector<double> no_slopes(static_cast<std::size_t>(width), 0.0);
+  const std::vector<double> no_slopes(width, 0.0);
   const auto add_times = [&](EventKind kind, const std::vector<double>& measured,
                              const std::vector<double>& sigma) {
     const std::vector<EventTime> simulated = TimesOf(trajectory, kind);
@@ -214,32 +219,38 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
     }
   }
 
-  // The prior is not a measurement with outliers: no loss on it.
+  AddPriors(request, next, out);
+  out.complete = out.evaluated && complete;
+}
+
+// The rows from `next` on, and with them the columns of what does not act in the trial.
+void TrialEvaluator::AddPriors(const EvaluationRequest& request, int next,
+                               TrialEvaluation& out) const {
+  const ColumnRange columns = ColumnsOf(request);
+  const int shared = problem_->shared_count();
+  // A prior is not a measurement with outliers: no loss on it.
+  const auto add = [&](double residual, int column, double sigma) {
+    out.residuals[next] = residual;
+    if (request.want_jacobian) {
+      out.jacobian.row(next).setZero();
+      const int k = column - columns.first;
+      if (k >= 0 && k < columns.count) out.jacobian(next, k) = 1.0 / sigma;
+    }
+    ++next;
+  };
   for (int k = 0; k < trial_->own_count(); ++k) {
-    const OwnParameter& o = trial_->own[k];
-    if (!std::isfinite(o.prior_sigma)) continue;
-    out.residuals[next] = (request.own[k] - o.prior_mean) / o.prior_sigma;
-    if (request.want_jacobian) {
-      out.jacobian.row(next).setZero();
-      out.jacobian(next, shared + k) = 1.0 / o.prior_sigma;
-    }
-    ++next;
+    const OwnParameter& o = trial_->own[static_cast<std::size_t>(k)];
+    if (std::isfinite(o.prior_sigma))
+      add((request.own[k] - o.prior_mean) / o.prior_sigma, shared + k, o.prior_sigma);
   }
-  for (const SharedPrior& prior : trial_->shared_priors) {
-    out.residuals[next] = (request.shared[prior.shared] - prior.mean) / prior.sigma;
-    if (request.want_jacobian) {
-      out.jacobian.row(next).setZero();
-      out.jacobian(next, prior.shared) = 1.0 / prior.sigma;
-    }
-    ++next;
-  }
-  if (request.want_jacobian) {
-    for (int k = 0; k < shared; ++k) {
-      if (!ActsIn(problem_->shared[k], *trial_)) out.jacobian.col(k).setZero();
-    }
+  for (const SharedPrior& prior : trial_->shared_priors)
+    add((request.shared[prior.shared] - prior.mean) / prior.sigma, prior.shared, prior.sigma);
+  for (int k = 0; request.want_jacobian && k < columns.count; ++k) {
+    const int place = columns.first + k;
+    if (place < shared && !ActsIn(problem_->shared[static_cast<std::size_t>(place)], *trial_))
+      out.jacobian.col(k).setZero();
   }
   out.evaluated = next == residual_count_;
-  out.complete = out.evaluated && complete;
 }
 
 double TrialEvaluator::WhitenRows(const NoiseModel& noise,

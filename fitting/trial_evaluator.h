@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "fitting/discrepancy/matern_filter.h"
@@ -37,6 +38,11 @@ struct TrialEvaluation {
   double half_log_determinant = 0.0;
 };
 
+/// Neighbouring columns of a Jacobian.
+struct ColumnRange {
+  int first = 0, count = 0;
+};
+
 /// What is asked of an evaluation.
 struct EvaluationRequest {
   Eigen::Ref<const Eigen::VectorXd> shared;  // values in their own units
@@ -47,6 +53,7 @@ struct EvaluationRequest {
   /// back; contacts it does not make count as if they came at its horizon.
   bool fly_on = false;
   bool whiten = true;  // false: residuals and Jacobian in units of the channels' sigma
+  std::optional<ColumnRange> only = std::nullopt;  // the Jacobian has these columns alone
 };
 
 /// Where a channel's samples stand among the residuals, and when they were taken [s].
@@ -88,6 +95,10 @@ class TrialEvaluator {
   std::vector<SensitivityDirection> directions_;
   std::vector<ChannelRows> channel_rows_;
 
+  ColumnRange ColumnsOf(const EvaluationRequest& request) const {
+    return request.only.value_or(ColumnRange{0, column_count()});
+  }
+  void AddPriors(const EvaluationRequest& request, int next, TrialEvaluation& out) const;
   void Whiten(TrialEvaluation& out, bool jacobian) const;
   double horizon_ = 0.0;
   int residual_count_ = 0;

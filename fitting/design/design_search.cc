@@ -293,13 +293,9 @@ Extension FitWith(const Extension& base, const Candidate& candidate, const Noise
   const std::vector<Candidate> added = {candidate};
   const Linearisation at = LineariseAt(base, added, *settings.train, settings.jobs);
   const Score score = ScoreOf(at, HypothesesOf(added).front());
-  Extension best;
-  // Where the forecast is too far out, a part of it may be a better beginning.
-  for (const double share : {1.0, 0.3, 0.1}) {
-    Extension e = Refit(base, added, share * score.size, settings);
-    if (e.ok() && (!best.ok() || e.cost < best.cost)) best = std::move(e);
-    if (best.ok() && base.cost - best.cost >= 0.15 * score.predicted_gain) break;
-  }
+  RefitSettings refit = settings;
+  refit.forecast = score.predicted_gain;
+  Extension best = Refit(base, added, score.size, refit);
   if (!best.ok()) return best;
   best.problem.noise = near;
   best.settled = false;

@@ -50,27 +50,18 @@ void Take(Extension& e, const SolveResult& result) {
   e.complete = result.complete;
 }
 
-void Run(Extension& e, const Eigen::VectorXd& null_values, const RefitSettings& settings,
-         double base_cost) {
-  SolveRequest request = RequestFrom(e, settings);
-  request.give_up_above = std::min(settings.give_up_above, base_cost);
-  request.start_below = kFarOff * base_cost;
-  const Eigen::Index added = null_values.size(), kept = e.shared.size() - added;
-  const Eigen::VectorXd sizes = e.shared.tail(added);
-  SolveResult result;
-  // A large effect may end a simulation early, or lead far off, where the fitted values are not yet
-  // its own.
-  for (double share : {1.0, 0.3, 0.1, 0.01}) {
-    request.shared = e.shared;
-    for (Eigen::Index k = 0; k < added; ++k) {
-      const SharedParameter& s = e.problem.shared[static_cast<std::size_t>(kept + k)];
-      const double size = std::isfinite(sizes[k]) ? sizes[k] : 0.0;
-      request.shared[kept + k] = Inside(s, null_values[k] + share * size);
-    }
-    result = Solve(request);
-    if (result.status != SolveStatus::kNoStart) break;
+// Where the search for a model with added candidates begins: their sizes, brought inside the
+// bounds.
+Eigen::VectorXd Beginning(const Extension& e, const Eigen::VectorXd& kept,
+                          const Eigen::VectorXd& null_values, const Eigen::VectorXd& sizes) {
+  Eigen::VectorXd shared(kept.size() + sizes.size());
+  shared.head(kept.size()) = kept;
+  for (Eigen::Index k = 0; k < sizes.size(); ++k) {
+    const SharedParameter& s = e.problem.shared[static_cast<std::size_t>(kept.size() + k)];
+    const double size = std::isfinite(sizes[k]) ? sizes[k] : 0.0;
+    shared[kept.size() + k] = Inside(s, null_values[k] + size);
   }
-  Take(e, result);
+  return shared;
 }
 
 }  // namespace
@@ -95,25 +86,34 @@ bool Extension::AtPhysicalBound(int i) const {
 
 Extension Refit(const Extension& base, std::span<const Candidate> added,
                 const Eigen::VectorXd& sizes, const RefitSettings& settings) {
+  // A search that gains less than this share of the forecast went into the wrong valley.
+  constexpr double kFair = 0.15;
   Extension e;
   e.members = base.members;
   e.members.insert(e.members.end(), added.begin(), added.end());
   e.problem = Extend(base.problem, added);
-  e.shared.resize(base.shared.size() + sizes.size());
-  e.shared << base.shared, sizes;
   e.starts = base.starts;
   const Eigen::VectorXd null = NullValues(added);
-  // More values cannot fit worse: a search that ended above its base went astray.
-  Run(e, null, settings, base.cost);
-  if (!e.ok() || e.cost > base.cost) {
-    e.shared << base.shared, Eigen::VectorXd::Zero(null.size());
+  SolveRequest request = RequestFrom(e, settings);
+  request.give_up_above = std::min(settings.give_up_above, base.cost);
+  request.start_below = kFarOff * base.cost;
+  std::vector<Eigen::VectorXd> begun;
+  // A large effect may end a simulation early, or lead far off, where the fitted values are not yet
+  // its own; and more values cannot fit worse: a search that ended above its base went astray.
+  for (const double share : {1.0, 0.3, 0.1, 0.0}) {
+    const bool below_base = e.ok() && e.cost <= base.cost;
+    if (below_base && (share == 0.0 || base.cost - e.cost >= kFair * settings.forecast)) break;
+    request.shared = Beginning(e, base.shared, null, share * sizes);
+    if (std::find(begun.begin(), begun.end(), request.shared) != begun.end()) continue;
+    begun.push_back(request.shared);
+    const SolveResult result = Solve(request);
+    const bool better = IsUsable(result.status) && result.complete && result.cost < e.cost;
+    if (begun.size() == 1 || !e.ok() || better) Take(e, result);
+  }
+  if (e.ok() && e.cost > base.cost) {
+    e.shared << base.shared, null;
     e.starts = base.starts;
-    Run(e, null, settings, base.cost);
-    if (e.ok() && e.cost > base.cost) {
-      e.shared << base.shared, null;
-      e.starts = base.starts;
-      e.cost = base.cost;
-    }
+    e.cost = base.cost;
   }
   return e;
 }
@@ -130,7 +130,7 @@ Extension RefitWithout(const Extension& base, int i, const FitProblem& null_prob
   e.shared.resize(base.shared.size() - count);
   e.shared << base.shared.head(place), base.shared.tail(base.shared.size() - place - count);
   e.starts = base.starts;
-  Run(e, Eigen::VectorXd(0), settings, std::numeric_limits<double>::infinity());
+  Take(e, Solve(RequestFrom(e, settings)));
   return e;
 }
 

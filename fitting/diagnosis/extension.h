@@ -43,6 +43,9 @@ struct RefitSettings {
   int max_iterations = 40;  // in all
   /// A refit that would not get below this cost at its present pace ends.
   double give_up_above = std::numeric_limits<double>::infinity();
+  /// What the linear model promises of a refit [nats]: one that falls well short of it is begun
+  /// again nearer to null.
+  double forecast = 0.0;
   Discrepancy discrepancy = Discrepancy::kMatern;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 #include <string>
 
 #include "base/parallel.h"
 #include "fitting/eliminated_trial.h"
-#include "model/effects/active_effects.h"
+#include "model/formula/formula.h"
+#include "model/jet.h"
 
 namespace hoplab {
 namespace {
@@ -31,17 +33,23 @@ int CostClass(const Candidate& candidate) {
 
 using Places = std::vector<int>;
 
-// Candidates that are differentiated together, by place.
-std::vector<Places> BatchesOf(std::span<const Candidate> tested, std::size_t room) {
+// Candidates that are differentiated together, by place: as many as one run of the simulator holds
+// directions, so that no run carries an effect it is not differentiated by.
+std::vector<Places> BatchesOf(std::span<const Candidate> tested) {
   std::array<Places, 3> classes;
   for (std::size_t i = 0; i < tested.size(); ++i)
     classes[static_cast<std::size_t>(CostClass(tested[i]))].push_back(static_cast<int>(i));
   std::vector<Places> batches;
   for (const Places& places : classes) {
-    for (std::size_t first = 0; first < places.size(); first += room) {
-      const std::size_t count = std::min(room, places.size() - first);
-      batches.emplace_back(places.begin() + static_cast<std::ptrdiff_t>(first),
-                           places.begin() + static_cast<std::ptrdiff_t>(first + count));
+    int directions = kWideJet;
+    for (const int place : places) {
+      const int more = tested[static_cast<std::size_t>(place)].parameter_count();
+      if (directions + more > kWideJet) {
+        batches.emplace_back();
+        directions = 0;
+      }
+      batches.back().push_back(place);
+      directions += more;
     }
   }
   return batches;
@@ -72,7 +80,7 @@ class TrialColumns {
 
   Part Collect(const std::vector<Places>& batches) {
     Part part;
-    const TrialEvaluation bare = EvaluateWith({});
+    const TrialEvaluation bare = EvaluateWith({}, std::nullopt);
     if (!bare.complete) return part;
     const int n = model_.problem.shared_count();
     // The layout EliminateOwn expects: fitted, tested, own.
@@ -97,12 +105,14 @@ class TrialColumns {
   }
 
  private:
-  TrialEvaluation EvaluateWith(std::span<const Candidate> part) const {
+  TrialEvaluation EvaluateWith(std::span<const Candidate> part,
+                               std::optional<ColumnRange> only) const {
     const FitProblem problem = ExtendWithoutTrials(part);
     Eigen::VectorXd shared(problem.shared_count());
     shared << model_.shared, NullValues(part);
     TrialEvaluation e;
-    TrialEvaluator(problem, trial_).Evaluate({shared, own_, true}, e);
+    TrialEvaluator(problem, trial_)
+        .Evaluate({.shared = shared, .own = own_, .want_jacobian = true, .only = only}, e);
     return e;
   }
   FitProblem ExtendWithoutTrials(std::span<const Candidate> part) const {
@@ -122,7 +132,8 @@ class TrialColumns {
   void Add(std::span<const int> places, std::set<int>& failed) {
     std::vector<Candidate> part;
     for (const int place : places) part.push_back(tested_[static_cast<std::size_t>(place)]);
-    const TrialEvaluation e = EvaluateWith(part);
+    const TrialEvaluation e =
+        EvaluateWith(part, ColumnRange{model_.problem.shared_count(), ParameterCount(part)});
     if (e.complete && e.jacobian.allFinite()) return Take(places, e);
     if (places.size() == 1) {
       failed.insert(places.front());
@@ -132,7 +143,7 @@ class TrialColumns {
     Add(places.subspan(places.size() / 2), failed);
   }
   void Take(std::span<const int> places, const TrialEvaluation& e) {
-    Eigen::Index next = model_.problem.shared_count();
+    Eigen::Index next = 0;
     for (const int place : places) {
       const auto i = static_cast<std::size_t>(place);
       const Eigen::Index to = static_cast<Eigen::Index>(fitted_.size()) + first_column_[i];
@@ -162,9 +173,7 @@ Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tes
     first_column.push_back(columns);
     columns += c.parameter_count();
   }
-  // What one run can hold beside the effects the model has.
-  const std::size_t room = ActiveEffects<double>::kMax - model.problem.effects.size();
-  const std::vector<Places> batches = BatchesOf(tested, room);
+  const std::vector<Places> batches = BatchesOf(tested);
   std::vector<Part> parts(train.size());
   ParallelFor(static_cast<int>(train.size()), jobs, [&](int i) {
     const auto at = static_cast<std::size_t>(i);

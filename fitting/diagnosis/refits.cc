@@ -144,16 +144,8 @@ Extension Refits::Refitted(const CandidateSet& set) const {
   const Score score = ScoreOf(at, all);
   RefitSettings settings = refit_;
   settings.max_iterations = kTryIterations;
+  if (score.predicted_gain > kForecast) settings.forecast = score.predicted_gain;
   Extension e = Refit(base, candidates, score.size, settings);
-  // Where the refit falls well short of the linear forecast, it went into the wrong valley: the
-  // forecast was too far out, or the effect too bent.
-  const double forecast = score.predicted_gain;
-  if (forecast > kForecast && (!e.ok() || base.cost - e.cost < 0.15 * forecast)) {
-    for (double share : {0.3, 0.1}) {
-      Extension again = Refit(base, candidates, share * score.size, settings);
-      if (again.ok() && (!e.ok() || again.cost < e.cost)) e = std::move(again);
-    }
-  }
   e.settled = false;
   CandidateSet order = part;
   order.insert(order.end(), added.begin(), added.end());

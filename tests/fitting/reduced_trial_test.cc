@@ -36,7 +36,7 @@ void ExpectSameLeastSquares(const Whole& w, const ReducedTrial& reduced) {
 TEST(ReducedTrial, IsTheSameLeastSquaresProblemInFewRows) {
   const Whole w = Evaluation(400, 9);
   ReducedTrial reduced(400, 9);
-  reduced.Reduce(w.evaluation, true, w.scale);
+  reduced.Reduce(w.evaluation, w.scale);
   EXPECT_EQ(reduced.rows(), 10);
   ExpectSameLeastSquares(w, reduced);
 }
@@ -45,7 +45,7 @@ TEST(ReducedTrial, FewRowsStayAsTheyAre) {
   for (int rows : {1, 9, 10}) {
     const Whole w = Evaluation(rows, 9);
     ReducedTrial reduced(rows, 9);
-    reduced.Reduce(w.evaluation, true, w.scale);
+    reduced.Reduce(w.evaluation, w.scale);
     EXPECT_EQ(reduced.rows(), rows);
     EXPECT_EQ(reduced.residuals(), w.evaluation.residuals);
     EXPECT_EQ(reduced.jacobian(), w.J);
@@ -57,18 +57,8 @@ TEST(ReducedTrial, AColumnOfZerosIsNoTrouble) {
   w.evaluation.jacobian.col(1).setZero();
   w.J.col(1).setZero();
   ReducedTrial reduced(50, 4);
-  reduced.Reduce(w.evaluation, true, w.scale);
+  reduced.Reduce(w.evaluation, w.scale);
   ExpectSameLeastSquares(w, reduced);
-}
-
-TEST(ReducedTrial, WithoutJacobiansTheSumOfSquaresIsTheSame) {
-  const Whole w = Evaluation(120, 6);
-  ReducedTrial reduced(120, 6);
-  reduced.Reduce(w.evaluation, true, w.scale);
-  const double with = reduced.residuals().squaredNorm();
-  reduced.Reduce(w.evaluation, false, w.scale);
-  EXPECT_EQ(reduced.rows(), 7);
-  EXPECT_NEAR(reduced.residuals().squaredNorm(), with, 1e-13 * with);
 }
 
 }  // namespace

@@ -143,6 +143,8 @@ TEST(Solve, AValueOnItsBoundDoesNotKeepTheRestFromTheirOptimum) {
   ASSERT_EQ(free.status, SolveStatus::kConverged);
   ASSERT_EQ(problem.shared[1].name, "d");
   ASSERT_LT(free.shared[1], 1e-9);
+  // A step beyond the bound must not make the search crawl along it.
+  EXPECT_LE(free.iterations, 15);
   request.held = {1};
   request.shared[1] = 0.0;
   EXPECT_NEAR(free.cost, Solve(request).cost, 1e-6 * free.cost);
@@ -181,6 +183,23 @@ TEST(TrialEvaluator, RobustResidualsHaveTheRightSlope) {
   evaluator.Evaluate({p, c.trials[0].start, false, loss}, minus);
   const Eigen::VectorXd difference = (plus.residuals - minus.residuals) / (2 * h);
   EXPECT_LT((difference - middle.jacobian.col(0)).norm(), 1e-6 * difference.norm());
+}
+
+TEST(TrialEvaluator, SomeColumnsAreThoseOfTheWholeJacobian) {
+  const Case c;
+  const TrialEvaluator evaluator(c.problem, c.trials[0]);
+  const Eigen::VectorXd p = Eigen::Vector2d(24e9, 3.0);
+  TrialEvaluation whole, some;
+  evaluator.Evaluate({p, c.trials[0].start, true}, whole);
+  // From the second shared value to the second own one: priors have a column among them.
+  evaluator.Evaluate(
+      {.shared = p, .own = c.trials[0].start, .want_jacobian = true, .only = ColumnRange{1, 3}},
+      some);
+  ASSERT_TRUE(some.complete);
+  EXPECT_EQ(some.residuals, whole.residuals);
+  ASSERT_EQ(some.jacobian.cols(), 3);
+  const auto expected = whole.jacobian.middleCols(1, 3);
+  EXPECT_LT((some.jacobian - expected).norm(), 1e-12 * expected.norm());
 }
 
 TEST(TrialEvaluator, ASimulationShorterThanItsDataIsIncomplete) {

@@ -1,0 +1,144 @@
+#include "fitting/trial_evaluations.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/check.h"
+#include "base/parallel.h"
+
+namespace hoplab {
+
+TrialEvaluations::TrialEvaluations(const SolveRequest& request)
+    : request_(request),
+      problem_(*request.problem),
+      trials_(*request.trials),
+      evaluations_(trials_.size()),
+      shared_(problem_.shared_count()) {
+  HOPLAB_CHECK(request.starts.size() == trials_.size());
+  HOPLAB_CHECK(request.shared.size() == problem_.shared_count());
+  for (const TrialProblem& trial : trials_) {
+    evaluators_.emplace_back(problem_, trial);
+    reduced_.emplace_back(evaluators_.back().residual_count(), evaluators_.back().column_count());
+    own_begin_.push_back(own_begin_.back() + trial.own_count());
+  }
+  own_ = Eigen::VectorXd::Zero(own_begin_.back());
+  for (int i = 0; i < problem_.shared_count(); ++i)
+    shared_[i] = request.shared[i] / problem_.shared[static_cast<std::size_t>(i)].scale;
+}
+
+// A line search and the step it ends in ask for one point under two names.
+void TrialEvaluations::PrepareForEvaluation(bool jacobians, bool /*new_point*/) {
+  if (differentiated_.Is(shared_, own_)) {
+    at_ = &differentiated_;
+    return;
+  }
+  Point& point = jacobians ? differentiated_ : plain_;
+  at_ = &point;
+  if (point.Is(shared_, own_)) return;
+  Run(jacobians, point);
+  for (int i = 0; i < static_cast<int>(trials_.size()); ++i) {
+    if (!evaluations_[static_cast<std::size_t>(i)].complete) ++rejected_[ReasonOf(i)];
+  }
+}
+
+void TrialEvaluations::Run(bool jacobians, Point& point) {
+  const std::size_t n = trials_.size();
+  point.shared = shared_;
+  point.own = own_;
+  point.evaluated.assign(n, 0);
+  point.norms.assign(n, 0.0);
+  const Eigen::VectorXd shared = SharedValues();
+  ParallelFor(static_cast<int>(n), request_.jobs, [&](int trial) {
+    const auto i = static_cast<std::size_t>(trial);
+    TrialEvaluation& e = evaluations_[i];
+    evaluators_[i].Evaluate({shared, OwnValuesOf(trial), jacobians, request_.loss, /*fly_on=*/true,
+                             /*whiten=*/false},
+                            e);
+    if (!e.evaluated) return;
+    point.evaluated[i] = 1;
+    point.norms[i] = e.residuals.norm();
+    if (jacobians) reduced_[i].Reduce(e, ColumnScales(trials_[i]));
+  });
+  point.cost = 0.0;
+  for (const double norm : point.norms) point.cost += 0.5 * norm * norm;
+  point.complete = std::all_of(evaluations_.begin(), evaluations_.end(),
+                               [](const TrialEvaluation& e) { return e.complete; });
+}
+
+Eigen::VectorXd TrialEvaluations::SharedValues(const Eigen::VectorXd& over_scale) const {
+  Eigen::VectorXd values(over_scale.size());
+  for (int i = 0; i < values.size(); ++i)
+    values[i] = over_scale[i] * problem_.shared[static_cast<std::size_t>(i)].scale;
+  return values;
+}
+
+void TrialEvaluations::TakeTried(const std::vector<int>& places) {
+  for (const int k : places) shared_[k] = plain_.shared[k];
+}
+
+OwnValues TrialEvaluations::OwnValuesOf(int trial) const {
+  const auto i = static_cast<std::size_t>(trial);
+  OwnValues values = request_.starts[i];
+  for (int k = 0; k < values.size(); ++k)
+    values[k] += own_[own_begin_[i] + k] * trials_[i].own[static_cast<std::size_t>(k)].scale;
+  return values;
+}
+
+void TrialEvaluations::MoveTo(const Eigen::VectorXd& shared, const std::vector<OwnValues>& own) {
+  for (int i = 0; i < problem_.shared_count(); ++i)
+    shared_[i] = shared[i] / problem_.shared[static_cast<std::size_t>(i)].scale;
+  for (std::size_t i = 0; i < trials_.size(); ++i) {
+    for (int k = 0; k < trials_[i].own_count(); ++k)
+      own_[own_begin_[i] + k] =
+          (own[i][k] - request_.starts[i][k]) / trials_[i].own[static_cast<std::size_t>(k)].scale;
+  }
+}
+
+double TrialEvaluations::Gradient(int shared) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < trials_.size(); ++i) {
+    if (differentiated_.evaluated[i])
+      sum += reduced_[i].jacobian().col(shared).dot(reduced_[i].residuals());
+  }
+  return sum;
+}
+
+void TrialEvaluations::Copy(int trial, double* residuals, double* by_shared, double* by_own) const {
+  const auto i = static_cast<std::size_t>(trial);
+  const ReducedTrial& reduced = reduced_[i];
+  const int rows = reduced.rows();
+  if (at_ == &plain_) {
+    std::fill(residuals, residuals + rows, 0.0);
+    residuals[0] = plain_.norms[i];
+    return;
+  }
+  std::copy(reduced.residuals().data(), reduced.residuals().data() + rows, residuals);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Index shared = shared_.size(), own = reduced.jacobian().cols() - shared;
+  if (by_shared)
+    Eigen::Map<RowMajor>(by_shared, rows, shared) = reduced.jacobian().leftCols(shared);
+  if (by_own && own > 0)
+    Eigen::Map<RowMajor>(by_own, rows, own) = reduced.jacobian().rightCols(own);
+}
+
+std::string TrialEvaluations::ReasonOf(int trial) const {
+  const auto i = static_cast<std::size_t>(trial);
+  const Trajectory& trajectory = evaluations_[i].trajectory;
+  char at[48];
+  std::snprintf(at, sizeof at, " at %.3f s", trajectory.end_time);
+  return trials_[i].file + ": " +
+         (hoplab::IsComplete(trajectory.outcome)
+              ? std::string("other contacts than the trace shows")
+              : std::string(SentenceOf(trajectory.outcome)) + at);
+}
+
+Eigen::VectorXd TrialEvaluations::ColumnScales(const TrialProblem& trial) const {
+  const int n = problem_.shared_count();
+  Eigen::VectorXd scale(n + trial.own_count());
+  for (int k = 0; k < n; ++k) scale[k] = problem_.shared[static_cast<std::size_t>(k)].scale;
+  for (int k = 0; k < trial.own_count(); ++k)
+    scale[n + k] = trial.own[static_cast<std::size_t>(k)].scale;
+  return scale;
+}
+
+}  // namespace hoplab

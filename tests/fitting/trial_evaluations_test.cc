@@ -1,0 +1,111 @@
+#include "fitting/trial_evaluations.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/fit_cases.h"
+
+namespace hoplab {
+namespace {
+
+using testing::NominalStarts;
+using testing::SmallDataset;
+
+struct Case {
+  FitProblem problem = MakeProblem(SmallDataset(), {});
+  std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
+  SolveRequest request;
+
+  Case() {
+    request.problem = &problem;
+    request.trials = &trials;
+    request.shared = Eigen::Vector2d(21e9, 2.0);
+    request.starts = NominalStarts(trials);
+  }
+};
+
+// The oracle of costs: one trial after the other.
+double CostOf(const Case& c, const Eigen::VectorXd& shared) {
+  double cost = 0.0;
+  for (const TrialProblem& trial : c.trials) {
+    TrialEvaluation e;
+    TrialEvaluator(c.problem, trial).Evaluate({shared, trial.start}, e);
+    cost += 0.5 * e.residuals.squaredNorm();
+  }
+  return cost;
+}
+
+TEST(TrialEvaluations, CostIsThatOfTheTrialsOneByOne) {
+  const Case c;
+  TrialEvaluations at(c.request);
+  at.PrepareForEvaluation(false, true);
+  EXPECT_TRUE(at.IsComplete());
+  EXPECT_NEAR(at.Cost() / CostOf(c, c.request.shared), 1.0, 1e-12);
+}
+
+TEST(TrialEvaluations, GradientIsTheSlopeOfTheCost) {
+  const Case c;
+  TrialEvaluations at(c.request);
+  at.PrepareForEvaluation(true, true);
+  for (int k = 0; k < 2; ++k) {
+    const double scale = c.problem.shared[static_cast<std::size_t>(k)].scale, h = 1e-5;
+    Eigen::VectorXd plus = c.request.shared, minus = plus;
+    plus[k] += h * scale;
+    minus[k] -= h * scale;
+    const double slope = (CostOf(c, plus) - CostOf(c, minus)) / (2.0 * h);
+    EXPECT_NEAR(at.Gradient(k) / slope, 1.0, 1e-5);
+  }
+}
+
+TEST(TrialEvaluations, BothKindsOfPointHaveTheSameSumOfSquares) {
+  const Case c;
+  TrialEvaluations plain(c.request), differentiated(c.request);
+  plain.PrepareForEvaluation(false, true);
+  differentiated.PrepareForEvaluation(true, true);
+  for (int i = 0; i < 2; ++i) {
+    Eigen::VectorXd a(plain.RowCount(i)), b(differentiated.RowCount(i));
+    plain.Copy(i, a.data(), nullptr, nullptr);
+    differentiated.Copy(i, b.data(), nullptr, nullptr);
+    EXPECT_NEAR(a.squaredNorm() / b.squaredNorm(), 1.0, 1e-8);  // two runs of the integrator
+  }
+}
+
+TEST(TrialEvaluations, ComingBackToAPointKeepsItsDerivatives) {
+  const Case c;
+  TrialEvaluations at(c.request);
+  at.PrepareForEvaluation(true, true);
+  const double cost = at.Cost(), gradient = at.Gradient(0);
+  const double begin = at.shared()[0];
+  at.shared()[0] = 1.05 * begin;
+  at.PrepareForEvaluation(false, true);
+  EXPECT_NE(at.Cost(), cost);
+  EXPECT_NEAR(at.TriedShared()[0] / (1.05 * c.request.shared[0]), 1.0, 1e-14);
+  EXPECT_EQ(at.Gradient(0), gradient);  // of the point with derivatives
+  at.shared()[0] = begin;
+  at.PrepareForEvaluation(true, true);
+  EXPECT_EQ(at.Cost(), cost);
+  EXPECT_EQ(at.Gradient(0), gradient);
+}
+
+TEST(TrialEvaluations, MovesToGivenValues) {
+  const Case c;
+  TrialEvaluations at(c.request);
+  std::vector<OwnValues> own = c.request.starts;
+  own[1][0] += 0.01;
+  at.MoveTo(Eigen::Vector2d(23e9, 1.0), own);
+  EXPECT_NEAR(at.SharedValues()[0] / 23e9, 1.0, 1e-14);
+  EXPECT_NEAR(at.OwnValuesOf(1)[0], own[1][0], 1e-14);
+  EXPECT_EQ(at.OwnValuesOf(0), own[0]);
+}
+
+TEST(TrialEvaluations, AnEndBeforeTheDataIsCountedWithItsReason) {
+  Case c;
+  c.request.shared[0] = 6e9;  // so soft that it sinks to the ground
+  TrialEvaluations at(c.request);
+  at.PrepareForEvaluation(false, true);
+  EXPECT_FALSE(at.IsComplete());
+  ASSERT_FALSE(at.rejected().empty());
+  EXPECT_NE(at.rejected().begin()->first.find(".csv: "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hoplab
