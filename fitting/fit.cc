@@ -11,6 +11,9 @@
 namespace hoplab {
 namespace {
 
+// Relative change of the cost that ends a search for where another begins.
+constexpr double kBeginning = 1e-6;
+
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<OwnValues> StartsOf(const std::vector<TrialProblem>& trials) {
@@ -88,6 +91,15 @@ Eigen::VectorXd BestRung(const FitProblem& problem, const std::vector<TrialProbl
   return best;
 }
 
+// At most so many of the pieces, evenly spread: a valley is seen in some of them as well.
+std::vector<TrialProblem> Spread(const std::vector<TrialProblem>& pieces) {
+  constexpr std::size_t kMost = 48;
+  const std::size_t n = std::min(kMost, pieces.size());
+  std::vector<TrialProblem> some;
+  for (std::size_t i = 0; i < n; ++i) some.push_back(pieces[i * pieces.size() / n]);
+  return some;
+}
+
 // Shared values from single hops, each started at the apex its data show; `shared` if there are
 // none to be had.
 Eigen::VectorXd ShootApexes(const FitProblem& problem, const std::vector<TrialProblem>& trials,
@@ -98,7 +110,7 @@ Eigen::VectorXd ShootApexes(const FitProblem& problem, const std::vector<TrialPr
     for (TrialProblem& piece : CutAtApexes(problem, trial)) pieces.push_back(std::move(piece));
   }
   if (pieces.empty()) return shared;
-  Eigen::VectorXd values = BestRung(problem, pieces, shared, options.jobs);
+  Eigen::VectorXd values = BestRung(problem, Spread(pieces), shared, options.jobs);
   // Pieces that fail there tell nothing yet; two rounds let them come back.
   for (int round = 0; round < 2 && !Stopped(options); ++round) {
     const std::vector<double> costs = CostsAt(problem, pieces, values, options.jobs);
@@ -111,6 +123,7 @@ Eigen::VectorXd ShootApexes(const FitProblem& problem, const std::vector<TrialPr
     request.shared = values;
     request.hold_starts = true;
     request.max_iterations = 40;
+    request.function_tolerance = kBeginning;
     const SolveResult result = Solve(request);
     if (result.status == SolveStatus::kNoStart || result.status == SolveStatus::kFailed) break;
     values = result.shared;
@@ -147,7 +160,10 @@ SolveResult GrowHorizon(const FitProblem& problem, const std::vector<TrialProble
     SolveRequest request = RequestFor(problem, cut, options, start_number, "growing horizon");
     request.shared = result.shared;
     request.starts = result.starts;
-    if (fraction < 1.0) request.max_iterations = 30;
+    if (fraction < 1.0) {
+      request.max_iterations = 30;
+      request.function_tolerance = kBeginning;
+    }
     SolveResult next = Solve(request);
     if (next.status == SolveStatus::kInterrupted) return next;
     if (fraction == 1.0) return next;
