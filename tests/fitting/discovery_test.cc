@@ -312,6 +312,20 @@ TEST(Discover, ACubicDamperWithItsExponentAndTheCurveFreeOfTheFormula) {
   EXPECT_GE(told, 3);
 }
 
+// A corner in time is no part of a reading, so there are no hats over it.
+TEST(Discover, AReadingThatDriftsIsFoundWithoutACurve) {
+  const Discovery d =
+      Discover(HopsWith("reading_x", "v * t",
+                        "  v: {unit: m/s, null: 0, lower: -10, upper: 10, typical: 0.05}\n"),
+               LargeDeflection());
+  ASSERT_EQ(d.verdict, DiscoveryVerdict::kFound) << d.reason;
+  const FoundTerm& found = d.found.front();
+  EXPECT_EQ(found.source.acts_as, "reading_x");
+  EXPECT_EQ(found.source.formula, "c * t");
+  ExpectValue(found, 0, "c", 0.05);
+  EXPECT_FALSE(found.free_curve);
+}
+
 // Causes that only stand in give their place to the formula.
 TEST(Discover, BesideADiagnosisAndInPlaceOfItsCauses) {
   const Dataset dataset = HopsWith("body_force_x", "-k * max(x - x_end, 0)", kCable);
