@@ -79,8 +79,7 @@ TEST(Stability, TheFittedPartIsTakenOutOfEachResample) {
     EXPECT_LT(share, 0.05);
 }
 
-// ---- the library
-// ---------------------------------------------------------------------------------
+// ---- the library -------------------------------------------------------------------------------
 
 Dataset HopDataset() { return GenerateDataset(HopScenario(2), {.seed = 2}).dataset; }
 
@@ -180,8 +179,7 @@ TEST(TermLibrary, AFreeExponentBeginsAtTheTerm) {
   }
 }
 
-// ---- the whole way
-// ---------------------------------------------------------------------------------
+// ---- the whole way -----------------------------------------------------------------------------
 
 // Balls thrown up from 2 m and falling 25 m, with this drag.
 Dataset Balls(double quadratic, std::uint64_t seed) {
