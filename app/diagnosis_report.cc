@@ -307,8 +307,8 @@ std::string ForceLines(const FreeForces& free_forces, bool colours) {
 }
 
 // What no cause of the list explains may have a formula.
-std::string FormulaLine(const DiagnosisRun& run, bool colours) {
-  if (run.diagnosis.verdict != Verdict::kUnexplained || run.formula_sought) return "";
+std::string FormulaLine(const Diagnosis& d, bool formula_sought, bool colours) {
+  if (d.verdict != Verdict::kUnexplained || formula_sought) return "";
   return Labelled("a formula", "hoplab discover looks for one: diagnose --discover does it at once",
                   colours);
 }
@@ -322,7 +322,8 @@ std::string NoVerdict(const Diagnosis& d, const std::string& failure, bool colou
 
 }  // namespace
 
-std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, bool colours) {
+std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, bool formula_sought,
+                            bool colours) {
   const Diagnosis& d = run.diagnosis;
   std::string text = Styled(Printable(dataset.name, 100), Emphasis::kBold, colours);
   if (!dataset.title.empty()) text += "  " + Printable(dataset.title, 100);
@@ -350,7 +351,7 @@ std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, boo
     text += Labelled("test error", TestErrorLine(d), colours);
   }
   if (d.free_forces) text += ForceLines(*d.free_forces, colours);
-  text += FormulaLine(run, colours);
+  text += FormulaLine(d, formula_sought, colours);
   text += ExclusionLines(d, colours);
   if (d.experiment) text += Labelled("next trial", ExperimentLine(d), colours);
   for (const std::string& note : d.notes) text += Labelled("note", note, colours);

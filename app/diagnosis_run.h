@@ -11,7 +11,6 @@ namespace hoplab {
 struct DiagnosisRun {
   Diagnosis diagnosis;
   EnergyLedger energy;
-  bool formula_sought = false;  // beside it, by the caller
 
   /// Why there is no verdict; empty if there is one.
   std::string Failure() const;

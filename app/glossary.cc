@@ -189,7 +189,8 @@ constexpr std::array kWords = {
                   "before gains on train trials."},
     GlossaryEntry{"main-cause", "main",
                   "A cause that explains at least 2 % of the misfit, or without which a held-out "
-                  "error is a tenth larger, and which the held-out trials confirm.",
+                  "error is a tenth larger, and which the held-out trials confirm: by a clear gain "
+                  "or, of a cause of 2 %, by an error that is a quarter larger without it.",
                   "Act on these. The other causes of an extension are small corrections the data "
                   "also want; they may stand for details of the model."},
     GlossaryEntry{"misfit", "",

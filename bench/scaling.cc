@@ -30,8 +30,8 @@ struct Cost {
   double modulus = 0.0;  // Pa, to see that the work was done
 };
 
-// A dataset of so many trials in a folder of its own.
-fs::path WriteCopies(int trials, const fs::path& scratch) {
+// A dataset of so many trials in `folder`.
+void WriteCopies(int trials, const fs::path& folder) {
   const Dataset once = ReadDataset(HOPLAB_SOURCE_DIR "/datasets/rig-drops");
   Dataset all = once;
   for (int copy = 1; static_cast<int>(all.trials.size()) < trials; ++copy) {
@@ -40,9 +40,7 @@ fs::path WriteCopies(int trials, const fs::path& scratch) {
       all.trials.push_back(std::move(t));
     }
   }
-  const fs::path folder = scratch / ("trials-" + std::to_string(trials));
   WriteDataset(all, folder, {});
-  return folder;
 }
 
 double ModulusIn(const fs::path& run) {
@@ -123,7 +121,7 @@ int Main(int argc, char** argv) {
     std::vector<Cost> costs;
     for (const int n : trials) {
       const fs::path dataset = scratch / ("trials-" + std::to_string(n));
-      if (!fs::exists(dataset)) WriteCopies(n, scratch);
+      if (!fs::exists(dataset)) WriteCopies(n, dataset);
       const std::optional<Cost> cost =
           Measured(what, dataset, law, scratch / (what + "-" + std::to_string(n)));
       if (!cost) {

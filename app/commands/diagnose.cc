@@ -82,9 +82,8 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
   Progress progress(console, settings.quiet);
   options.fit.stop = interrupt.flag();
   ShowProgress(options, progress);
-  DiagnosisRun run = RunDiagnosis(dataset, options);
+  const DiagnosisRun run = RunDiagnosis(dataset, options);
   std::optional<Discovery> discovery;
-  run.formula_sought = settings.discover;
   if (settings.discover && WantsFormula(run)) discovery = DiscoverBeside(run.diagnosis, options);
   progress.Clear();
 
@@ -105,7 +104,7 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
   if (settings.json) {
     console.out << TextOf(record);
   } else {
-    console.out << DiagnosisReport(dataset, run, console.out_colours);
+    console.out << DiagnosisReport(dataset, run, settings.discover, console.out_colours);
     if (discovery) console.out << '\n' << DiscoveryReport(*discovery, console.out_colours) << '\n';
     if (settings.discover && !discovery && run.Failure().empty())
       console.out << "\n  no formula is needed beside what was named\n";

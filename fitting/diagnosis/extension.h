@@ -51,8 +51,8 @@ struct RefitSettings {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Fits `base` with `added` candidates, from the base's values and the added ones' `sizes` (own
-/// units; NaN: their null). A start that cannot be simulated is moved towards null.
+/// Fits `base` with `added` candidates, from the base's values and the added ones' `sizes` off
+/// their null (own units; NaN: none). A start that cannot be simulated is moved towards null.
 Extension Refit(const Extension& base, std::span<const Candidate> added,
                 const Eigen::VectorXd& sizes, const RefitSettings& settings);
 

@@ -16,11 +16,17 @@ double ErrorGrowsBy(const std::vector<double>& without, const std::vector<double
     most = std::max(most, without[c] / with[c]);
   return most;
 }
-// What an engineer would see; and what he needs no interval for, where the noise of a model that
-// lacks the cause is so large that likelihoods tell little.
-constexpr double kSeen = 1.1, kPlain = 1.25;
 
 }  // namespace
+
+bool IsMainCause(double share, double error_grows, const HeldOutGain& gain, double material) {
+  // What an engineer would see; and what he needs no interval for, where the noise of a model that
+  // lacks the cause is so large that likelihoods tell little.
+  constexpr double kSeen = 1.1, kPlain = 1.25;
+  const bool measured = gain.ci95.has_value(), explains = share >= material;
+  const bool confirmed = !measured || gain.IsClaim() || (explains && error_grows > kPlain);
+  return (explains || error_grows > kSeen) && confirmed;
+}
 
 bool CauseReport::Varies() const {
   constexpr double kCertain = 0.01;
@@ -51,11 +57,9 @@ std::vector<CauseReport> TakeApart(const Naming& naming, const SharesRequest& re
     const HeldOutErrors errors = MeasureHeldOut(without, 1, /*test_only=*/true);
     if (!errors.test.rmse.empty()) cause.rmse_without = errors.test.rmse;
     cause.gain = CompareHeldOut(without, errors, *request.after, request.seed, nullptr);
-    const bool measured = cause.gain.ci95.has_value();
-    const double grows = ErrorGrowsBy(cause.rmse_without, request.after->test.rmse);
-    const bool explains = cause.share >= request.material;
-    const bool confirmed = !measured || cause.gain.IsClaim() || (explains && grows > kPlain);
-    cause.main = (explains || grows > kSeen) && confirmed;
+    cause.main =
+        IsMainCause(cause.share, ErrorGrowsBy(cause.rmse_without, request.after->test.rmse),
+                    cause.gain, request.material);
   });
   std::stable_sort(causes.begin(), causes.end(),
                    [](const CauseReport& a, const CauseReport& b) { return a.share > b.share; });

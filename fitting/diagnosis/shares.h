@@ -21,9 +21,7 @@ struct CauseReport {
   /// Rise of the squared misfit without it over the fall from the plain model to the extension;
   /// shares of causes that overlap do not add to one.
   double share = 0.0;
-  /// It explains a material share of the misfit, or the held-out error is a tenth larger without
-  /// it; and held-out trials confirm it.
-  bool main = false;
+  bool main = false;                 // IsMainCause
   std::vector<double> rmse_without;  // held-out, per channel; NaN where not computed
   HeldOutGain gain;                  // held-out, of the extension over the model without it
   /// One a parameter: whether trials agree on its size.
@@ -34,6 +32,14 @@ struct CauseReport {
 
 /// Share of the misfit below which a cause, or what is left, is of no consequence.
 inline constexpr double kMaterial = 0.02;
+
+/// Whether a cause is a main one. It explains a `material` share of the misfit, or some held-out
+/// error is more than a tenth larger without it; and held-out trials confirm it: its gain may be
+/// claimed, or it explains a material share and some held-out error is more than a quarter larger
+/// without it. Where no gain could be measured nothing need confirm it. `error_grows`: the largest
+/// of the held-out errors without it over those with it.
+bool IsMainCause(double share, double error_grows, const HeldOutGain& gain,
+                 double material = kMaterial);
 
 /// What a sharing out is asked with.
 struct SharesRequest {

@@ -10,6 +10,7 @@
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/null_fit.h"
 #include "fitting/discovery/free_curve.h"
+#include "fitting/discovery/freed.h"
 #include "fitting/discovery/promising.h"
 #include "fitting/discovery/stability.h"
 
@@ -120,7 +121,7 @@ class Search {
   // The term with the shape that fits best, from the one it has; itself where that cannot be told.
   Term Shaped(const Term& term, double size) const {
     const Candidate freed(&FormulaEffect(WithFreeShape(term)));
-    Eigen::VectorXd sizes = NullValues(std::span(&freed, 1));
+    Eigen::VectorXd sizes = Eigen::VectorXd::Zero(freed.parameter_count());
     sizes[0] = size;
     Extension base = out_.base.plain;
     base.cost = std::numeric_limits<double>::infinity();
@@ -224,25 +225,11 @@ class Search {
     for (std::size_t m = 0; m < share.size(); ++m) out_.found[m].selected_in = share[m];
   }
 
-  // The best model with one term replaced by a freer one, from these values of it; not usable
-  // where it could not be fitted.
-  Extension Freed(std::size_t m, const Candidate& freed, const Eigen::VectorXd& sizes) const {
-    const Extension& best = out_.naming.best;
-    const RefitSettings settings = SettingsOf(options_, *train_);
-    Extension rest = out_.base.plain;
-    if (best.members.size() > 1)
-      rest = RefitWithout(best, static_cast<int>(m), out_.base.plain.problem, settings);
-    else
-      rest.problem.noise = best.problem.noise;
-    // The freer term is the term itself where it begins: so does all else begin at the best.
-    int place = best.problem.shared_count() - best.parameter_count();
-    for (std::size_t k = 0; k < m; ++k) place += best.members[k].parameter_count();
-    const Eigen::Index after = best.shared.size() - place - best.members[m].parameter_count();
-    rest.shared.head(place) = best.shared.head(place);
-    rest.shared.tail(after) = best.shared.tail(after);
-    rest.starts = best.starts;
-    rest.cost = std::numeric_limits<double>::infinity();
-    return Refit(rest, std::span(&freed, 1), sizes, settings);
+  // The best model with one term replaced by a freer one, which with the coefficient `c` is the
+  // term.
+  Extension WithFreed(std::size_t m, const Candidate& freed, double c) const {
+    return Freed(out_.naming.best, m, freed, c, out_.base.plain.problem,
+                 SettingsOf(options_, *train_));
   }
   Uncertainty UncertaintyOf(const Extension& with) const {
     return AssessUncertainty(with.problem, *train_, with.shared, with.starts, options_.fit.loss,
@@ -254,9 +241,7 @@ class Search {
     if (Stopped()) return;
     FoundTerm& found = out_.found[m];
     const Candidate freed(&FormulaEffect(WithFreeShape(found.term)));
-    Eigen::VectorXd sizes = NullValues(std::span(&freed, 1));
-    sizes[0] = found.values.front().value;
-    const Extension with = Freed(m, freed, sizes);
+    const Extension with = WithFreed(m, freed, found.values.front().value);
     if (!with.ok()) return;
     const Uncertainty u = UncertaintyOf(with);
     FormulaSource source = found.source;
@@ -278,9 +263,8 @@ class Search {
     const Extension& best = out_.naming.best;
     const Candidate freed(&FormulaEffect(WithFreeExponent(found.term)));
     const TermPower& power = *found.term.power;
-    Eigen::VectorXd sizes = NullValues(std::span(&freed, 1));
-    sizes[0] = found.values.front().value * std::pow(power.scale, power.exponent);
-    const Extension with = Freed(m, freed, sizes);
+    const Extension with =
+        WithFreed(m, freed, found.values.front().value * std::pow(power.scale, power.exponent));
     if (!with.ok()) return;
     const Uncertainty u = UncertaintyOf(with);
     FreedExponent exponent;

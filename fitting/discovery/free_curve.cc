@@ -21,6 +21,11 @@ std::string PhaseOf(const Formula& formula) {
 
 bool FollowsAFrequency(const Term& term) { return term.shape && term.variables.front() == "t"; }
 
+// A reading is no part of the flow: nothing would stop at the corners of hats in time.
+bool IsReadOverTime(const Effect& effect, const VariableInfo& v) {
+  return effect.info.kind == EffectKind::kObservation && v.variable == FormulaVariable::kTime;
+}
+
 // One hat: 1 at its centre, 0 from the neighbours' centres on.
 const Effect& Hat(const Term& term, const PlaceInfo& place, const VariableInfo& v, double centre,
                   double width, int number) {
@@ -110,7 +115,7 @@ std::optional<ReconstructedForce> FreeCurve(const Term& term, const Extension& b
   if (term.variables.size() != 1 || FollowsAFrequency(term)) return std::nullopt;
   const PlaceInfo& place = InfoOf(term.effect->formula->place());
   const VariableInfo* v = FindVariable(place, term.variables.front());
-  if (v == nullptr) return std::nullopt;
+  if (v == nullptr || IsReadOverTime(*term.effect, *v)) return std::nullopt;
   const Extent over = DrawnOver(*v, scales);
   const double width = (over.most - over.least) / (kHats - 1);
   ProbeBasis basis;

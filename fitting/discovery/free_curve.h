@@ -24,7 +24,8 @@ double FormulaAt(const Effect& effect, std::string_view variable, double at, dou
 /// What acts at a term's place over its variable, free of its formula: the formula as fitted, and
 /// hats of even width, in the phase the term has, fitted to what `best` leaves; the term's
 /// coefficient stays where it is, all other values are free. Nothing for a term of several
-/// variables, or of a frequency, which hats cannot follow.
+/// variables, of a frequency, which hats cannot follow, or of a reading over time, which may have
+/// no corners.
 std::optional<ReconstructedForce> FreeCurve(const Term& term, const Extension& best,
                                             const std::vector<TrialProblem>& train,
                                             const NaturalScales& scales, int jobs,

@@ -144,6 +144,21 @@ TEST_F(DiagnoseCli, WithoutTheTrueCauseNoWrongOneIsNamed) {
   EXPECT_TRUE(std::filesystem::exists(temp_.path() / "run" / "forces.csv"));
 }
 
+TEST_F(DiagnoseCli, PointsToAFormulaUnlessItLooksForOne) {
+  GenerateWindy();
+  const std::vector<std::string> diagnose = {"diagnose", "windy", "--effects", "touchdown_loss"};
+  const std::string pointer = "hoplab discover looks for one";
+  const ProcessResult plain = Hoplab(diagnose);
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_NE(plain.out.find(pointer), std::string::npos) << plain.out;
+  std::vector<std::string> with = diagnose;
+  with.emplace_back("--discover");
+  const ProcessResult sought = Hoplab(with);
+  ASSERT_EQ(sought.exit_code, 0) << sought.err;
+  EXPECT_EQ(sought.out.find(pointer), std::string::npos) << sought.out;
+  EXPECT_NE(sought.out.find("A formula was found"), std::string::npos) << sought.out;
+}
+
 TEST_F(DiagnoseCli, TheTablesBehindThePlotsAreThere) {
   GenerateWindy();
   ASSERT_EQ(Hoplab({"diagnose", "windy", "--effects", kFew, "--out", "run"}).exit_code, 0);

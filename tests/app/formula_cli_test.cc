@@ -70,5 +70,18 @@ TEST_F(FormulaCli, FitTakesAFileAndSaysItsFormula) {
   EXPECT_TRUE(fitted);
 }
 
+// Of a recording, whose errors are of many kinds.
+TEST_F(FormulaCli, DiscoverEndsWithAFormulaForTheRig) {
+  const ProcessResult run =
+      Hoplab({"discover", ShippedDataset("rig-drops"), "--quiet", "--out", "run"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto record = ReadRecord(temp_.path() / "run");
+  EXPECT_EQ(record["verdict"], "found");
+  ASSERT_FALSE(record["discovered"].empty());
+  // The joints of its leg are viscous.
+  EXPECT_EQ(record["discovered"][0]["acts_as"], "chord_force");
+  EXPECT_NE(record["discovered"][0]["formula"].get<std::string>().find("rate"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hoplab::testing

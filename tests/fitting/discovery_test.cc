@@ -79,8 +79,7 @@ TEST(Stability, TheFittedPartIsTakenOutOfEachResample) {
     EXPECT_LT(share, 0.05);
 }
 
-// ---- the library
-// ---------------------------------------------------------------------------------
+// ---- the library -------------------------------------------------------------------------------
 
 Dataset HopDataset() { return GenerateDataset(HopScenario(2), {.seed = 2}).dataset; }
 
@@ -180,8 +179,7 @@ TEST(TermLibrary, AFreeExponentBeginsAtTheTerm) {
   }
 }
 
-// ---- the whole way
-// ---------------------------------------------------------------------------------
+// ---- the whole way -----------------------------------------------------------------------------
 
 // Balls thrown up from 2 m and falling 25 m, with this drag.
 Dataset Balls(double quadratic, std::uint64_t seed) {
@@ -225,10 +223,11 @@ TEST(Discover, DragOfABallWithItsExponent) {
   EXPECT_EQ(again.info.parameters[0].typical, found.values.front().value);
 }
 
-// Hops with an effect that no catalogue has, at its typical size.
+// Hops with an effect that no catalogue has, at its typical size, and this noise.
 Dataset HopsWith(const std::string& acts_as, const std::string& formula,
-                 const std::string& parameters) {
+                 const std::string& parameters, double sigma_m = 0.001) {
   Scenario s = HopScenario(2);
+  for (ChannelSpec& channel : s.dataset->channels) channel.sigma = sigma_m;
   s.law = "large_deflection";
   EffectSpec spec;
   spec.formula = ParseEffectFile("format: hoplab-effect/1\nname: planted\nacts_as: " + acts_as +
@@ -255,6 +254,22 @@ void ExpectValue(const FoundTerm& found, std::size_t i, const std::string& name,
   EXPECT_LT(half, 0.25 * std::abs(truth)) << name << " is not determined";
 }
 
+// What acts free of its formula is told at three points at least to a third of `greatest`, at two
+// for certain not nothing, and wherever it is told it is the truth.
+template <class Force>
+void ExpectFreeCurve(const FoundTerm& found, double greatest, const Force& truth) {
+  ASSERT_TRUE(found.free_curve);
+  int told = 0, seen = 0;
+  for (const ForcePoint& p : found.free_curve->points) {
+    if (!std::isfinite(p.band95)) continue;
+    told += p.band95 < greatest / 3.0;
+    seen += std::abs(p.value) > p.band95;
+    EXPECT_NEAR(p.value, truth(p.at), 2.0 * p.band95) << p.at;
+  }
+  EXPECT_GE(told, 3);
+  EXPECT_GE(seen, 2);
+}
+
 const char* const kCable =
     "  k: {unit: N/m, null: 0, lower: 0, upper: 200, typical: 0.6}\n"
     "  x_end: {unit: m, value: 0.4, lower: -10, upper: 10}\n";
@@ -269,6 +284,8 @@ TEST(Discover, ACableWithTheEndOfItsSlack) {
   EXPECT_EQ(found.source.formula, "c * max(x - limit, 0)");
   ExpectValue(found, 0, "c", -0.6);
   ExpectValue(found, 1, "limit", 0.4);
+  // The bodies go as far as 1.1 m.
+  ExpectFreeCurve(found, 0.6 * (1.1 - 0.4), [](double x) { return -0.6 * std::max(x - 0.4, 0.0); });
   // What is written has them both.
   EXPECT_EQ(found.source.parameters[0].typical, found.values[0].value);
   EXPECT_EQ(found.source.parameters[1].value, found.values[1].value);
@@ -291,7 +308,8 @@ TEST(Discover, AnImbalanceWithItsFrequency) {
 TEST(Discover, ACubicDamperWithItsExponentAndTheCurveFreeOfTheFormula) {
   const Discovery d =
       Discover(HopsWith("chord_force", "-c * rate^3",
-                        "  c: {unit: N s^3/m^3, null: 0, lower: 0, upper: 100, typical: 2}\n"),
+                        "  c: {unit: N s^3/m^3, null: 0, lower: 0, upper: 100, typical: 2}\n",
+                        /*sigma_m=*/0.0002),
                LargeDeflection());
   ASSERT_EQ(d.verdict, DiscoveryVerdict::kFound) << d.reason;
   const FoundTerm& found = d.found.front();
@@ -301,15 +319,25 @@ TEST(Discover, ACubicDamperWithItsExponentAndTheCurveFreeOfTheFormula) {
   ASSERT_TRUE(found.exponent->value.ci95) << found.exponent->value.value;
   EXPECT_LT(found.exponent->value.ci95->first, 3.0);
   EXPECT_GT(found.exponent->value.ci95->second, 3.0);
+  EXPECT_LT(found.exponent->value.ci95->second - found.exponent->value.ci95->first, 1.0)
+      << "square, cubic and fourth power are to be told apart";
   EXPECT_GE(found.exponent->gain, -1e-3);  // it begins at the whole number
-  ASSERT_TRUE(found.free_curve);
-  int told = 0;
-  for (const ForcePoint& p : found.free_curve->points) {
-    if (!std::isfinite(p.band95)) continue;
-    ++told;
-    EXPECT_NEAR(p.value, -2.0 * p.at * p.at * p.at, 2.0 * p.band95) << p.at;
-  }
-  EXPECT_GE(told, 3);
+  // The leg shortens and lengthens with up to 2 m/s.
+  ExpectFreeCurve(found, 2.0 * 8.0, [](double rate) { return -2.0 * rate * rate * rate; });
+}
+
+// A corner in time is no part of a reading, so there are no hats over it.
+TEST(Discover, AReadingThatDriftsIsFoundWithoutACurve) {
+  const Discovery d =
+      Discover(HopsWith("reading_x", "v * t",
+                        "  v: {unit: m/s, null: 0, lower: -10, upper: 10, typical: 0.05}\n"),
+               LargeDeflection());
+  ASSERT_EQ(d.verdict, DiscoveryVerdict::kFound) << d.reason;
+  const FoundTerm& found = d.found.front();
+  EXPECT_EQ(found.source.acts_as, "reading_x");
+  EXPECT_EQ(found.source.formula, "c * t");
+  ExpectValue(found, 0, "c", 0.05);
+  EXPECT_FALSE(found.free_curve);
 }
 
 // Causes that only stand in give their place to the formula.

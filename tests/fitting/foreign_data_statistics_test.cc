@@ -57,8 +57,7 @@ std::vector<PracticeSet> PracticeSets() {
   return sets;
 }
 
-// ---- every record, every law
-// ---------------------------------------------------------------------
+// ---- every record, every law -------------------------------------------------------------------
 
 std::vector<fs::path> AllRecords() {
   std::vector<fs::path> found;
@@ -118,8 +117,7 @@ TEST(ForeignData, IsFittedAndDiagnosedUnderEveryLaw) {
   EXPECT_EQ(refused, 0);
 }
 
-// ---- the practice sets' truths
-// -------------------------------------------------------------------
+// ---- the practice sets' truths -----------------------------------------------------------------
 
 struct Found {
   double error = 0.0;  // of E with the true causes given, relative
@@ -182,8 +180,7 @@ TEST(ForeignData, ThePracticeSetsTruthsAreFound) {
   EXPECT_GE(adequate, none - 1);
 }
 
-// ---- far starts
-// ----------------------------------------------------------------------------------
+// ---- far starts --------------------------------------------------------------------------------
 
 struct Landing {
   int reached = 0, told = 0, wrong = 0;

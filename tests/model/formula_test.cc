@@ -193,8 +193,7 @@ TEST_P(BadFormula, IsToldWithPlaceRuleAndRemedy) {
 INSTANTIATE_TEST_SUITE_P(Kinds, BadFormula, ::testing::ValuesIn(BadFormulas()),
                          [](const auto& info) { return info.param.what; });
 
-// ---- anything at all
-// -----------------------------------------------------------------------------
+// ---- anything at all ---------------------------------------------------------------------------
 
 // Texts made of the grammar's own pieces and of noise are either taken, and then evaluate without
 // reading what is not theirs, or refused with a place inside the text.

@@ -1,0 +1,61 @@
+#include "fitting/diagnosis/shares.h"
+
+#include <gtest/gtest.h>
+
+namespace hoplab {
+namespace {
+
+enum class Gain { kNone, kUnclear, kClear };  // on held-out trials: not measured, about zero, above
+
+HeldOutGain GainOf(Gain gain) {
+  HeldOutGain g;
+  if (gain == Gain::kUnclear) g.ci95 = {-0.02, 0.04};
+  if (gain == Gain::kClear) g.ci95 = {0.01, 0.04};
+  return g;
+}
+
+struct MainCauseCase {
+  double share, error_grows;
+  Gain gain;
+  bool is_main;
+};
+
+TEST(IsMainCause, AtBothSidesOfEachBound) {
+  const MainCauseCase cases[] = {
+      // Confirmed by its gain: 2 % of the misfit, or an error a tenth larger.
+      {0.020, 1.00, Gain::kClear, true},
+      {0.019, 1.00, Gain::kClear, false},
+      {0.000, 1.11, Gain::kClear, true},
+      {0.000, 1.10, Gain::kClear, false},
+      // Confirmed by an error a quarter larger, if it explains 2 %.
+      {0.020, 1.26, Gain::kUnclear, true},
+      {0.020, 1.25, Gain::kUnclear, false},
+      {0.019, 1.26, Gain::kUnclear, false},
+      {0.019, 3.00, Gain::kUnclear, false},
+      {0.900, 1.25, Gain::kUnclear, false},
+      // Nothing could be measured that might confirm it.
+      {0.020, 1.00, Gain::kNone, true},
+      {0.019, 1.00, Gain::kNone, false},
+      {0.000, 1.11, Gain::kNone, true},
+      {0.000, 1.10, Gain::kNone, false},
+  };
+  for (const MainCauseCase& c : cases)
+    EXPECT_EQ(IsMainCause(c.share, c.error_grows, GainOf(c.gain)), c.is_main)
+        << c.share << ", " << c.error_grows << ", " << static_cast<int>(c.gain);
+}
+
+TEST(IsMainCause, TheMaterialShareIsWhatWasAskedFor) {
+  EXPECT_TRUE(IsMainCause(0.05, 1.0, GainOf(Gain::kClear), 0.05));
+  EXPECT_FALSE(IsMainCause(0.049, 1.0, GainOf(Gain::kClear), 0.05));
+  EXPECT_FALSE(IsMainCause(0.049, 1.3, GainOf(Gain::kUnclear), 0.05));
+}
+
+// An interval that touches zero claims nothing.
+TEST(IsMainCause, AGainMustBeAboveZero) {
+  HeldOutGain gain;
+  gain.ci95 = {0.0, 0.04};
+  EXPECT_FALSE(IsMainCause(0.5, 1.0, gain));
+}
+
+}  // namespace
+}  // namespace hoplab
