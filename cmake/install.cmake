@@ -15,7 +15,7 @@ install(DIRECTORY experiments/ DESTINATION ${share}/experiments COMPONENT runtim
 install(PROGRAMS experiments/sweep.slurm DESTINATION ${share}/experiments COMPONENT runtime)
 install(DIRECTORY datasets/ DESTINATION ${share}/datasets COMPONENT runtime
         FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN "*.json" PATTERN import EXCLUDE)
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
         COMPONENT runtime)
 # The plotting library is part of the program, and so is its licence.
 get_directory_property(plotly DIRECTORY web DEFINITION plotly)
