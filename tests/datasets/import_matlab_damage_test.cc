@@ -30,9 +30,6 @@ using testing::TableOf;
 using testing::WriteMatlab;
 using testing::WriteText;
 
-// Of damaged files the library speaks when the program ends, unless told before it is first used.
-[[maybe_unused]] const herr_t kQuiet = H5dont_atexit();
-
 class MatlabDamage : public ::testing::Test {
  protected:
   testing::TempFolder temp_;
@@ -143,24 +140,33 @@ TEST_F(MatlabDamage, BytesThatAreChangedOrCutNeitherCrashNorHang) {
   }
 }
 
-TEST_F(MatlabDamage, AFileOf73WithChangedBytesNeitherCrashesNorHangs) {
+// What the HDF5 library makes of damage to its own bytes is the library's; here the bytes of the
+// description change, which it only hands on.
+TEST_F(MatlabDamage, ADescriptionIn73WithChangedBytesNeitherCrashesNorHangs) {
   MatlabObjects objects;
-  const MatlabValue table = objects.Add(
+  const MatlabValue value = objects.Add(
       "table", TableOf({{"t", MatlabColumn({0, 1, 2})}, {"z", MatlabColumn({3, 2, 1})}}, {"s"}));
-  const auto file = WriteMatlab(file_, {{"T", table}}, objects, MatlabVersion::k73);
-  const std::string whole = testing::ReadText(file);
+  WriteMatlab(file_, {{"T", value}}, objects, MatlabVersion::k73);
+  const std::string whole = testing::ReadText(file_), description = objects.Description(false);
+  const std::size_t begin = whole.find(description);
+  ASSERT_NE(begin, std::string::npos);
   RandomStream random(12, 0);
+  int refused = 0;
   for (int i = 0; i < 300; ++i) {
     std::string bytes = whole;
-    for (int changes = 0; changes < 4; ++changes)
-      bytes[static_cast<std::size_t>(random.Uniform(512, static_cast<double>(bytes.size())))] =
-          static_cast<char>(static_cast<int>(random.Uniform(0, 256)));
-    WriteText(file, bytes);
+    bytes[begin +
+          static_cast<std::size_t>(random.Uniform(0, static_cast<double>(description.size())))] =
+        static_cast<char>(static_cast<int>(random.Uniform(0, 256)));
+    WriteText(file_, bytes);
     try {
-      ReadMat73Subsystem(file.string());
+      const MatSubsystem subsystem = ReadMat73Subsystem(file_.string());
+      Table table;
+      AddMatTable(MatObjects(subsystem), subsystem.references.at(0), &table);
     } catch (const InputError&) {
+      ++refused;
     }
   }
+  EXPECT_GT(refused, 30);
 }
 
 }  // namespace
