@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/input_error.h"
+#include "datasets/import/hdf5_handle.h"
 #include "datasets/import/number_block.h"
 #include "datasets/import/table.h"
 #include "datasets/text_file.h"
@@ -18,64 +19,11 @@ namespace fs = std::filesystem;
 constexpr std::size_t kWidestMatrix = 256;
 constexpr std::uint64_t kMostBytes = 1ull << 30;
 
-// An identifier of the library, closed at the end; negative: the call failed.
-class Handle {
- public:
-  using Close = herr_t (*)(hid_t);
-  Handle(hid_t id, Close close) : id_(id), close_(close) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  bool ok() const { return id_ >= 0; }
-  hid_t get() const { return id_; }
-
- private:
-  hid_t id_;
-  Close close_;
-};
-
-// The library prints its errors on standard error unless told not to.
-class Silence {
- public:
-  Silence() {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-  ~Silence() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-
- private:
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
-};
-
-// What the attribute `units` or `unit` of a dataset says; empty if it has none of fixed or variable
-// length text.
+// What the attribute `units` or `unit` of a dataset says; empty if it has none.
 std::string UnitAttribute(hid_t dataset) {
   for (const char* name : {"units", "unit", "Units", "Unit"}) {
-    if (H5Aexists(dataset, name) <= 0) continue;
-    const Handle attribute(H5Aopen(dataset, name, H5P_DEFAULT), H5Aclose);
-    const Handle type(H5Aget_type(attribute.get()), H5Tclose);
-    const Handle space(H5Aget_space(attribute.get()), H5Sclose);
-    if (!type.ok() || H5Tget_class(type.get()) != H5T_STRING ||
-        H5Sget_simple_extent_npoints(space.get()) != 1)
-      continue;
-    std::string text;
-    if (H5Tis_variable_str(type.get()) > 0) {
-      char* data = nullptr;
-      if (H5Aread(attribute.get(), type.get(), &data) >= 0 && data != nullptr) {
-        text = data;
-        H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, &data);
-      }
-    } else {
-      text.resize(H5Tget_size(type.get()));
-      if (H5Aread(attribute.get(), type.get(), text.data()) < 0) text.clear();
-      text.erase(std::min(text.find('\0'), text.size()));
-    }
-    return text;
+    const std::string text = Hdf5TextAttribute(dataset, name);
+    if (!text.empty()) return text;
   }
   return "";
 }
@@ -89,7 +37,7 @@ class Hdf5Reader {
     if (H5Fis_hdf5(file.c_str()) <= 0)
       throw InputError({table_.file, "", "is no HDF5 file", "Check the name, or say --format."});
     file_ = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    const Handle closing(file_, H5Fclose);
+    const Hdf5Handle closing(file_, H5Fclose);
     if (!closing.ok())
       throw InputError({table_.file, "", "cannot be opened as HDF5",
                         "The file is damaged, cut off or still being written: copy it again."});
@@ -115,11 +63,11 @@ class Hdf5Reader {
   }
 
   void AddDataset(const std::string& path) {
-    const Handle dataset(H5Oopen(file_, path.c_str(), H5P_DEFAULT), H5Oclose);
+    const Hdf5Handle dataset(H5Oopen(file_, path.c_str(), H5P_DEFAULT), H5Oclose);
     if (!dataset.ok()) return Skip(path, "it leads nowhere or is damaged");
     if (H5Iget_type(dataset.get()) != H5I_DATASET) return;
-    const Handle type(H5Dget_type(dataset.get()), H5Tclose);
-    const Handle space(H5Dget_space(dataset.get()), H5Sclose);
+    const Hdf5Handle type(H5Dget_type(dataset.get()), H5Tclose);
+    const Hdf5Handle space(H5Dget_space(dataset.get()), H5Sclose);
     if (!type.ok() || !space.ok()) Damaged(path);
     const int rank = H5Sget_simple_extent_ndims(space.get());
     hsize_t size[2] = {0, 1};
@@ -136,7 +84,7 @@ class Hdf5Reader {
       return AddNumbers(path, path, unit, dataset.get(), type.get(), size[0], size[1]);
     const int members = H5Tget_nmembers(type.get());
     for (int i = 0; rank == 1 && i < members; ++i) {
-      const Handle member(H5Tget_member_type(type.get(), static_cast<unsigned>(i)), H5Tclose);
+      const Hdf5Handle member(H5Tget_member_type(type.get(), static_cast<unsigned>(i)), H5Tclose);
       char* name = H5Tget_member_name(type.get(), static_cast<unsigned>(i));
       const std::string member_name = name == nullptr ? "" : name;
       H5free_memory(name);
@@ -179,8 +127,8 @@ class Hdf5Reader {
   void Add(const std::string& path, const std::string& name, const std::string& unit, hid_t dataset,
            hid_t memory, std::size_t rows, std::size_t columns) {
     std::vector<Number> numbers(rows * columns);
-    const Handle one_member(member_.empty() ? -1 : H5Tcreate(H5T_COMPOUND, sizeof(Number)),
-                            H5Tclose);
+    const Hdf5Handle one_member(member_.empty() ? -1 : H5Tcreate(H5T_COMPOUND, sizeof(Number)),
+                                H5Tclose);
     if (one_member.ok()) H5Tinsert(one_member.get(), member_.c_str(), 0, memory);
     const hid_t as = one_member.ok() ? one_member.get() : memory;
     if (H5Dread(dataset, as, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) < 0) Damaged(path);
@@ -209,7 +157,7 @@ class Hdf5Reader {
 }  // namespace
 
 Table ReadHdf5(const fs::path& file) {
-  const Silence silence;
+  const Hdf5Silence silence;
   return Hdf5Reader(file).Finish();
 }
 

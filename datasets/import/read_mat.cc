@@ -1,7 +1,7 @@
 // MATLAB's .mat by matio: versions 5 (-v6, -v7) and 7.3. Columns are numeric vectors, columns of
 // matrices, series of arrays of three dimensions and those in structs, named as in MATLAB: t,
 // log.t, log.pos(:,2), log.markers(1,3,:). A struct of Qualisys' names its markers and its frame
-// rate: hip.X, Time.
+// rate: hip.X, Time. Tables and timetables, which matio does not know, are read by mat_tables.cc.
 
 #include <matio.h>
 
@@ -15,6 +15,7 @@
 
 #include "base/input_error.h"
 #include "base/text.h"
+#include "datasets/import/mat_tables.h"
 #include "datasets/import/number_block.h"
 #include "datasets/import/table.h"
 #include "datasets/text_file.h"
@@ -37,9 +38,10 @@ struct FreeVariable {
 
 // matio fills what a file that was cut off lacks with zeros, so the lengths that a version 5 file
 // states for its variables are added up here: 128 bytes of header, then tags of type and length.
-// Returns how many variables there are.
+// Returns how many variables there are, without what holds the objects: matio may fail at that.
 std::size_t CountVariables(std::string_view bytes, bool swapped, const std::string& name) {
   constexpr std::size_t kHeader = 128, kTag = 8;
+  const std::size_t objects = Mat5ObjectsPlace(bytes, swapped);
   std::size_t at = kHeader, count = 0;
   while (at < bytes.size()) {
     std::array<unsigned char, 4> raw{};
@@ -51,16 +53,15 @@ std::size_t CountVariables(std::string_view bytes, bool swapped, const std::stri
       throw InputError({name, "size = " + std::to_string(bytes.size()) + " bytes",
                         "the variable at byte " + std::to_string(at) + " is cut off",
                         "The file was not written or copied to its end: copy or save it again."});
+    count += at != objects;
     at += kTag + length;
-    ++count;
   }
   return count;
 }
 
-// Throws unless the file is of version 5 or 7.3 and whole. Returns how many variables it has, 0 for
-// version 7.3.
-std::size_t CheckHeader(const fs::path& file) {
-  const std::string bytes = ReadFileBytes(file, kMostBytes);
+// The bytes of a file of version 5, nothing of one of version 7.3; throws for another one.
+std::string CheckedBytes(const fs::path& file, bool* swapped) {
+  std::string bytes = ReadFileBytes(file, kMostBytes);
   const std::string mark = bytes.size() >= 128 ? bytes.substr(124, 4) : "";
   const bool little = mark.size() == 4 && mark.substr(2) == "IM";
   const bool big = mark.size() == 4 && mark.substr(2) == "MI";
@@ -68,7 +69,8 @@ std::size_t CheckHeader(const fs::path& file) {
   if (version != 1 && version != 2)
     throw InputError({file.string(), "", "is no MAT-file of version 5, 7 or 7.3",
                       "In MATLAB or Octave: save('log.mat', '-v7', ...)."});
-  return version == 1 ? CountVariables(bytes, big, file.string()) : 0;
+  *swapped = big;
+  return version == 1 ? bytes : "";
 }
 
 class MatReader {
@@ -76,7 +78,11 @@ class MatReader {
   explicit MatReader(const fs::path& file) {
     table_.file = file.string();
     table_.format = "MAT-file";
-    const std::size_t stated = CheckHeader(file);
+    bool swapped = false;
+    const std::string bytes = CheckedBytes(file, &swapped);
+    const std::size_t stated = bytes.empty() ? 0 : CountVariables(bytes, swapped, table_.file);
+    objects_ = bytes.empty() ? ReadMat73Subsystem(table_.file)
+                             : ReadMat5Subsystem(bytes, swapped, table_.file);
     const std::unique_ptr<mat_t, CloseMat> mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY));
     if (!mat)
       throw InputError({table_.file, "", "cannot be read as a MAT-file",
@@ -86,11 +92,13 @@ class MatReader {
       const std::unique_ptr<matvar_t, FreeVariable> variable(Mat_VarReadNext(mat.get()));
       if (!variable) break;
       ++read;
-      if (variable->name != nullptr) Add(*variable, variable->name, 0);
+      // What has no name belongs to objects.
+      if (variable->name != nullptr && *variable->name != '\0') Add(*variable, variable->name, 0);
     }
     if (read < stated)
       throw InputError({table_.file, "variable " + std::to_string(read + 1), "cannot be read",
                         "The file is damaged: copy or save it again."});
+    AddObjects();
   }
 
   Table Finish() {
@@ -98,8 +106,8 @@ class MatReader {
     std::string value;
     for (const std::string& name : skipped_) value += (value.empty() ? "" : ", ") + name;
     throw InputError({table_.file, value, "has no numeric vector or array",
-                      "Save vectors, matrices or a struct of them; a table by s = table2struct(T, "
-                      "'ToScalar', true); save('log.mat', '-struct', 's')."});
+                      "Save vectors, matrices, a struct or a table of them; of a timeseries its "
+                      "Time and Data."});
   }
 
  private:
@@ -108,7 +116,30 @@ class MatReader {
     table_.notes.push_back(name + " is not read: " + why);
   }
 
+  // Tables, which matio does not read.
+  void AddObjects() {
+    std::optional<MatObjects> objects;
+    for (const MatReference& reference : objects_.references) {
+      if (!IsTable(reference.class_name)) {
+        Skip(reference.name, "an object of MATLAB's class " + reference.class_name);
+        continue;
+      }
+      if (!objects) objects.emplace(objects_);
+      const std::string why = AddMatTable(*objects, reference, &table_);
+      if (!why.empty()) Skip(reference.name, why);
+    }
+  }
+
+  bool IsObject(const std::string& name) const {
+    return std::any_of(objects_.references.begin(), objects_.references.end(),
+                       [&](const MatReference& r) { return r.name == name; });
+  }
+
   void Add(matvar_t& variable, const std::string& name, int depth) {
+    // AddObjects sees to objects; of those at the top matio does not know the names.
+    if (IsObject(name) || (variable.class_type == MAT_C_OPAQUE && !objects_.references.empty()))
+      return;
+    if (variable.class_type == MAT_C_OPAQUE) return Skip(name, "an object of a MATLAB class");
     if (variable.rank < 2 || variable.rank > 3 || variable.dims == nullptr)
       return Skip(name, "more than three dimensions");
     if (variable.class_type == MAT_C_STRUCT) return AddStruct(variable, name, depth);
@@ -137,9 +168,8 @@ class MatReader {
         return AddArray<std::uint64_t>(variable, name);
       case MAT_C_CHAR:
         return;  // a remark, no measurement
-      case MAT_C_OPAQUE:
       case MAT_C_OBJECT:
-        return Skip(name, "a MATLAB object such as a table or a timeseries");
+        return Skip(name, "an object of a MATLAB class");
       default:
         return Skip(name, "no numbers");
     }
@@ -295,6 +325,7 @@ class MatReader {
   }
 
   Table table_;
+  MatSubsystem objects_;
   std::vector<std::string> skipped_;
   std::size_t numbers_ = 0;
   bool qualisys_ = false;            // within a struct of Qualisys'

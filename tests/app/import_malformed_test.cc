@@ -7,6 +7,7 @@
 
 #include "tests/app/hoplab_process.h"
 #include "tests/datasets/import_samples.h"
+#include "tests/datasets/matlab_objects.h"
 
 namespace hoplab::testing {
 namespace {
@@ -70,6 +71,23 @@ void WriteWordsMat(const std::filesystem::path& file) {
     Mat_VarFree(variable);
   }
   Mat_Close(mat);
+}
+
+// A table of two rows that says it has `rows`. `region`: where its description says its second
+// region begins; 0: where it does.
+void WriteTableMat(const std::filesystem::path& file, double rows, unsigned region) {
+  MatlabObjects objects;
+  const MatlabValue table = objects.Add("table", {{"data", MatlabCells({MatlabColumn({3, 2})})},
+                                                  {"varnames", MatlabTexts({"z"})},
+                                                  {"nrows", MatlabNumber(rows)}});
+  std::string bytes = Level5Bytes({{"T", table}}, objects, false);
+  if (region != 0) {
+    // Version 4, four names, then the places of the regions.
+    const std::size_t at = bytes.find(std::string("\4\0\0\0\4\0\0\0", 8));
+    bytes[at + 12] = static_cast<char>(region & 0xFF);
+    bytes[at + 13] = static_cast<char>(region >> 8);
+  }
+  WriteText(file, bytes);
 }
 
 void WriteScalarHdf5(const std::filesystem::path& file) {
@@ -223,7 +241,18 @@ std::vector<Malformed> BinaryCases() {
        "log.mat",
        WriteWordsMat,
        mat_map,
-       {"log.mat: runs (no numbers); has no numeric vector or array", "table2struct"}},
+       {"log.mat: runs (no numbers); has no numeric vector or array", "a struct or a table"}},
+      {"MatTableCutOff",
+       "log.mat",
+       [](const auto& file) { WriteTableMat(file, 1, 0x200); },
+       mat_map,
+       {"log.mat: objects; have a region that lies outside their description",
+        "copy or save it again"}},
+      {"MatTableRows",
+       "log.mat",
+       [](const auto& file) { WriteTableMat(file, 5, 0); },
+       mat_map,
+       {"log.mat: T.z; has 2 rows; the table has 5", "copy or save it again"}},
       {"MatNoColumn",
        "log.mat",
        WriteMat,
