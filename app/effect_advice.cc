@@ -158,6 +158,7 @@ constexpr std::array kAdvice = {
     EffectAdvice{"stiffness_drift",
                  "Repeat the first trial at the end of the day, or measure the leg's temperature.",
                  ""},
+    EffectAdvice{"swinging_leg_mass", "Weigh a leg, from its clamp to its toe.", ""},
     EffectAdvice{"tip_rotation",
                  "Use the law elastica, large_deflection or consistent, which have it.", ""},
     EffectAdvice{"torque_bending",

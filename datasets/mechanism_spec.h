@@ -79,6 +79,7 @@ struct RobotSpec {
   double second_moment_m4 = 0;
   double material_damping_s = 0;  // retardation time
   double clamp_m = 0;             // length of each leg that its hub holds rigid
+  double leg_mass_kg = 0;         // of each leg, beside the body's
   std::vector<RobotLegSpec> legs;
   bool operator==(const RobotSpec&) const = default;
 };

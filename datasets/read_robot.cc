@@ -36,12 +36,13 @@ void ReadMotor(const YamlCursor& motor, RobotSpec& robot) {
 
 void ReadLeg(const YamlCursor& leg, RobotSpec& robot) {
   leg.AllowOnly({"rest_radius_m", "E_Pa", "width_m", "thickness_m", "second_moment_m4",
-                 "material_damping_s", "clamp_m"});
+                 "material_damping_s", "clamp_m", "mass_kg"});
   robot.rest_radius_m = leg.RequiredNumber("rest_radius_m", Positive(100, "m"));
   robot.E_Pa = leg.RequiredNumber("E_Pa", kModulus);
   robot.material_damping_s = leg.RequiredNumber("material_damping_s", NonNegative(0.1, "s"));
   robot.clamp_m =
       leg.OptionalNumber("clamp_m", NonNegative(2 * robot.rest_radius_m, "m")).value_or(0);
+  robot.leg_mass_kg = leg.OptionalNumber("mass_kg", NonNegative(1e3, "kg")).value_or(0);
   if (leg.Optional("second_moment_m4")) {
     if (const auto strip = leg.Optional("width_m"))
       strip->FailAtKey("the section is given by second_moment_m4 already",

@@ -101,6 +101,7 @@ void AddRobot(const MechanismSpec& m, Fields* fields) {
   add("leg", "second_moment_m4", robot.second_moment_m4);
   add("leg", "material_damping_s", robot.material_damping_s);
   add("leg", "clamp_m", robot.clamp_m);
+  add("leg", "mass_kg", robot.leg_mass_kg);
   std::string legs = "[";
   for (const RobotLegSpec& leg : robot.legs) {
     if (legs.size() > 1) legs += ", ";

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "fitting/apex_segments.h"
+#include "fitting/growing_horizon.h"
 
 namespace hoplab {
 namespace {
@@ -132,46 +133,6 @@ Eigen::VectorXd ShootApexes(const FitProblem& problem, const std::vector<TrialPr
   return values;
 }
 
-// ---- growing horizon ------------------------------------------------------------------------
-
-// The trials cut to the first `fraction` of their time.
-std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
-                                        const std::vector<TrialProblem>& trials, double fraction) {
-  std::vector<TrialProblem> cut;
-  for (const TrialProblem& trial : trials) {
-    const double until = trial.row_times.back() * fraction;
-    int last = 1;
-    while (last < static_cast<int>(trial.row_times.size()) && trial.row_times[last] <= until)
-      ++last;
-    cut.push_back(CutTrial(problem, trial, 0, last));
-  }
-  return cut;
-}
-
-// First rows first, then more and more: each round starts where the last one ended.
-SolveResult GrowHorizon(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                        const Eigen::VectorXd& shared, const FitOptions& options,
-                        int start_number) {
-  SolveResult result;
-  result.shared = shared;
-  result.starts = StartsOf(trials);
-  for (double fraction : {0.12, 0.2, 0.3, 0.45, 0.65, 0.85, 1.0}) {
-    const std::vector<TrialProblem> cut = CutToFraction(problem, trials, fraction);
-    SolveRequest request = RequestFor(problem, cut, options, start_number, "growing horizon");
-    request.shared = result.shared;
-    request.starts = result.starts;
-    if (fraction < 1.0) {
-      request.max_iterations = 30;
-      request.function_tolerance = kBeginning;
-    }
-    SolveResult next = Solve(request);
-    if (next.status == SolveStatus::kInterrupted) return next;
-    if (fraction == 1.0) return next;
-    if (IsUsable(next.status)) result = std::move(next);
-  }
-  return result;
-}
-
 Eigen::VectorXd ScatteredStart(const FitProblem& problem, const Eigen::VectorXd& nominal,
                                std::uint64_t seed, int number) {
   RandomStream random(seed, static_cast<std::uint64_t>(number));
@@ -234,8 +195,16 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
   StartRecord record;
   record.from = shared;
   SolveResult result;
-  if (options.strategy == FitStrategy::kGrowingHorizon) {
-    result = GrowHorizon(problem, trials, shared, options, start_number);
+  // A robot's trace shows no apexes to shoot from.
+  const bool grows = options.strategy == FitStrategy::kGrowingHorizon ||
+                     (options.strategy == FitStrategy::kApexShooting && problem.law == Law::kRobot);
+  const auto grow = [&](const Eigen::VectorXd& from) {
+    SolveRequest request = RequestFor(problem, trials, options, start_number, "growing horizon");
+    request.shared = from;
+    return GrowHorizon(request);
+  };
+  if (grows) {
+    result = grow(shared);
   } else {
     SolveRequest request = RequestFor(problem, trials, options, start_number, "all rows");
     request.shared = options.strategy == FitStrategy::kRaw
@@ -246,7 +215,7 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
     if (options.strategy == FitStrategy::kApexShooting) record.hops = request.shared;
     const bool led_on = IsUsable(result.status) && result.complete;
     if (options.strategy == FitStrategy::kApexShooting && !led_on && !Stopped(options)) {
-      SolveResult grown = GrowHorizon(problem, trials, request.shared, options, start_number);
+      SolveResult grown = grow(request.shared);
       if (IsUsable(grown.status) && (grown.complete || !IsUsable(result.status)))
         result = std::move(grown);
     }

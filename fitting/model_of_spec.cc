@@ -30,6 +30,7 @@ RobotParameters<double> RobotOfSpec(const RobotSpec& spec,
   if (spec.torque_limit_N_m) p.torque_limit = *spec.torque_limit_N_m;
   p.damping = spec.material_damping_s;
   p.clamp = spec.clamp_m;
+  p.leg_mass = spec.leg_mass_kg;
   for (std::size_t i = 0; i < spec.legs.size(); ++i) {
     p.hip_x[i] = spec.legs[i].hip_x_m;
     p.hip_y[i] = spec.legs[i].hip_y_m;

@@ -431,6 +431,7 @@ class Builder {
     double scale = std::abs(nominal);
     if (id == ParameterId::kD) scale = std::max(scale, TypicalDamping(p, mechanism_));
     if (id == ParameterId::kLegDamping) scale = std::max(scale, 1e-4);
+    if (id == ParameterId::kLegMass) scale = std::max(scale, 0.01);
     if (id == ParameterId::kComX || id == ParameterId::kComY) scale = std::max(scale, 0.01);
     if (id == ParameterId::kRestitution || id == ParameterId::kTangentialLoss)
       scale = std::max(scale, 0.1);

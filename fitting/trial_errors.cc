@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "fitting/growing_horizon.h"
 
 namespace hoplab {
 namespace {
@@ -43,14 +44,15 @@ OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
   request.function_tolerance = 1e-10;  // of thousands: far below one standard error
   request.loss = options.loss;
   request.stop = options.stop;
-  SolveResult best = Solve(request);
+  const bool robot = problem.law == Law::kRobot;
+  SolveResult best = robot ? GrowHorizon(request) : Solve(request);
   const auto is_poor = [&trial](const SolveResult& r) {
     return !r.complete || r.cost > kPoorCost * static_cast<double>(trial.sample_count);
   };
   RandomStream random(options.seed, 0);
-  for (int k = 0; k < kMoreStarts && problem.law == Law::kRobot && is_poor(best); ++k) {
+  for (int k = 0; k < kMoreStarts && robot && is_poor(best); ++k) {
     request.starts = {DrawnStart(trial, random)};
-    SolveResult other = Solve(request);
+    SolveResult other = GrowHorizon(request);
     if (other.starts.empty()) continue;
     if ((other.complete && !best.complete) ||
         (other.complete == best.complete && other.cost < best.cost))

@@ -10,7 +10,7 @@ namespace {
 
 using enum ParameterId;
 
-constexpr std::array<ParameterInfo, 34> kParameters = {{
+constexpr std::array<ParameterInfo, 35> kParameters = {{
     {kE, "E", "Pa", 1e3, 1e13},
     {kG, "G", "Pa", 1e3, 1e13},
     {kD, "d", "N s/m", 0.0, 1e5},
@@ -45,6 +45,7 @@ constexpr std::array<ParameterInfo, 34> kParameters = {{
     {kE4, "E_4", "Pa", 1e3, 1e13},
     {kClockPeriod, "clock_period", "s", 1e-3, 1e3},
     {kClamp, "clamp", "m", 0.0, 1e2},
+    {kLegMass, "leg_mass", "kg", 0.0, 1e3},
 }};
 
 constexpr std::array kCLegParameters = {
@@ -55,9 +56,9 @@ constexpr std::array kToeParameters = {kToeMass, kKpPlace, kKdPlace};
 constexpr std::array kBallParameters = {kRestitution, kTangentialLoss, kM, kGravity, kRadius};
 
 constexpr std::array kRobotParameters = {
-    kE,    kLegDamping,   kE1,      kE2,           kE3,           kE4,
-    kM,    kGravity,      kR,       kSecondMoment, kPitchInertia, kComX,
-    kComY, kRotorInertia, kMotorKp, kMotorKd,      kFriction,     kClamp};
+    kE,       kLegDamping, kE1,           kE2,           kE3,     kE4,   kM,
+    kGravity, kR,          kSecondMoment, kPitchInertia, kComX,   kComY, kRotorInertia,
+    kMotorKp, kMotorKd,    kFriction,     kClamp,        kLegMass};
 
 constexpr std::array kCLegLaws = {Law::kElastica, Law::kLargeDeflection, Law::kConsistent,
                                   Law::kNoSlip, Law::kThesis};

@@ -146,7 +146,8 @@ enum class ParameterId {
   kE3,
   kE4,
   kClockPeriod,
-  kClamp
+  kClamp,
+  kLegMass
 };
 
 /// Name, unit and physical range of a parameter.
@@ -238,6 +239,8 @@ T& Field(Parameters<T>& p, ParameterId id) {
       return p.robot->period;
     case ParameterId::kClamp:
       return p.robot->clamp;
+    case ParameterId::kLegMass:
+      return p.robot->leg_mass;
   }
   return p.m;  // unreachable: every enumerator is listed above
 }

@@ -28,8 +28,9 @@ struct RobotParameters {
   T motor_kd{0.0};           // [N m s/rad]
   T motor_gain{1.0};         // what a motor gives of what it is told [-]
   T friction{std::numeric_limits<double>::infinity()};  // under the feet [-]
-  T clamp{0.0};    // length of every leg that its hub holds rigid [m]
-  T damping{0.0};  // retardation time of every leg's material [s]
+  T clamp{0.0};     // length of every leg that its hub holds rigid [m]
+  T damping{0.0};   // retardation time of every leg's material [s]
+  T leg_mass{0.0};  // of every leg, beside the body's [kg]
   std::array<T, kMaxLegs> E{T(1.0), T(1.0), T(1.0), T(1.0)};      // [Pa]
   std::array<T, kMaxLegs> hip_x{T(0.0), T(0.0), T(0.0), T(0.0)};  // in the body frame [m]
   std::array<T, kMaxLegs> hip_y{T(0.0), T(0.0), T(0.0), T(0.0)};
@@ -54,8 +55,8 @@ struct RobotParameters {
   template <class Self, class Do>
   static void Each(Self& p, const Do& act) {
     for (auto* v : {&p.pitch_inertia, &p.com_x, &p.com_y, &p.rotor_inertia, &p.motor_kp,
-                    &p.motor_kd, &p.motor_gain, &p.friction, &p.clamp, &p.damping, &p.period,
-                    &p.duty, &p.sweep, &p.offset})
+                    &p.motor_kd, &p.motor_gain, &p.friction, &p.clamp, &p.damping, &p.leg_mass,
+                    &p.period, &p.duty, &p.sweep, &p.offset})
       act(*v);
     for (auto* list :
          {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.E_scale, &p.extra_damping, &p.gain_of, &p.phase})
@@ -67,7 +68,7 @@ struct RobotParameters {
 template <class To, class From>
 RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   RobotParameters<To> to;
-  std::array<double, 14 + 8 * kMaxLegs> values{};
+  std::array<double, 15 + 8 * kMaxLegs> values{};
   std::size_t n = 0;
   RobotParameters<From>::Each(from, [&](const From& v) { values[n++] = Value(v); });
   n = 0;

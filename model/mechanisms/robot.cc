@@ -6,6 +6,7 @@
 
 #include "model/laws/leg_load.h"
 #include "model/mechanisms/inertia.h"
+#include "model/mechanisms/robot_dynamics_inl.h"
 #include "model/mechanisms/robot_events_inl.h"
 
 namespace hoplab {
@@ -16,7 +17,8 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
       robot_(*p_.robot),
       effects_(setup.effects),
       legs_(robot_.legs),
-      has_body_force_(effects_.HasBodyForce()) {
+      has_body_force_(effects_.HasBodyForce()),
+      has_leg_mass_(!IsZero(robot_.leg_mass)) {
   const Inertia<T> weight(p_);
   gravity_x_ = weight.gravity_x;
   gravity_y_ = weight.gravity_y;
@@ -108,46 +110,6 @@ T Robot<T>::Torque(int leg, const T& t, const T* z) const {
   if (robot_.control == MotorControl::kLocked) return T(0.0);
   const double side = leg_[leg].limit;
   return side == 0.0 ? Command(leg, t, z) : T(side * robot_.torque_limit);
-}
-
-// M72, M73.
-template <class T>
-void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
-  const Frame frame(z[Pitch()] - p_.slope);
-  const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
-  const T& turn = z[Pitch() + 1];
-  T force_x(0.0), force_y(0.0), moment(0.0);
-  const bool locked = robot_.control == MotorControl::kLocked;
-  for (int i = 0; i < legs_; ++i) {
-    const Leg& leg = leg_[i];
-    T on_hip(0.0);
-    if (IsDown(leg)) {
-      const Hip hip = HipOf(frame, i, z);
-      const Hip end = ClampOf(hip);
-      const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceAt(leg, i, end, z));
-      const T fx = load.fx + load.damped_x, fy = load.fy + load.damped_y;
-      on_hip = load.moment + load.damped_moment + (end.x - hip.x) * fy - (end.y - hip.y) * fx;
-      force_x += fx;
-      force_y += fy;
-      moment += (hip.x - com.x) * fy - (hip.y - com.y) * fx + on_hip;
-    }
-    dz[Angle(i)] = locked ? T(0.0) : z[Rate(i)];
-    dz[Rate(i)] = locked ? T(0.0) : T((gain_[i] * Torque(i, t, z) + on_hip) / robot_.rotor_inertia);
-    dz[Contact(i)] = T(0.0);
-  }
-  if (has_body_force_) {
-    const Vector2<T> push = effects_.BodyForce(
-        {t + p_.time_origin, z[kX], z[kY], z[kVx], z[kVy], ModeNow() != Mode::kFlight});
-    force_x += push.x;
-    force_y += push.y;
-  }
-  const T spin = moment / robot_.pitch_inertia;
-  dz[kX] = z[kVx];
-  dz[kY] = z[kVy];
-  dz[kVx] = force_x / p_.m + gravity_x_ + spin * com.y + turn * turn * com.x;
-  dz[kVy] = force_y / p_.m + gravity_y_ - spin * com.x + turn * turn * com.y;
-  dz[Pitch()] = turn;
-  dz[Pitch() + 1] = spin;
 }
 
 // ---- start, discrete state, knots ------------------------------------------------------------
@@ -301,27 +263,6 @@ Observation<T> Robot<T>::Observe(Mode mode, const T& t, const T* z) const {
   seen[Channel::kGroundForceY] = force_y;
   seen[Channel::kContact] = T(mode == Mode::kFlight ? 0.0 : 1.0);
   return seen;
-}
-
-template <class T>
-T Robot<T>::Energy(Mode, const T* z) const {
-  const Frame frame(z[Pitch()] - p_.slope);
-  const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
-  const T& turn = z[Pitch() + 1];
-  const T centre[4] = {z[kX] + com.x, z[kY] + com.y, z[kVx] - turn * com.y, z[kVy] + turn * com.x};
-  T energy = Inertia<T>(p_).Energy(centre) + 0.5 * robot_.pitch_inertia * turn * turn;
-  for (int i = 0; i < legs_; ++i) {
-    const Leg& leg = leg_[i];
-    if (IsDown(leg))
-      energy += leg.arc.StrainEnergy(FootOf(leg), PlaceOf(leg, i, HipOf(frame, i, z), z));
-    if (robot_.control == MotorControl::kLocked) continue;
-    energy += 0.5 * robot_.rotor_inertia * z[Rate(i)] * z[Rate(i)];
-    if (robot_.control == MotorControl::kHeld) {
-      const T off = robot_.angle[i] - z[Angle(i)];
-      energy += 0.5 * robot_.motor_kp * off * off;
-    }
-  }
-  return energy;
 }
 
 template class Robot<double>;

@@ -78,6 +78,11 @@ class Robot final : public HybridSystem<T> {
   Hip ClampOf(const Hip& hip) const;
   struct Frame;  // sine and cosine of the body's pitch over the ground
   Hip HipOf(const Frame& frame, int leg, const T* z) const;
+  struct Push;      // what legs and air do to body and motors
+  struct LegPlace;  // where the centre of mass of a leg is
+  LegPlace LegOf(const Frame& frame, int leg, const T* z) const;
+  Push PushOf(const Frame& frame, const T& t, const T* z) const;
+  void Accelerate(const Frame& frame, const Push& push, const T* z, T* dz) const;
   ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const;
   /// The same from the end of the clamp.
   ClampedPlace<T> PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const;
@@ -99,6 +104,7 @@ class Robot final : public HybridSystem<T> {
   T clamp_, cos_clamp_, sin_clamp_;  // the angle the clamp spans [rad]
   T gravity_x_, gravity_y_;
   bool has_body_force_;
+  bool has_leg_mass_;
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;
   std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]

@@ -103,6 +103,7 @@ TEST_F(RobotCli, RefusesWhatDoesNotGoTogether) {
   refused("touchdown_angle_deg=20", "said by its controller");
   refused("mechanism.motor.kp_N_m_per_rad=-1", "kp_N_m_per_rad");
   refused("initial.mode=stance", "contact_x_m");
+  refused("mechanism.leg.mass_kg=-0.01", "mass_kg");
   const ProcessResult gait = Hoplab({"gait", Shipped("experiments/robot-walk.yaml")});
   EXPECT_EQ(gait.exit_code, 65);
   EXPECT_NE(gait.err.find("has no return map of speed and height alone"), std::string::npos)

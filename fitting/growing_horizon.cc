@@ -1,0 +1,49 @@
+#include "fitting/growing_horizon.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "fitting/trial_evaluator.h"
+
+namespace hoplab {
+namespace {
+
+// Most iterations of a round that is not the last.
+constexpr int kIterations = 30;
+
+// The trials cut to the first `fraction` of their time.
+std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
+                                        const std::vector<TrialProblem>& trials, double fraction) {
+  std::vector<TrialProblem> cut;
+  for (const TrialProblem& trial : trials) {
+    const double until = trial.row_times.back() * fraction;
+    int last = 1;
+    while (last < static_cast<int>(trial.row_times.size()) && trial.row_times[last] <= until)
+      ++last;
+    cut.push_back(CutTrial(problem, trial, 0, last));
+  }
+  return cut;
+}
+
+}  // namespace
+
+SolveResult GrowHorizon(SolveRequest request) {
+  const std::vector<TrialProblem>& whole = *request.trials;
+  const int most = request.max_iterations;
+  for (double fraction : {0.12, 0.2, 0.3, 0.45, 0.65, 0.85}) {
+    const std::vector<TrialProblem> cut = CutToFraction(*request.problem, whole, fraction);
+    request.trials = &cut;
+    request.max_iterations = kIterations;
+    SolveResult next = Solve(request);
+    if (next.status == SolveStatus::kInterrupted) return next;
+    if (!IsUsable(next.status)) continue;
+    request.shared = std::move(next.shared);
+    request.starts = std::move(next.starts);
+  }
+  request.trials = &whole;
+  request.max_iterations = most;
+  return Solve(request);
+}
+
+}  // namespace hoplab
