@@ -31,7 +31,8 @@ std::string Headline(const Diagnosis& d) {
     ++(t.role == TrialRole::kTrain ? train : test);
     if (t.role == TrialRole::kTrain) samples += t.sample_count;
   }
-  return fmt::format("  law {}, {} train and {}, {}, {} tried\n", NameOf(d.problem.law), train,
+  return fmt::format("  law {}, {}{} train and {}, {}, {} tried\n", NameOf(d.problem.law),
+                     d.by_hop ? "fitted hop by hop, " : "", train,
                      Plural(test, d.by_hop ? "test hop" : "test trial"),
                      Plural(samples, "train sample"),
                      Plural(static_cast<long>(d.naming.candidates.size()), "cause"));

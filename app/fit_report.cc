@@ -38,7 +38,8 @@ std::string Headline(const FitRun& run) {
     ++(t.role == TrialRole::kTrain ? train : test);
     if (t.role == TrialRole::kTrain) samples += t.sample_count;
   }
-  return fmt::format("  law {}, {} train and {}, {}", NameOf(run.problem.law), train,
+  return fmt::format("  law {}, {}{} train and {}, {}", NameOf(run.problem.law),
+                     run.by_hop ? "fitted hop by hop, " : "", train,
                      Plural(test, run.by_hop ? "test hop" : "test trial"),
                      Plural(samples, "train sample"));
 }

@@ -80,6 +80,15 @@ TEST_F(FitCli, RigDropsGivesEveryKeyOfTheContract) {
   EXPECT_TRUE(record.at("starts")[0].at("cost").is_number());
 }
 
+TEST_F(FitCli, SaysInItsSecondLineThatItFittedHopByHop) {
+  const ProcessResult run = Hoplab({"fit", drops_, "--law", "no_slip", "--out", "run", "--quiet"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("\n  law no_slip, fitted hop by hop, 18 train and 9 test hops"),
+            std::string::npos)
+      << run.out;
+  EXPECT_EQ(ReadRecord(temp_.path() / "run").at("fitted"), "single hops");
+}
+
 TEST_F(FitCli, TheTablesBehindThePlotsAreThere) {
   ASSERT_EQ(Hoplab({"fit", drops_, "--out", "run", "--profile", "E"}).exit_code, 0);
   const auto header = [&](const std::string& file) {
