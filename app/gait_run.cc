@@ -9,17 +9,34 @@
 #include "app/gait_tables.h"
 #include "app/quantity.h"
 #include "app/simulation_record.h"
+#include "app/stride_record.h"
 #include "app/text_table.h"
 #include "app/trajectory_tables.h"
 #include "app/usage_error.h"
 #include "base/input_error.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "experiments/scenario_hopper.h"
 
 namespace hoplab {
 namespace {
 
+// What a robot's gait is differentiated by.
+std::vector<std::string> RobotParameterNames(const RobotParameters<double>& robot) {
+  std::vector<std::string> names = {"clock_period", "clock_duty", "clock_sweep", "clock_offset"};
+  for (int leg = 2; leg <= robot.legs; ++leg) names.push_back("clock_phase_" + std::to_string(leg));
+  if (robot.own_moduli) {
+    for (int leg = 1; leg <= robot.legs; ++leg) names.push_back("E_" + std::to_string(leg));
+  } else {
+    names.emplace_back("E");
+  }
+  for (const char* name : {"leg_damping", "motor_kp", "motor_kd", "pitch_inertia", "com_x"})
+    names.emplace_back(name);
+  return names;
+}
+
 std::vector<std::string> ParameterNames(const Hopper& hopper) {
+  if (const auto& robot = hopper.request.parameters.robot) return RobotParameterNames(*robot);
   std::vector<std::string> names;
   for (const ParameterId id : ParametersOf(MechanismOf(hopper.request.law)))
     names.emplace_back(InfoOf(id).name);
@@ -30,14 +47,26 @@ std::vector<std::string> ParameterNames(const Hopper& hopper) {
   return names;
 }
 
-SensitivityDirection DirectionOf(const Hopper& hopper, const std::string& name) {
-  return ResolveDirection(name, MechanismOf(hopper.request.law), LegMass::kNone, hopper.effects);
+// A parameter of the clock, as "clock_period" or like the scenario's key "clock.period_s".
+std::optional<ParameterId> ClockParameter(std::string name) {
+  if (name.starts_with("clock.")) {
+    name[5] = '_';
+    for (const std::string unit : {"_s", "_rad"})
+      if (name.ends_with(unit)) name.resize(name.size() - unit.size());
+  }
+  for (const ParameterId id : ClockParameters())
+    if (InfoOf(id).name == name) return id;
+  return std::nullopt;
 }
 
-std::string Multiplier(const std::complex<double>& m) {
-  if (m.imag() == 0.0) return Significant(m.real(), 7);
-  return Significant(m.real(), 7) + (m.imag() > 0.0 ? " + " : " - ") +
-         Significant(std::abs(m.imag()), 7) + "i";
+SensitivityDirection DirectionOf(const Hopper& hopper, const std::string& name) {
+  if (HasStrides(hopper)) {
+    if (const auto clock = ClockParameter(name)) return SensitivityDirection::Parameter(*clock);
+    if (name.starts_with("ground_slope"))
+      throw InputError({"--along", name, "is not followed: the section turns with the ground",
+                        "Give the slope in the scenario."});
+  }
+  return ResolveDirection(name, MechanismOf(hopper.request.law), LegMass::kNone, hopper.effects);
 }
 
 int BandPercent(ConvergenceTime::Band band) {
@@ -56,13 +85,14 @@ Json BranchRecord(const GaitRun& run) {
   if (!run.along) return nullptr;
   Json points = Json::array(), bifurcations = Json::array();
   for (const BranchPoint& p : run.branch.points) {
-    points.push_back({{"parameter", p.parameter},
-                      {"vx_m_per_s", NumberOrNull(p.fixed_point.state[0])},
-                      {"y_m", NumberOrNull(p.fixed_point.state[1])},
+    Json point = {{"parameter", p.parameter}};
+    point.update(StateRecord(run.components, p.fixed_point.state));
+    point.update(Json{{"speed_m_per_s", NumberOrNull(SpeedOf(p.fixed_point.hop))},
                       {"spectral_radius", NumberOrNull(p.fixed_point.spectral_radius)},
                       {"stable", p.fixed_point.stable()},
                       {"sequence_changed", p.sequence_changed},
                       {"near_grazing", p.near_grazing}});
+    points.push_back(point);
   }
   for (const Bifurcation& b : run.branch.bifurcations)
     bifurcations.push_back({{"kind", NameOf(b.kind)}, {"parameter", b.parameter}});
@@ -95,7 +125,7 @@ std::string EndText(BranchEnd end, Outcome outcome) {
 
 std::string BranchReport(const GaitRun& run) {
   const Branch& branch = run.branch;
-  if (branch.points.empty()) return "";
+  if (!run.along || branch.points.empty()) return "";
   const std::string& name = run.along->name;
   std::string text =
       fmt::format("\n  along {}, {} points from {} ({}) to {} ({})\n", name, branch.points.size(),
@@ -133,18 +163,45 @@ std::string CountedText(const GaitRun& run) {
                      run.counted->band == ConvergenceTime::Band::kTwoPercent ? "* (2 %)" : "");
 }
 
+// What each parameter does to the spectral radius.
+std::string RateTable(const GaitRun& run, bool colours) {
+  using enum TextTable::Align;
+  TextTable table({kLeft, kRight, kRight, kRight});
+  table.AddRow({"parameter", "value (SI)", "d rho/d parameter", "rho per +1 %"});
+  for (std::size_t i = 0; i < run.rates.size(); ++i) {
+    const double value = ValueOf(run.hopper, DirectionOf(run.hopper, run.parameters[i]));
+    const double rate = run.rates[i].value;
+    table.AddRow({run.parameters[i], Significant(value, 5),
+                  std::isnan(rate) ? "does not exist" : fmt::format("{:+.5e}", rate),
+                  std::isnan(rate) ? "" : fmt::format("{:+.6f}", 0.01 * value * rate)});
+  }
+  const std::vector<std::string> lines = table.Lines();
+  std::string text = "\n" + Styled(lines.front(), Emphasis::kFaint, colours) + "\n";
+  for (std::size_t i = 1; i < lines.size(); ++i) text += lines[i] + "\n";
+  return text;
+}
+
 // The branch as CSV.
 std::string BranchTable(const GaitRun& run) {
-  CsvText csv({run.along->name, "vx_m_per_s", "y_m", "spectral_radius", "multiplier_1_re",
-               "multiplier_1_im", "multiplier_2_re", "multiplier_2_im", "stable",
-               "sequence_changed", "near_grazing", "events"});
+  std::vector<std::string> header = {run.along->name};
+  for (const SectionComponent& c : run.components) header.push_back(c.name);
+  header.emplace_back("spectral_radius");
+  for (std::size_t i = 1; i <= run.components.size(); ++i)
+    for (const char* part : {"_re", "_im"})
+      header.push_back("multiplier_" + std::to_string(i) + part);
+  for (const char* name : {"stable", "sequence_changed", "near_grazing", "speed_m_per_s", "events"})
+    header.emplace_back(name);
+  CsvText csv(header);
   for (const BranchPoint& point : run.branch.points) {
     const FixedPoint& p = point.fixed_point;
-    csv.Cell(point.parameter).Cell(p.state[0]).Cell(p.state[1]).Cell(p.spectral_radius);
+    csv.Cell(point.parameter);
+    for (const double component : p.state) csv.Cell(component);
+    csv.Cell(p.spectral_radius);
     for (const std::complex<double>& m : p.multipliers) csv.Cell(m.real()).Cell(m.imag());
     csv.Cell(p.stable() ? 1.0 : 0.0)
         .Cell(point.sequence_changed ? 1.0 : 0.0)
         .Cell(point.near_grazing ? 1.0 : 0.0)
+        .Cell(SpeedOf(p.hop))
         .Cell(EventSequence(p.hop));
     csv.EndRow();
   }
@@ -166,50 +223,96 @@ AlongRange ParseAlong(const std::string& text) {
 }
 
 std::string GaitRun::Failure() const {
-  if (point.status == FixedPointStatus::kHopFails)
+  if (!HasStrides(hopper) && point.status == FixedPointStatus::kHopFails)
     return "no hop can be made from the start: " + std::string(SentenceOf(point.hop.outcome));
+  if (HasStrides(hopper) && !map)
+    return "the robot makes too few strides from its start: " +
+           std::string(SentenceOf(own_outcome)) +
+           "; search its clock with `hoplab optimize`, or try another initial state";
+  if (HasStrides(hopper) && !point.found())
+    return "no steady stride was found near the robot's run; search its clock with `hoplab "
+           "optimize`, or try another initial state";
   if (!point.found())
     return "no fixed point was found near the start; try another initial state or --set "
            "controller.kp_N_s";
   return "";
 }
 
+namespace {
+
+SectionState AsSection(const ApexState& state) { return state; }
+
+void FindHop(GaitRun& run) {
+  run.map = std::make_shared<ApexMap>(run.hopper);
+  run.start = AsSection(StartApex(run.hopper));
+  run.point = SearchFixedPoint(*run.map, run.start);
+  const Trajectory own = Simulate(RequestOf(run.hopper));
+  run.apexes = ApexSpeeds(own);
+  if (IsComplete(own.outcome)) run.counted = ConvergenceTimeOf(run.apexes);
+  if (run.point.found()) run.prediction = PredictHops(run.point, run.start);
+}
+
+void FindStride(GaitRun& run) {
+  SteadyStride steady = FindSteadyStride(run.hopper);
+  run.own_outcome = steady.start.outcome;
+  run.own_strides = steady.start.strides;
+  run.point = steady.point;
+  if (!steady.start.map) return;
+  run.start = steady.start.state;
+  if (steady.point.found()) run.stride = MeasureStride(*steady.start.map, steady.point.state);
+  run.map = std::make_shared<StrideMap>(std::move(*steady.start.map));
+}
+
+// What is followed must lie in its range.
+std::optional<SensitivityDirection> DirectionAlong(const Hopper& hopper,
+                                                   const std::optional<AlongRange>& along) {
+  if (!along) return std::nullopt;
+  const SensitivityDirection direction = DirectionOf(hopper, along->name);
+  const double here = ValueOf(hopper, direction);
+  if (direction.of == SensitivityDirection::Of::kInitialState || here < along->low ||
+      here > along->high) {
+    throw InputError({"--along", along->name + " = " + FormatDouble(here),
+                      "must be a parameter whose value in the scenario lies in the range",
+                      "Widen the range."});
+  }
+  return direction;
+}
+
+}  // namespace
+
 GaitRun RunGait(const Hopper& hopper, const GaitOptions& options) {
   GaitRun run;
   run.hopper = hopper;
   run.along = options.along;
-  run.start = StartApex(hopper);
   run.parameters = ParameterNames(hopper);
-  std::optional<SensitivityDirection> along;
-  if (options.along) {
-    along = DirectionOf(hopper, options.along->name);
-    const double here = ValueOf(hopper, *along);
-    if (along->of == SensitivityDirection::Of::kInitialState || here < options.along->low ||
-        here > options.along->high) {
-      throw InputError({"--along", options.along->name + " = " + FormatDouble(here),
-                        "must be a parameter whose value in the scenario lies in the range",
-                        "Widen the range."});
-    }
-  }
+  const std::optional<SensitivityDirection> along = DirectionAlong(hopper, options.along);
   const auto stage = [&](const std::string& text) {
     if (options.stage) options.stage(text);
   };
+  const bool strides = HasStrides(hopper);
   stage("searching the fixed point");
-  ReturnMap map(hopper);
-  run.point = SearchFixedPoint(map, run.start);
-  const Trajectory own = Simulate(RequestOf(hopper));
-  run.apexes = ApexSpeeds(own);
-  if (IsComplete(own.outcome)) run.counted = ConvergenceTimeOf(run.apexes);
+  if (strides)
+    FindStride(run);
+  else
+    FindHop(run);
+  if (run.map) run.components = run.map->Components(run.start);
   if (!run.point.found()) return run;
-  run.prediction = PredictHops(run.point, run.start);
   stage("differentiating the spectral radius");
-  for (const std::string& name : run.parameters)
-    run.rates.push_back(DifferentiateSpectralRadius(hopper, run.point, DirectionOf(hopper, name)));
+  // A stride takes longer than a hop, and three levels tell six digits.
+  const int levels = strides ? 3 : kRadiusLevels;
+  run.rates.resize(run.parameters.size());
+  ParallelFor(static_cast<int>(run.parameters.size()), options.jobs, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (options.stop && *options.stop) return;
+    run.rates[at] = DifferentiateSpectralRadius(*run.map, run.point,
+                                                DirectionOf(hopper, run.parameters[at]), levels);
+  });
   if (along) {
     stage("following the fixed point along " + options.along->name);
     ContinuationOptions continuation{.low = options.along->low, .high = options.along->high};
+    if (strides) continuation.fixed_point.tolerance = kStrideResidual;
     continuation.stop = options.stop;
-    run.branch = FollowFixedPoint(hopper, run.point, *along, continuation);
+    run.branch = FollowFixedPoint(*run.map, run.point, *along, continuation);
   }
   run.interrupted = options.stop && *options.stop;
   return run;
@@ -217,10 +320,9 @@ GaitRun RunGait(const Hopper& hopper, const GaitOptions& options) {
 
 void AddGait(const GaitRun& run, Json& record) {
   const FixedPoint& p = run.point;
-  record["start"] = {{"vx_m_per_s", run.start[0]}, {"y_m", run.start[1]}};
+  record["start"] = StateRecord(run.components, run.start);
   const bool found = p.found();
-  record["fixed_point"] = {{"vx_m_per_s", found ? NumberOrNull(p.state[0]) : nullptr},
-                           {"y_m", found ? NumberOrNull(p.state[1]) : nullptr}};
+  record["fixed_point"] = StateRecord(run.components, found ? p.state : SectionState());
   record["multipliers"] = Json::array();
   for (const std::complex<double>& m : p.multipliers)
     record["multipliers"].push_back({NumberOrNull(m.real()), NumberOrNull(m.imag())});
@@ -250,6 +352,7 @@ void AddGait(const GaitRun& run, Json& record) {
   record["residual"] = NumberOrNull(p.residual);
   record["counted"] = CountedRecord(run.counted);
   record["branch"] = BranchRecord(run);
+  if (HasStrides(run.hopper)) AddStride(run, record);
 }
 
 std::map<std::string, std::string> GaitTables(const GaitRun& run) {
@@ -257,15 +360,21 @@ std::map<std::string, std::string> GaitTables(const GaitRun& run) {
   std::map<std::string, std::string> tables = {
       {"trajectory.csv", OwnRunTable(run.hopper, kLongest)}};
   if (run.point.found())
-    tables["cycles.csv"] = CycleTable({{"steady hop", &run.hopper, &run.point}});
+    tables["cycles.csv"] = CycleTable(
+        {{HasStrides(run.hopper) ? "steady stride" : "steady hop", &run.hopper, &run.point}});
   if (run.along && !run.branch.points.empty()) tables["branch.csv"] = BranchTable(run);
   return tables;
 }
 
 std::string GaitReport(const std::string& name, const GaitRun& run, bool colours) {
   const FixedPoint& p = run.point;
-  std::string text =
-      Styled(name, Emphasis::kBold, colours) +
+  std::string text = Styled(name, Emphasis::kBold, colours);
+  if (HasStrides(run.hopper)) {
+    text += fmt::format("  law robot, {} strides from its start\n\n", Fixed(run.own_strides, 1));
+    return p.found() ? text + StrideReport(run) + RateTable(run, colours) + BranchReport(run)
+                     : text;
+  }
+  text +=
       fmt::format("  law {}, from an apex at {} m with {} m/s\n\n", NameOf(run.hopper.request.law),
                   Fixed(run.start[1], 4), Fixed(run.start[0], 4));
   if (!p.found()) return text;
@@ -284,20 +393,7 @@ std::string GaitReport(const std::string& name, const GaitRun& run, bool colours
   if (run.hopper.request.law == Law::kLargeDeflection && p.hop.max_flexure > kMaxFlexure)
     text += fmt::format("  the leg bends to F C/l0 = {}; beyond {} this law is not to be trusted\n",
                         Significant(p.hop.max_flexure, 2), kMaxFlexure);
-  using enum TextTable::Align;
-  TextTable table({kLeft, kRight, kRight, kRight});
-  table.AddRow({"parameter", "value (SI)", "d rho/d parameter", "rho per +1 %"});
-  for (std::size_t i = 0; i < run.rates.size(); ++i) {
-    const double value = ValueOf(run.hopper, DirectionOf(run.hopper, run.parameters[i]));
-    const double rate = run.rates[i].value;
-    table.AddRow({run.parameters[i], Significant(value, 5),
-                  std::isnan(rate) ? "does not exist" : fmt::format("{:+.5e}", rate),
-                  std::isnan(rate) ? "" : fmt::format("{:+.6f}", 0.01 * value * rate)});
-  }
-  const std::vector<std::string> lines = table.Lines();
-  text += "\n" + Styled(lines.front(), Emphasis::kFaint, colours) + "\n";
-  for (std::size_t i = 1; i < lines.size(); ++i) text += lines[i] + "\n";
-  return text + (run.along ? BranchReport(run) : "");
+  return text + RateTable(run, colours) + BranchReport(run);
 }
 
 }  // namespace hoplab

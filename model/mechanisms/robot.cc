@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/check.h"
 #include "model/laws/leg_load.h"
 #include "model/mechanisms/inertia.h"
 #include "model/mechanisms/robot_dynamics_inl.h"
@@ -151,6 +152,35 @@ Mode Robot<T>::Begin(Mode, T* z) {
   const Mode mode = ModeNow();
   ListGuards(mode);
   return mode;
+}
+
+// Turns, pieces and limits follow from the state; where a contact's root is searched, from the arc
+// at rest.
+template <class T>
+Mode Robot<T>::Resume(std::span<const Foot> feet, const T* z) {
+  HOPLAB_CHECK(static_cast<int>(feet.size()) == legs_);
+  for (int i = 0; i < legs_; ++i) {
+    Leg& leg = leg_[i];
+    const Foot& foot = feet[static_cast<std::size_t>(i)];
+    leg.stance = static_cast<Stance>(foot.on);
+    leg.slides = foot.slides;
+    leg.piece = leg.clock.PieceAt(0.0);
+    const double angle = Value(z[Pitch()] - p_.slope + z[Angle(i)]);
+    leg.turns = TurnsOf(angle);
+    const double tip = std::max(0.0, 2.0 * robot_detail::kPi * leg.turns - angle);
+    if (IsDown(leg)) leg.arc.StartAt(leg.stance == Stance::kToe ? tip : 0.0);
+  }
+  FindLimits(0.0, z);
+  const Mode mode = ModeNow();
+  ListGuards(mode);
+  return mode;
+}
+
+template <class T>
+void Robot<T>::TellFeet(std::vector<Foot>& feet) const {
+  feet.clear();
+  for (int i = 0; i < legs_; ++i)
+    feet.push_back({static_cast<Foot::On>(leg_[i].stance), static_cast<int>(leg_[i].slides)});
 }
 
 template <class T>

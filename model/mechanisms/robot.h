@@ -28,6 +28,8 @@ class Robot final : public HybridSystem<T> {
   bool CompletesAnyStart() const override { return true; }
   void CompleteStart(T* z, int given) const override;
   Mode Begin(Mode mode, T* z) override;
+  Mode Resume(std::span<const Foot> feet, const T* z) override;
+  void TellFeet(std::vector<Foot>& feet) const override;
   void SaveDiscreteState(DiscreteState& to) const override;
   void LoadDiscreteState(DiscreteState& from) override;
   void StartSearch(Mode mode, const double* z) override;
