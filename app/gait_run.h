@@ -56,12 +56,7 @@ struct GaitOptions {
 /// Throws InputError if `along` names nothing this hopper has.
 GaitRun RunGait(const Hopper& hopper, const GaitOptions& options);
 
-/// Keys of a gait in run.json.
-void AddGait(const GaitRun& run, Json& record);
-/// The CSVs behind a gait's plots by file name: trajectory (the scenario's own run), cycles (the
-/// steady hop), branch (where a parameter was followed).
-std::map<std::string, std::string> GaitTables(const GaitRun& run);
-/// What the command prints.
-std::string GaitReport(const std::string& name, const GaitRun& run, bool colours);
+/// What a name after --along, or of a rate, stands for. Throws InputError for none the hopper has.
+SensitivityDirection GaitDirection(const Hopper& hopper, const std::string& name);
 
 }  // namespace hoplab

@@ -47,6 +47,9 @@ double SpeedOf(const Hop& hop) { return hop.advance / hop.period; }
 
 void AddStride(const GaitRun& run, Json& record) {
   record["own_run"] = {{"outcome", NameOf(run.own_outcome)}, {"strides", run.own_strides}};
+  record["clock"] = Json::object();
+  for (const ParameterId id : ClockParameters())
+    record["clock"][std::string(InfoOf(id).name)] = Field(run.hopper.request.parameters, id);
   record["stride"] = nullptr;
   if (!run.stride) return;
   const StrideMeasures& stride = *run.stride;

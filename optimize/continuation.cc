@@ -164,34 +164,50 @@ class Follower {
   Eigen::VectorXd size_;  // of it and the parameter
 };
 
-// Tests that change their sign at a bifurcation: of +1, of -1, and of pairs on the unit circle.
-std::array<double, 3> Tests(const FixedPoint& point) {
-  double fold = 1.0, flip = 1.0, torus = 1.0;
-  bool pairs = false;
-  for (const std::complex<double>& m : point.multipliers) {
-    if (m.imag() == 0.0) {
-      fold *= 1.0 - m.real();
-      flip *= 1.0 + m.real();
-    } else if (m.imag() > 0.0) {
-      pairs = true;
-      torus *= std::norm(m) - 1.0;
-    }
+// det(1 - DP) or det(1 + DP) but for its positive factors, those of pairs: it changes its sign
+// where a real multiplier passes +1 or -1.
+double RealTest(const FixedPoint& point, double passes) {
+  double product = 1.0;
+  for (const std::complex<double>& m : point.multipliers)
+    if (m.imag() == 0.0) product *= 1.0 - passes * m.real();
+  return product;
+}
+
+int CountOutside(const FixedPoint& point) {
+  return static_cast<int>(std::count_if(point.multipliers.begin(), point.multipliers.end(),
+                                        [](const auto& m) { return std::abs(m) > 1.0; }));
+}
+
+double Crossing(double before, double after) { return before / (before - after); }
+
+// Where between two points stability changes, as a share of the way.
+void AddBetween(const BranchPoint& a, const BranchPoint& b, std::vector<Bifurcation>& list) {
+  const auto add = [&](BifurcationKind kind, double share) {
+    list.push_back({kind, a.parameter + share * (b.parameter - a.parameter)});
+  };
+  bool real = false;
+  for (const auto& [kind, passes] :
+       {std::pair(BifurcationKind::kFold, 1.0), std::pair(BifurcationKind::kFlip, -1.0)}) {
+    const double before = RealTest(a.fixed_point, passes), after = RealTest(b.fixed_point, passes);
+    if (!(before * after < 0.0)) continue;
+    real = true;
+    add(kind, Crossing(before, after));
   }
-  return {fold, flip, pairs ? torus : std::numeric_limits<double>::quiet_NaN()};
+  // Multipliers are sorted: the pair that leaves is the last one that is outside, or was.
+  const int most = std::max(CountOutside(a.fixed_point), CountOutside(b.fixed_point));
+  const int least = std::min(CountOutside(a.fixed_point), CountOutside(b.fixed_point));
+  if (real || most - least != 2) return;
+  const auto excess = [&](const BranchPoint& point) {
+    return std::abs(point.fixed_point.multipliers[static_cast<std::size_t>(most) - 1]) - 1.0;
+  };
+  add(BifurcationKind::kTorus, Crossing(excess(a), excess(b)));
 }
 
 void AddBifurcations(Branch& branch) {
-  constexpr std::array kKinds = {BifurcationKind::kFold, BifurcationKind::kFlip,
-                                 BifurcationKind::kTorus};
   for (std::size_t i = 1; i < branch.points.size(); ++i) {
     const BranchPoint &a = branch.points[i - 1], &b = branch.points[i];
     if (a.fixed_point.conserves_energy || b.sequence_changed) continue;
-    const std::array before = Tests(a.fixed_point), after = Tests(b.fixed_point);
-    for (std::size_t k = 0; k < kKinds.size(); ++k) {
-      if (!(before[k] * after[k] < 0.0)) continue;
-      const double share = before[k] / (before[k] - after[k]);
-      branch.bifurcations.push_back({kKinds[k], a.parameter + share * (b.parameter - a.parameter)});
-    }
+    AddBetween(a, b, branch.bifurcations);
   }
 }
 

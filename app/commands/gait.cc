@@ -3,7 +3,7 @@
 #include <chrono>
 #include <ostream>
 
-#include "app/gait_run.h"
+#include "app/gait_record.h"
 #include "app/interrupt.h"
 #include "app/problem_settings.h"
 #include "app/progress.h"
