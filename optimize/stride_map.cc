@@ -149,7 +149,7 @@ Hop StrideMap::Apply(const SectionState& start) {
   return Read({});
 }
 
-std::vector<SectionComponent> StrideMap::Components(const SectionState&) const {
+std::vector<SectionComponent> StrideMap::Components(const SectionState& at) const {
   const double height = hopper().request.parameters.r;
   std::vector<SectionComponent> list = {{"y_m", height},
                                         {"vx_m_per_s", 1.0},
@@ -163,6 +163,7 @@ std::vector<SectionComponent> StrideMap::Components(const SectionState&) const {
   of_legs("leg_angle_", "_rad", 0.1);
   of_legs("leg_angle_rate_", "_rad_per_s", 10.0);
   of_legs("contact_", "_m", height);
+  if (at.size() > kBodyStates + 3 * legs) of_legs("motor_torque_", "_N_m", 1.0);
   return list;
 }
 

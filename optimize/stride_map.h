@@ -10,7 +10,8 @@ namespace hoplab {
 /// The return map of a robot whose motors follow a clock: its state at one phase of the clock, to
 /// that one period later (section 7 of the equation sheet). The state is all of the robot's but x:
 /// y, vx, vy, pitch, its rate, the motors' angles and rates, and of each leg whose foot holds how
-/// far ahead of the body's reference point its contact coordinate lies [m]; 0 of the others. Whole
+/// far ahead of the body's reference point its contact coordinate lies [m], 0 of the others; of
+/// motors that lag what they give. Whole
 /// turns of the motors are taken off, on a slope also the height gained.
 class StrideMap final : public ReturnMap {
  public:
