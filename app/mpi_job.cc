@@ -1,7 +1,5 @@
 #include "app/mpi_job.h"
 
-#include <mpi.h>
-
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -9,6 +7,8 @@
 #include <optional>
 #include <thread>
 #include <utility>
+
+#include "app/mpi_library.h"
 
 namespace hoplab {
 namespace {
@@ -25,13 +25,13 @@ struct Message {
 
 Message Receive(int from, int tag) {
   MPI_Status status;
-  MPI_Probe(from, tag, MPI_COMM_WORLD, &status);
+  Mpi().Probe(from, tag, Mpi().world, &status);
   int bytes = 0;
-  MPI_Get_count(&status, MPI_CHAR, &bytes);
+  Mpi().Get_count(&status, Mpi().chars, &bytes);
   Message message{status.MPI_SOURCE, status.MPI_TAG,
                   std::string(static_cast<std::size_t>(bytes), 0)};
-  MPI_Recv(message.text.data(), bytes, MPI_CHAR, message.from, message.tag, MPI_COMM_WORLD,
-           MPI_STATUS_IGNORE);
+  Mpi().Recv(message.text.data(), bytes, Mpi().chars, message.from, message.tag, Mpi().world,
+             MPI_STATUS_IGNORE);
   return message;
 }
 
@@ -39,37 +39,37 @@ Message Receive(int from, int tag) {
 // the wait. `buffer` has to outlive that.
 std::optional<Message> TryReceive(std::string& buffer, const std::atomic<bool>* stop) {
   int waiting = 0;
-  MPI_Message handle = MPI_MESSAGE_NULL;
+  MPI_Message handle = Mpi().no_message;
   MPI_Status status;
-  MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &waiting, &handle, &status);
+  Mpi().Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, Mpi().world, &waiting, &handle, &status);
   if (waiting == 0) return std::nullopt;
   int bytes = 0;
-  MPI_Get_count(&status, MPI_CHAR, &bytes);
+  Mpi().Get_count(&status, Mpi().chars, &bytes);
   buffer.assign(static_cast<std::size_t>(bytes), 0);
-  MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Imrecv(buffer.data(), bytes, MPI_CHAR, &handle, &request);
+  MPI_Request request = Mpi().no_request;
+  Mpi().Imrecv(buffer.data(), bytes, Mpi().chars, &handle, &request);
   for (int done = 0; done == 0;) {
     if (stop && *stop) return std::nullopt;
-    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    Mpi().Test(&request, &done, MPI_STATUS_IGNORE);
   }
   return Message{status.MPI_SOURCE, status.MPI_TAG, buffer};
 }
 
 void Send(int to, int tag, const std::string& text) {
-  MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, to, tag, MPI_COMM_WORLD);
+  Mpi().Send(text.data(), static_cast<int>(text.size()), Mpi().chars, to, tag, Mpi().world);
 }
 
 void SendRows(int to, const std::vector<int>& rows) {
-  MPI_Send(rows.data(), static_cast<int>(rows.size()), MPI_INT, to, kRows, MPI_COMM_WORLD);
+  Mpi().Send(rows.data(), static_cast<int>(rows.size()), Mpi().ints, to, kRows, Mpi().world);
 }
 
 std::vector<int> ReceiveRows() {
   MPI_Status status;
-  MPI_Probe(0, kRows, MPI_COMM_WORLD, &status);
+  Mpi().Probe(0, kRows, Mpi().world, &status);
   int count = 0;
-  MPI_Get_count(&status, MPI_INT, &count);
+  Mpi().Get_count(&status, Mpi().ints, &count);
   std::vector<int> rows(static_cast<std::size_t>(count));
-  MPI_Recv(rows.data(), count, MPI_INT, 0, kRows, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  Mpi().Recv(rows.data(), count, Mpi().ints, 0, kRows, Mpi().world, MPI_STATUS_IGNORE);
   return rows;
 }
 
@@ -98,9 +98,8 @@ class MpiJob::Post {
     Letter& letter = letters_[to];
     if (!HasArrived(letter, stop)) return;
     letter.rows = std::move(rows);
-    MPI_Isend(letter.rows.data(), static_cast<int>(letter.rows.size()), MPI_INT, to, kRows,
-              MPI_COMM_WORLD, &letter.request);
-    // NOLINTNEXTLINE(clang-analyzer-optin.mpi.MPI-Checker): HasArrived tests until it is done
+    Mpi().Isend(letter.rows.data(), static_cast<int>(letter.rows.size()), Mpi().ints, to, kRows,
+                Mpi().world, &letter.request);
   }
   void AwaitAll(const std::atomic<bool>* stop) {
     for (auto& [to, letter] : letters_) HasArrived(letter, stop);
@@ -109,12 +108,12 @@ class MpiJob::Post {
  private:
   struct Letter {
     std::vector<int> rows;  // outlive the request
-    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Request request = Mpi().no_request;
   };
   static bool HasArrived(Letter& letter, const std::atomic<bool>* stop) {
-    for (int done = letter.request == MPI_REQUEST_NULL ? 1 : 0; done == 0;) {
+    for (int done = letter.request == Mpi().no_request ? 1 : 0; done == 0;) {
       if (stop && *stop) return false;
-      MPI_Test(&letter.request, &done, MPI_STATUS_IGNORE);
+      Mpi().Test(&letter.request, &done, MPI_STATUS_IGNORE);
     }
     return true;
   }
@@ -124,9 +123,9 @@ class MpiJob::Post {
 bool MpiJob::Launched() { return IsSet("OMPI_COMM_WORLD_SIZE") || IsSet("PMI_SIZE"); }
 
 MpiJob::MpiJob() : post_(std::make_unique<Post>()) {
-  MPI_Init(nullptr, nullptr);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-  MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  Mpi().Init(nullptr, nullptr);
+  Mpi().Comm_rank(Mpi().world, &rank_);
+  Mpi().Comm_size(Mpi().world, &size_);
 }
 
 MpiJob::~MpiJob() {
@@ -137,7 +136,7 @@ MpiJob::~MpiJob() {
     else
       Send(0, kLast, "");
   }
-  MPI_Finalize();
+  Mpi().Finalize();
 }
 
 void MpiJob::Dismiss() {
@@ -152,10 +151,10 @@ void MpiJob::Dismiss() {
 
 std::string MpiJob::Share(const std::string& text) {
   unsigned long long size = text.size();
-  MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD);
+  Mpi().Bcast(&size, 1, Mpi().unsigned_long_longs, 0, Mpi().world);
   std::string shared = text;
   shared.resize(size);
-  MPI_Bcast(shared.data(), static_cast<int>(size), MPI_CHAR, 0, MPI_COMM_WORLD);
+  Mpi().Bcast(shared.data(), static_cast<int>(size), Mpi().chars, 0, Mpi().world);
   return shared;
 }
 
@@ -219,7 +218,7 @@ void MpiJob::Work(const Compute& compute) {
 }
 
 void MpiJob::Abort(int code) {
-  MPI_Abort(MPI_COMM_WORLD, code);
+  Mpi().Abort(Mpi().world, code);
   std::_Exit(code);
 }
 

@@ -6,7 +6,7 @@
 
 namespace hoplab {
 
-/// "0.1.0".
+/// "0.2.0".
 std::string ProjectVersion();
 /// What `git describe` said when this was built; empty outside a repository.
 std::string SourceRevision();

@@ -39,7 +39,7 @@ endfunction()
 hoplab_package_documents(hoplab runtime)
 hoplab_package_documents(libhoplab-dev development)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
-foreach(folder model datasets fitting experiments python bench web)
+foreach(folder model datasets fitting experiments examples python bench web)
   install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
           COMPONENT runtime)
 endforeach()
@@ -60,6 +60,8 @@ foreach(folder base model datasets fitting optimize experiments)
           # Readers of other programs' recordings serve the command alone.
           PATTERN import EXCLUDE PATTERN automata EXCLUDE)
 endforeach()
+install(DIRECTORY examples/ DESTINATION ${share}/examples COMPONENT development
+        FILES_MATCHING PATTERN "*.cc" PATTERN "CMakeLists.txt" PATTERN "README.md")
 install(EXPORT hoplab NAMESPACE hoplab:: FILE hoplabTargets.cmake DESTINATION ${cmake_files}
         COMPONENT development)
 

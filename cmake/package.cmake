@@ -18,6 +18,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # Depends: what the program is linked to
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME hoplab)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS openmpi-bin) # mpirun, and the library the program then opens
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
 "Fits Young's modulus, damping and start states of a compliant leg to recorded
 hops through a differentiable hybrid simulator, says what the simulation lacks,

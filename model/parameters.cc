@@ -70,38 +70,56 @@ constexpr std::array kRobotParameters = {
 constexpr std::array kClockParameters = {kClockPeriod, kClockDuty,   kClockSweep,  kClockOffset,
                                          kClockPhase1, kClockPhase2, kClockPhase3, kClockPhase4};
 
-constexpr std::array kCLegLaws = {Law::kElastica, Law::kLargeDeflection, Law::kConsistent,
-                                  Law::kNoSlip, Law::kThesis};
-constexpr std::array kStraightLegLaws = {Law::kStraightLeg};
-constexpr std::array kBallLaws = {Law::kBall};
-constexpr std::array kRobotLaws = {Law::kRobot};
-
-struct LawText {
+struct LawRow {
   Law law;
+  MechanismKind mechanism;
   std::string_view name;
   std::string_view sentence;
 };
-constexpr std::array<LawText, 8> kLaws = {{
-    {Law::kLargeDeflection, "large_deflection",
-     "c_leg: static equilibrium of the elastic arc with the next term of the elastica; conserves "
-     "energy."},
-    {Law::kElastica, "elastica",
+// Of each mechanism the default comes first.
+constexpr auto kLaws = std::to_array<LawRow>({
+    {Law::kElastica, MechanismKind::kCLeg, "elastica",
      "c_leg, default: static equilibrium of an inextensible elastic arc, exact for any load; "
      "conserves energy."},
-    {Law::kConsistent, "consistent",
+    {Law::kLargeDeflection, MechanismKind::kCLeg, "large_deflection",
+     "c_leg: static equilibrium of the elastic arc with the next term of the elastica; conserves "
+     "energy."},
+    {Law::kConsistent, MechanismKind::kCLeg, "consistent",
      "c_leg: static equilibrium of the elastic arc, first-order bending with tip rotation; "
      "conserves energy."},
-    {Law::kNoSlip, "no_slip",
+    {Law::kNoSlip, MechanismKind::kCLeg, "no_slip",
      "c_leg: half circle of varying radius, the contact advances by the arc laid on the ground."},
-    {Law::kThesis, "thesis",
+    {Law::kThesis, MechanismKind::kCLeg, "thesis",
      "c_leg: half circle of varying radius, the law of the published tables; does not conserve "
      "energy."},
-    {Law::kStraightLeg, "straight_leg", "straight_leg: linear spring and damper on a fixed toe."},
-    {Law::kBall, "ball", "ball: ballistic flight, restitution and tangential loss at each bounce."},
-    {Law::kRobot, "robot",
+    {Law::kStraightLeg, MechanismKind::kStraightLeg, "straight_leg",
+     "straight_leg: linear spring and damper on a fixed toe."},
+    {Law::kBall, MechanismKind::kBall, "ball",
+     "ball: ballistic flight, restitution and tangential loss at each bounce."},
+    {Law::kRobot, MechanismKind::kRobot, "robot",
      "robot: a body with pitch on up to four legs, each an exact elastic arc clamped to its "
      "motor."},
-}};
+});
+
+const LawRow& RowOf(Law law) {
+  return *std::find_if(kLaws.begin(), kLaws.end(),
+                       [&](const LawRow& row) { return row.law == law; });
+}
+
+constexpr std::size_t CountOf(MechanismKind mechanism) {
+  std::size_t count = 0;
+  for (const LawRow& row : kLaws) count += row.mechanism == mechanism ? 1 : 0;
+  return count;
+}
+template <MechanismKind kMechanism>
+constexpr auto kLawsOf = [] {
+  std::array<Law, CountOf(kMechanism)> laws{};
+  std::size_t count = 0;
+  for (const LawRow& row : kLaws) {
+    if (row.mechanism == kMechanism) laws[count++] = row.law;
+  }
+  return laws;
+}();
 
 }  // namespace
 
@@ -141,32 +159,22 @@ std::span<const ParameterId> FreeByDefault(MechanismKind mechanism) {
 std::span<const Law> LawsOf(MechanismKind mechanism) {
   switch (mechanism) {
     case MechanismKind::kCLeg:
-      return kCLegLaws;
+      return kLawsOf<MechanismKind::kCLeg>;
     case MechanismKind::kStraightLeg:
-      return kStraightLegLaws;
+      return kLawsOf<MechanismKind::kStraightLeg>;
     case MechanismKind::kBall:
-      return kBallLaws;
+      return kLawsOf<MechanismKind::kBall>;
     case MechanismKind::kRobot:
-      return kRobotLaws;
+      return kLawsOf<MechanismKind::kRobot>;
   }
   return {};
 }
 
-MechanismKind MechanismOf(Law law) {
-  if (law == Law::kStraightLeg) return MechanismKind::kStraightLeg;
-  if (law == Law::kRobot) return MechanismKind::kRobot;
-  return law == Law::kBall ? MechanismKind::kBall : MechanismKind::kCLeg;
-}
+MechanismKind MechanismOf(Law law) { return RowOf(law).mechanism; }
 
-std::string_view NameOf(Law law) {
-  return std::find_if(kLaws.begin(), kLaws.end(), [&](const LawText& t) { return t.law == law; })
-      ->name;
-}
+std::string_view NameOf(Law law) { return RowOf(law).name; }
 
-std::string_view SentenceOf(Law law) {
-  return std::find_if(kLaws.begin(), kLaws.end(), [&](const LawText& t) { return t.law == law; })
-      ->sentence;
-}
+std::string_view SentenceOf(Law law) { return RowOf(law).sentence; }
 
 std::string_view NameOf(MechanismKind mechanism) {
   switch (mechanism) {
@@ -183,8 +191,8 @@ std::string_view NameOf(MechanismKind mechanism) {
 }
 
 std::optional<Law> FindLaw(std::string_view name) {
-  for (const LawText& text : kLaws) {
-    if (text.name == name) return text.law;
+  for (const LawRow& row : kLaws) {
+    if (row.name == name) return row.law;
   }
   return std::nullopt;
 }

@@ -102,6 +102,23 @@ std::vector<ExportedStart> StartsOf(const RecordReader& record) {
   return starts;
 }
 
+// Whether the templates of export/c say this law.
+bool IsWritten(Law law) {
+  switch (law) {
+    case Law::kThesis:
+    case Law::kNoSlip:
+    case Law::kConsistent:
+    case Law::kLargeDeflection:
+    case Law::kElastica:
+    case Law::kStraightLeg:
+      return true;
+    case Law::kBall:
+    case Law::kRobot:
+      return false;
+  }
+  return false;
+}
+
 // The part of the record that tells the model: of a diagnosis the one with its causes.
 bool TakesExtension(const Json& record) {
   const auto text = [&](const char* key) {
@@ -167,6 +184,9 @@ ExportedModel ModelOfRun(const std::filesystem::path& folder, const StoredRun& r
   if (kind == MechanismKind::kBall) {
     throw InputError(
         {place, "law = ball", "must be the law of a leg: a ball has none to export", ""});
+  }
+  if (!IsWritten(model.law)) {
+    throw InputError({place, "law = " + law, "cannot be exported: there is no C text for it", ""});
   }
   model.liftoff = mechanism.Text("liftoff") == "rest_length" ? LiftoffRule::kRestLength
                                                              : LiftoffRule::kZeroForce;

@@ -19,7 +19,7 @@ struct ExportedStart {
 
 /// What a run identified, ready to be written as a law or a model of another program.
 struct ExportedModel {
-  std::string origin;  // "rig-drops, fit by hoplab 0.1.0"
+  std::string origin;  // "rig-drops, fit by hoplab 0.2.0"
   Law law = Law::kElastica;
   LiftoffRule liftoff = LiftoffRule::kZeroForce;
   Parameters<double> parameters;       // as stated and fitted, before effects change them

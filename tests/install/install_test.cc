@@ -64,11 +64,27 @@ TEST_F(Install, AProgramOutsideTheTreeBuildsAgainstItAndFitsTheSame) {
   EXPECT_NEAR(upper / e.at("ci95").at(1).get<double>(), 1.0, 1e-9);
 }
 
+// What each prints is held by tests/examples; here it is that they build, and one runs.
+TEST_F(Install, TheExamplesBuildAgainstIt) {
+  const fs::path source = Scratch() / "examples";
+  fs::copy(Prefix() / "share/hoplab/examples", source);
+  const std::string log = RunSteps(
+      {{HOPLAB_CMAKE, "-S", ".", "-B", "build", "-G", HOPLAB_GENERATOR,
+        "-DCMAKE_PREFIX_PATH=" + Prefix().string(), "-DCMAKE_BUILD_TYPE=" HOPLAB_BUILD_TYPE,
+        "-DCMAKE_CXX_COMPILER=" HOPLAB_COMPILER, "-DCMAKE_CXX_COMPILER_LAUNCHER=" HOPLAB_LAUNCHER},
+       {HOPLAB_CMAKE, "--build", "build"}},
+      source);
+  ASSERT_EQ(log, "");
+  const ProcessResult run = RunProcess({.command = {(source / "build/hop").string()}});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_NE(run.out.find("energy 3.7880 J before, 3.7880 J after"), std::string::npos) << run.out;
+}
+
 TEST_F(Install, ANewerMinorVersionIsNotTakenForThisOne) {
   const fs::path source = Scratch() / "newer";
   WriteText(source / "CMakeLists.txt",
             "cmake_minimum_required(VERSION 3.25)\nproject(newer LANGUAGES NONE)\n"
-            "find_package(hoplab 0.2 REQUIRED)\n");
+            "find_package(hoplab 0.3 REQUIRED)\n");
   const std::string log = RunSteps(
       {{HOPLAB_CMAKE, "-S", ".", "-B", "build", "-DCMAKE_PREFIX_PATH=" + Prefix().string()}},
       source);

@@ -9,7 +9,7 @@ from support import RIG_DROPS, ROOT, run_program
 
 class Example(unittest.TestCase):
     def test_runs_word_for_word_and_prints_what_the_program_finds(self):
-        example = ROOT / "python" / "examples" / "fit_rig_drops.py"
+        example = ROOT / "examples" / "fit_rig_drops.py"
         done = subprocess.run(
             [sys.executable, "-B", example, RIG_DROPS], capture_output=True, text=True, check=True
         )

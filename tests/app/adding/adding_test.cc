@@ -47,6 +47,32 @@ void WriteFiles(const std::string& page, const std::string& language, const fs::
   }
 }
 
+// Applies the page's blocks of changes to copies of the files that they name. What went wrong.
+std::string ChangeFiles(const std::string& page, const fs::path& tree) {
+  for (const std::string& block : Blocks(page, "diff")) {
+    std::istringstream lines(block);
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("+++ b/")) continue;
+      const fs::path file = tree / line.substr(6);
+      fs::create_directories(file.parent_path());
+      if (fs::is_symlink(file)) fs::remove(file);
+      if (!fs::exists(file)) fs::copy_file(kSource / line.substr(6), file);
+    }
+    testing::WriteText(tree / "changes", block);
+    const ProcessResult run =
+        RunProcess({.command = {"/usr/bin/patch", "-p1", "-i", "changes"}, .folder = tree});
+    if (run.exit_code != 0) return page + ": " + run.out + run.err;
+  }
+  return "";
+}
+
+// Links all files of one of the project's folders into the tree.
+void LinkFolder(const std::string& folder, const fs::path& tree) {
+  fs::create_directories(tree / folder);
+  for (const auto& entry : fs::directory_iterator(kSource / folder))
+    fs::create_symlink(entry.path(), tree / folder / entry.path().filename());
+}
+
 // Formulas that are added as code too, named so that the file stays free for the formula.
 struct AddedFormula {
   FormulaSource source;
@@ -87,9 +113,8 @@ class Adding : public ::testing::Test {
   static void SetUpTestSuite() {
     tree_ = new testing::TempFolder;
     const fs::path effects = tree_->path() / "model/effects";
-    fs::create_directories(effects);
-    for (const auto& entry : fs::directory_iterator(kSource / "model/effects"))
-      fs::create_symlink(entry.path(), effects / entry.path().filename());
+    LinkFolder("model/effects", tree_->path());
+    LinkFolder("model/laws/legs", tree_->path());
     fs::create_directories(tree_->path() / "experiments");
     fs::create_symlink(kSource / "experiments/three-drops.yaml",
                        tree_->path() / "experiments/three-drops.yaml");
@@ -103,8 +128,12 @@ class Adding : public ::testing::Test {
     }
     WriteFiles("effect.md", "cpp", tree_->path());
     WriteFiles("mechanism.md", "cpp", tree_->path());
+    WriteFiles("law.md", "cpp", tree_->path());
+    WriteFiles("command.md", "cpp", tree_->path());
     WriteFiles("experiment.md", "yaml", tree_->path());
     WriteFiles("formula.md", "yaml", tree_->path());
+    log_ = ChangeFiles("law.md", tree_->path()) + ChangeFiles("command.md", tree_->path());
+    if (!log_.empty()) return;
     const std::vector<std::vector<std::string>> steps = {
         {HOPLAB_CMAKE, "-S", ".", "-B", "build", "-G", HOPLAB_GENERATOR,
          "-DHOPLAB_SOURCE=" + kSource.string(), "-DHOPLAB_BUILD=" HOPLAB_BUILD_DIR,
@@ -113,7 +142,7 @@ class Adding : public ::testing::Test {
         {HOPLAB_CMAKE, "--build", "build"}};
     for (const std::vector<std::string>& command : steps) {
       const ProcessResult r = RunProcess(
-          {.command = command, .folder = tree_->path(), .timeout = std::chrono::seconds(300)});
+          {.command = command, .folder = tree_->path(), .timeout = std::chrono::seconds(900)});
       built_ = r.exit_code == 0;
       if (!built_) {
         log_ = r.out + r.err;
@@ -209,6 +238,36 @@ TEST_F(Adding, AMechanismHoldsAgainstItsClosedForm) {
   const ProcessResult run = Run("pogo_test", {});
   EXPECT_EQ(run.exit_code, 0) << run.out;
   EXPECT_NE(run.out.find("1 test from 1 test suite ran"), std::string::npos) << run.out;
+}
+
+TEST_F(Adding, ALawHoldsAgainstItsOracleAndIsKnownEverywhere) {
+  const ProcessResult test = Run("even_stiffness_test", {});
+  EXPECT_EQ(test.exit_code, 0) << test.out;
+  EXPECT_NE(test.out.find("1 test from 1 test suite ran"), std::string::npos) << test.out;
+  const std::vector<std::string> printed = RunCommands("law.md");
+  ASSERT_EQ(printed.size(), 4u);
+  EXPECT_NE(printed[0].find("even_stiffness"), std::string::npos) << printed[0];
+  EXPECT_NE(printed[1].find("k = 1/C(pi)"), std::string::npos) << printed[1];
+  const ProcessResult elastica = Run("hoplab", {"apexes", "experiments/three-drops.yaml"});
+  const ProcessResult even =
+      Run("hoplab", {"apexes", "experiments/three-drops.yaml", "--law", "even_stiffness"});
+  EXPECT_EQ(even.exit_code, 0) << even.err;
+  EXPECT_NE(even.out, elastica.out) << "the law changes nothing";
+  const ProcessResult refused =
+      Run("hoplab", {"simulate", "experiments/three-drops.yaml", "--law", "even_stiffness",
+                     "--with", "leg_hardening:beta=0.1", "--out", (tree() / "hard").string()});
+  EXPECT_EQ(refused.exit_code, 65) << refused.out << refused.err;
+}
+
+TEST_F(Adding, ACommandPrintsWhatStandsThere) {
+  const std::vector<std::string> printed = RunCommands("command.md");
+  ASSERT_EQ(printed.size(), 2u);
+  EXPECT_EQ(printed[0], Blocks("command.md", "text").at(0));
+  EXPECT_NE(printed[1].find("--plain"), std::string::npos) << printed[1];
+  const ProcessResult json = Run(
+      "hoplab", {"apexes", "experiments/three-drops.yaml", "--json", "--law", "even_stiffness"});
+  EXPECT_EQ(nlohmann::json::parse(json.out).at("apexes").size(), 3u) << json.out;
+  EXPECT_EQ(Run("hoplab", {"apexes", "no-such-file.yaml"}).exit_code, 65);
 }
 
 TEST_F(Adding, AnExperimentGivesTheTableThatStandsThere) {
