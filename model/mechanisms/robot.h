@@ -83,6 +83,11 @@ class Robot final : public HybridSystem<T> {
   LegPlace LegOf(const Frame& frame, int leg, const T* z) const;
   Push PushOf(const Frame& frame, const T& t, const T* z) const;
   void Accelerate(const Frame& frame, const Push& push, const T* z, T* dz) const;
+  template <class P>
+  struct Masses;  // masses and inertias as numbers of type P
+  template <class P>
+  void AccelerateWith(const Masses<P>& masses, const Frame& frame, const Push& push, const T* z,
+                      T* dz) const;
   ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const;
   /// The same from the end of the clamp.
   ClampedPlace<T> PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const;
@@ -105,6 +110,8 @@ class Robot final : public HybridSystem<T> {
   T gravity_x_, gravity_y_;
   bool has_body_force_;
   bool has_leg_mass_;
+  bool masses_are_plain_;  // the run is not differentiated by them
+  bool centred_;           // the centre of mass is the reference point
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;
   std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]
