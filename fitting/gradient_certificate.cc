@@ -33,13 +33,26 @@ double Size(const SharedParameter& s, double value) {
   return std::clamp(std::abs(value), 0.01 * s.scale, s.scale);
 }
 
-// Times of the events that act on the motion.
-std::vector<double> CrossingTimes(const Trajectory& trajectory) {
-  std::vector<double> times;
+// Differences are taken over a step this much shorter where the events of a shifted simulation come
+// in another order, and how often: beyond, the simulations' own error is what is left of them.
+constexpr double kShorter = 0.25;
+constexpr int kMostShorter = 4;
+
+// Events that act on the motion.
+std::vector<Event> ActingEvents(const Trajectory& trajectory) {
+  std::vector<Event> events;
   for (const Event& e : trajectory.events) {
-    if (e.kind != EventKind::kApex) times.push_back(e.time);
+    if (e.kind != EventKind::kApex) events.push_back(e);
   }
-  return times;
+  return events;
+}
+
+// Whether the same things happen in the same order, as far as both runs tell.
+bool InOneOrder(const std::vector<Event>& a, const std::vector<Event>& b) {
+  const auto n = static_cast<std::ptrdiff_t>(std::min(a.size(), b.size()));
+  return std::equal(a.begin(), a.begin() + n, b.begin(), [](const Event& x, const Event& y) {
+    return x.kind == y.kind && x.leg == y.leg;
+  });
 }
 
 struct TrialReport {
@@ -57,77 +70,170 @@ void Flag(const TrialProblem& trial, const Trajectory& trajectory,
     flags.push_back({trial.file, "another event sequence is very near (a guard almost crossed)"});
 }
 
-TrialReport CheckTrial(const FitProblem& problem, const TrialProblem& trial,
-                       const Eigen::VectorXd& shared, const OwnValues& start,
-                       const JacobianSource& source) {
-  const TrialEvaluator evaluator(problem, trial);
-  const int n = problem.shared_count(), width = evaluator.column_count();
-  const IntegratorOptions tight = Tight(problem.integrator);
-  TrialReport report;
-  Trajectory analytic;
-  if (source)
-    source(evaluator, {shared, start, true}, analytic);
-  else
-    evaluator.Simulate({shared, start, true}, problem.integrator, analytic);
-  Flag(trial, analytic, report.flags);
-  report.errors.assign(width, std::numeric_limits<double>::quiet_NaN());
+// The samples differentiated by one value, by differences.
+struct Differences {
+  std::vector<double> slopes;
+  double step = 0.0;
+  // Of the first event that a shifted run has and the run itself not: an event beyond the last row
+  // comes before it where a value is shifted.
+  double first_new = std::numeric_limits<double>::infinity();
+};
 
-  Trajectory shifted;
-  const std::size_t crossings = CrossingTimes(analytic).size();
-  const std::size_t columns = problem.channels.size();
-  for (int k = 0; k < width; ++k) {
-    if (k >= n && !trial.own[k - n].free) continue;
-    const double h = k < n ? kStep * Size(problem.shared[k], shared[k])
-                           : std::max(kStep * trial.own[k - n].scale, kLeastStartStep);
-    // An event beyond the last row comes before it where a value is shifted.
-    double first_new = std::numeric_limits<double>::infinity();
-    const auto simulate = [&](double offset, std::vector<double>& samples) {
-      Eigen::VectorXd p = shared;
-      OwnValues z = start;
-      (k < n ? p[k] : z[k - n]) += offset;
-      evaluator.Simulate({p, z, false}, tight, shifted);
-      samples = shifted.samples;
-      const std::vector<double> met = CrossingTimes(shifted);
-      if (met.size() > crossings) first_new = std::min(first_new, met[crossings]);
-    };
-    std::vector<double> plus, minus, plus_half, minus_half;
-    simulate(h, plus);
-    simulate(-h, minus);
-    simulate(0.5 * h, plus_half);
-    simulate(-0.5 * h, minus_half);
+class TrialCheck {
+ public:
+  TrialCheck(const FitProblem& problem, const TrialProblem& trial, const Eigen::VectorXd& shared,
+             const OwnValues& start)
+      : problem_(problem),
+        trial_(trial),
+        shared_(shared),
+        start_(start),
+        tight_(Tight(problem.integrator)),
+        evaluator_(problem, trial) {}
 
-    // An event moves by about h dt_e/dp: velocities jump or kink there.
-    const auto near_event = [&](double time) {
-      for (std::size_t e = 0; e < analytic.events.size(); ++e) {
-        if (analytic.events[e].kind == EventKind::kApex) continue;
-        const double reach =
-            2.0 * h * std::abs(analytic.event_time_sensitivities[e * width + k]) + 1e-9;
-        if (std::abs(time - analytic.events[e].time) < reach) return true;
-      }
-      return false;
-    };
+  TrialReport Report(const JacobianSource& source) {
+    const int n = problem_.shared_count(), width = evaluator_.column_count();
+    TrialReport report;
+    if (source)
+      source(evaluator_, {shared_, start_, true}, analytic_);
+    else
+      evaluator_.Simulate({shared_, start_, true}, problem_.integrator, analytic_);
+    Flag(trial_, analytic_, report.flags);
+    events_ = ActingEvents(analytic_);
+    report.errors.assign(width, std::numeric_limits<double>::quiet_NaN());
+    for (int k = 0; k < width; ++k) {
+      if (k >= n && !trial_.own[k - n].free) continue;
+      const std::optional<Differences> differences = DifferencesBy(k, report.flags);
+      if (differences) report.errors[k] = ErrorOf(k, *differences);
+    }
+    return report;
+  }
+
+ private:
+  // A run with value k shifted.
+  struct Shifted {
+    std::vector<double> samples;
+    std::vector<Event> events;
+  };
+  Shifted Simulate(int k, double offset) {
+    const int n = problem_.shared_count();
+    Eigen::VectorXd p = shared_;
+    OwnValues z = start_;
+    (k < n ? p[k] : z[k - n]) += offset;
+    evaluator_.Simulate({p, z, false}, tight_, shifted_);
+    return {shifted_.samples, ActingEvents(shifted_)};
+  }
+  // Half of the runs differences take: shifted by h and h/2 to one side.
+  struct Side {
+    Shifted whole, half;
+    bool in_order = false;
+  };
+  Side SideOf(int k, double h) {
+    Side side{Simulate(k, h), Simulate(k, 0.5 * h)};
+    side.in_order = InOneOrder(side.whole.events, events_) && InOneOrder(side.half.events, events_);
+    return side;
+  }
+  void NoteNew(const Side& side, Differences& to) const {
+    for (const Shifted* run : {&side.whole, &side.half}) {
+      if (run->events.size() > events_.size())
+        to.first_new = std::min(to.first_new, run->events[events_.size()].time);
+    }
+  }
+
+  // By central differences over the widest step within which events keep their order; where no step
+  // has such a neighbourhood, by those of the side that has it. None: neither has.
+  std::optional<Differences> DifferencesBy(int k, std::vector<CertificateFlag>& flags) {
+    const int n = problem_.shared_count();
+    double h = k < n ? kStep * Size(problem_.shared[k], shared_[k])
+                     : std::max(kStep * trial_.own[k - n].scale, kLeastStartStep);
+    Side plus = SideOf(k, h), minus = SideOf(k, -h);
+    for (int i = 0; i < kMostShorter && !(plus.in_order && minus.in_order); ++i) {
+      h *= kShorter;
+      plus = SideOf(k, h);
+      minus = SideOf(k, -h);
+    }
+    Differences out;
+    out.step = h;
+    if (plus.in_order && minus.in_order) {
+      NoteNew(plus, out);
+      NoteNew(minus, out);
+      out.slopes = Central(plus, minus, h);
+      return out;
+    }
+    const std::string name = k < n ? problem_.shared[k].name : trial_.own[k - n].name;
+    flags.push_back(
+        {trial_.file, "another event sequence begins right beside this " + name +
+                          (plus.in_order || minus.in_order
+                               ? ": its derivative is held against differences to one side"
+                               : ", on both sides: its derivative could not be checked")});
+    if (!plus.in_order && !minus.in_order) return std::nullopt;
+    const Side& side = plus.in_order ? plus : minus;
+    NoteNew(side, out);
+    out.slopes = OneSided(Simulate(k, 0.0).samples, side, plus.in_order ? h : -h);
+    return out;
+  }
+  static std::vector<double> Central(const Side& plus, const Side& minus, double h) {
+    std::vector<double> slopes(plus.whole.samples.size());
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      const double wide = (plus.whole.samples[i] - minus.whole.samples[i]) / (2.0 * h);
+      const double narrow = (plus.half.samples[i] - minus.half.samples[i]) / h;
+      slopes[i] = (4.0 * narrow - wide) / 3.0;
+    }
+    return slopes;
+  }
+  static std::vector<double> OneSided(const std::vector<double>& at, const Side& side, double h) {
+    std::vector<double> slopes(at.size());
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const double wide = (side.whole.samples[i] - at[i]) / h;
+      const double narrow = (side.half.samples[i] - at[i]) / (0.5 * h);
+      slopes[i] = 2.0 * narrow - wide;
+    }
+    return slopes;
+  }
+
+  // An event moves by about h dt_e/dp: velocities jump or kink there.
+  bool IsNearEvent(double time, int k, double h) const {
+    const auto width = static_cast<std::size_t>(evaluator_.column_count());
+    for (std::size_t e = 0; e < analytic_.events.size(); ++e) {
+      if (analytic_.events[e].kind == EventKind::kApex) continue;
+      const double reach =
+          2.0 * h * std::abs(analytic_.event_time_sensitivities[e * width + k]) + 1e-9;
+      if (std::abs(time - analytic_.events[e].time) < reach) return true;
+    }
+    return false;
+  }
+
+  // Of the analytic column, all rows that can be compared; NaN: the column is zero.
+  double ErrorOf(int k, const Differences& differences) const {
+    const std::size_t columns = problem_.channels.size();
+    const auto width = static_cast<std::size_t>(evaluator_.column_count());
     double difference = 0.0, norm = 0.0;
-    for (std::size_t row = 0; row < trial.row_times.size(); ++row) {
-      if (trial.row_times[row] >= first_new || near_event(trial.row_times[row])) continue;
+    for (std::size_t row = 0; row < trial_.row_times.size(); ++row) {
+      const double time = trial_.row_times[row];
+      if (time >= differences.first_new || IsNearEvent(time, k, differences.step)) continue;
       for (std::size_t c = 0; c < columns; ++c) {
         const std::size_t cell = row * columns + c;
-        const double wide = (plus[cell] - minus[cell]) / (2.0 * h);
-        const double narrow = (plus_half[cell] - minus_half[cell]) / h;
-        const double richardson = (4.0 * narrow - wide) / 3.0;
-        const double value = analytic.sensitivities[cell * width + k];
-        if (!std::isfinite(richardson) || !std::isfinite(value)) continue;
-        const double weight = 1.0 / problem.channels[c].sigma;
-        difference += std::pow((value - richardson) * weight, 2);
+        const double slope = differences.slopes[cell];
+        const double value = analytic_.sensitivities[cell * width + k];
+        if (!std::isfinite(slope) || !std::isfinite(value)) continue;
+        const double weight = 1.0 / problem_.channels[c].sigma;
+        difference += std::pow((value - slope) * weight, 2);
         norm += std::pow(value * weight, 2);
       }
     }
-    if (norm > 0.0)
-      report.errors[k] = std::sqrt(difference / norm);
-    else if (difference > 0.0)
-      report.errors[k] = std::numeric_limits<double>::infinity();
+    if (norm > 0.0) return std::sqrt(difference / norm);
+    return difference > 0.0 ? std::numeric_limits<double>::infinity()
+                            : std::numeric_limits<double>::quiet_NaN();
   }
-  return report;
-}
+
+  const FitProblem& problem_;
+  const TrialProblem& trial_;
+  const Eigen::VectorXd& shared_;
+  const OwnValues& start_;
+  IntegratorOptions tight_;
+  TrialEvaluator evaluator_;
+  Trajectory analytic_, shifted_;
+  std::vector<Event> events_;  // of the run as it is
+};
 
 }  // namespace
 
@@ -138,7 +244,7 @@ GradientCertificate CertifyGradients(const FitProblem& problem,
                                      const JacobianSource& source) {
   std::vector<TrialReport> reports(trials.size());
   ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
-    reports[i] = CheckTrial(problem, trials[i], shared, starts[i], source);
+    reports[i] = TrialCheck(problem, trials[i], shared, starts[i]).Report(source);
   });
   GradientCertificate out;
   out.max_relative_error = std::numeric_limits<double>::quiet_NaN();

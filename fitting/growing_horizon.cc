@@ -11,6 +11,9 @@ namespace {
 
 // Most iterations of a round that is not the last.
 constexpr int kIterations = 30;
+// Relative change of the cost that ends such a round of a robot: the next one moves on from there.
+// (A hopper's traces seldom need to grow.)
+constexpr double kRobotRound = 1e-5;
 
 // The trials cut to the first `fraction` of their time.
 std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
@@ -31,10 +34,13 @@ std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
 SolveResult GrowHorizon(SolveRequest request) {
   const std::vector<TrialProblem>& whole = *request.trials;
   const int most = request.max_iterations;
+  const double tolerance = request.function_tolerance;
   for (double fraction : {0.12, 0.2, 0.3, 0.45, 0.65, 0.85}) {
     const std::vector<TrialProblem> cut = CutToFraction(*request.problem, whole, fraction);
     request.trials = &cut;
     request.max_iterations = kIterations;
+    if (request.problem->law == Law::kRobot)
+      request.function_tolerance = std::max(tolerance, kRobotRound);
     SolveResult next = Solve(request);
     if (next.status == SolveStatus::kInterrupted) return next;
     if (!IsUsable(next.status)) continue;
@@ -43,6 +49,7 @@ SolveResult GrowHorizon(SolveRequest request) {
   }
   request.trials = &whole;
   request.max_iterations = most;
+  request.function_tolerance = tolerance;
   return Solve(request);
 }
 

@@ -51,10 +51,14 @@ void TrialEvaluations::Run(bool jacobians, Point& point) {
   ParallelFor(static_cast<int>(n), request_.jobs, [&](int trial) {
     const auto i = static_cast<std::size_t>(trial);
     TrialEvaluation& e = evaluations_[i];
-    evaluators_[i].Evaluate({shared, OwnValuesOf(trial), jacobians, request_.loss, /*fly_on=*/true,
-                             /*whiten=*/false},
-                            e);
+    const OwnValues own = OwnValuesOf(trial);
+    EvaluationRequest request{shared,          own, jacobians, request_.loss, /*fly_on=*/true,
+                              /*whiten=*/false};
+    if (jacobians && HoldsManyShared(trial))
+      request.only = ColumnRange{problem_.shared_count(), trials_[i].own_count()};
+    evaluators_[i].Evaluate(request, e);
     if (!e.evaluated) return;
+    if (request.only) PutAfterShared(e.jacobian);
     point.evaluated[i] = 1;
     point.norms[i] = e.residuals.norm();
     if (jacobians) reduced_[i].Reduce(e, ColumnScales(trials_[i]));
@@ -63,6 +67,20 @@ void TrialEvaluations::Run(bool jacobians, Point& point) {
   for (const double norm : point.norms) point.cost += 0.5 * norm * norm;
   point.complete = std::all_of(evaluations_.begin(), evaluations_.end(),
                                [](const TrialEvaluation& e) { return e.complete; });
+}
+
+// Whether the columns of held shared values would take the simulator another run.
+bool TrialEvaluations::HoldsManyShared(int trial) const {
+  const int own = trials_[static_cast<std::size_t>(trial)].own_count();
+  return request_.hold_shared && problem_.law == Law::kRobot && own <= kWideJet &&
+         own + problem_.shared_count() > kWideJet;
+}
+
+// The columns of held values are nobody's: zeros.
+void TrialEvaluations::PutAfterShared(RowMajorMatrix& own) const {
+  RowMajorMatrix whole = RowMajorMatrix::Zero(own.rows(), problem_.shared_count() + own.cols());
+  whole.rightCols(own.cols()) = own;
+  own = std::move(whole);
 }
 
 Eigen::VectorXd TrialEvaluations::SharedValues(const Eigen::VectorXd& over_scale) const {

@@ -71,6 +71,8 @@ class TrialEvaluations : public ceres::EvaluationCallback {
     }
   };
   void Run(bool jacobians, Point& point);
+  bool HoldsManyShared(int trial) const;
+  void PutAfterShared(RowMajorMatrix& own) const;
   Eigen::VectorXd SharedValues(const Eigen::VectorXd& over_scale) const;
   Eigen::VectorXd ColumnScales(const TrialProblem& trial) const;
 

@@ -139,17 +139,16 @@ void Settle(Extension& model, const RefitSettings& settings) {
   // A trial refit may have stopped short of the minimum.
   const SolveResult found = Solve(RequestFrom(model, settings));
   if (IsUsable(found.status) && found.complete && found.cost <= model.cost) Take(model, found);
-  const RestrictedLikelihood coarse(model.problem, *settings.train, model.shared, model.starts,
-                                    settings.jobs, LikelihoodDetail::Coarse());
+  LikelihoodDetail detail;
+  detail.prior_widths = PriorWidths(model.problem, model.shared);
+  const RestrictedLikelihood likelihood(model.problem, *settings.train, model.shared, model.starts,
+                                        settings.jobs, detail);
+  const RestrictedLikelihood coarse = likelihood.With(LikelihoodDetail::Coarse());
   if (settings.discrepancy == Discrepancy::kMatern) {
     const NoiseModel near = model.problem.noise;
     model.discrepancy = EstimateDiscrepancy(coarse, near, /*known_only=*/!near.IsWhite());
     model.problem.noise = model.discrepancy.noise;
   }
-  LikelihoodDetail detail;
-  detail.prior_widths = PriorWidths(model.problem, model.shared);
-  const RestrictedLikelihood likelihood(model.problem, *settings.train, model.shared, model.starts,
-                                        settings.jobs, detail);
   model.evidence = EvidenceOf(model.problem, model.shared, likelihood, coarse, model.problem.noise);
   model.settled = true;
 }

@@ -35,9 +35,7 @@ Eigen::MatrixXd UpperOf(const RowMajorMatrix& block) {
   return qr.matrixQR().topRows(rows).template triangularView<Eigen::Upper>();
 }
 
-std::size_t StepFor(const std::vector<TrialProblem>& trials, std::size_t most_samples) {
-  std::size_t samples = 0;
-  for (const TrialProblem& t : trials) samples += static_cast<std::size_t>(t.sample_count);
+std::size_t StepFor(std::size_t samples, std::size_t most_samples) {
   return std::max<std::size_t>(1, samples / std::max<std::size_t>(most_samples, 1));
 }
 
@@ -55,42 +53,69 @@ RestrictedLikelihood::RestrictedLikelihood(const FitProblem& problem,
                                            const Eigen::VectorXd& shared,
                                            const std::vector<OwnValues>& starts, int jobs,
                                            const LikelihoodDetail& detail)
-    : jobs_(jobs) {
+    : channels_(static_cast<Eigen::Index>(problem.channels.size())), jobs_(jobs) {
   for (int k = 0; k < problem.shared_count(); ++k) {
     const bool bound = OnBound(problem.shared[static_cast<std::size_t>(k)], shared[k]);
     (bound ? bound_ : free_).push_back(k);
   }
-  if (detail.prior_widths.size() > 0) {
-    const std::vector<int> columns = Columns();
-    prior_widths_.resize(static_cast<Eigen::Index>(columns.size()));
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      prior_widths_[static_cast<Eigen::Index>(k)] = detail.prior_widths[columns[k]];
-  }
-  const std::size_t step = StepFor(trials, detail.most_samples);
+  SetPriorWidths(detail.prior_widths);
+  for (const TrialProblem& t : trials) samples_ += static_cast<std::size_t>(t.sample_count);
+  const std::size_t step = StepFor(samples_, detail.most_samples);
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < trials.size(); i += step) places.push_back(i);
-  std::vector<Made> made(places.size());
+  std::vector<std::optional<Part>> made(places.size());
   ParallelFor(static_cast<int>(places.size()), jobs, [&](int i) {
     const std::size_t place = places[static_cast<std::size_t>(i)];
-    made[static_cast<std::size_t>(i)] =
-        Make(problem, trials[place], shared, starts[place], detail.rows_a_channel);
+    std::optional<Part>& part = made[static_cast<std::size_t>(i)];
+    part = Make(problem, trials[place], shared, starts[place]);
+    if (!part) return;
+    part->place = place;
+    if (detail.rows_a_channel > 0) Average(*part, detail.rows_a_channel);
   });
+  for (std::optional<Part>& part : made) {
+    if (part) parts_.push_back(std::move(*part));
+  }
+  Summarise();
+}
 
-  const auto channels = static_cast<Eigen::Index>(problem.channels.size());
-  Eigen::ArrayXd square = Eigen::ArrayXd::Zero(channels), count = square;
+RestrictedLikelihood RestrictedLikelihood::With(const LikelihoodDetail& detail) const {
+  RestrictedLikelihood other = *this;
+  other.SetPriorWidths(detail.prior_widths);
+  const std::size_t step = StepFor(samples_, detail.most_samples);
+  std::erase_if(other.parts_, [step](const Part& part) { return part.place % step != 0; });
+  if (detail.rows_a_channel > 0) {
+    ParallelFor(static_cast<int>(other.parts_.size()), jobs_, [&](int i) {
+      Average(other.parts_[static_cast<std::size_t>(i)], detail.rows_a_channel);
+    });
+  }
+  other.Summarise();
+  return other;
+}
+
+void RestrictedLikelihood::SetPriorWidths(const Eigen::VectorXd& widths) {
+  prior_widths_.resize(0);
+  if (widths.size() == 0) return;
+  const std::vector<int> columns = Columns();
+  prior_widths_.resize(static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    prior_widths_[static_cast<Eigen::Index>(k)] = widths[columns[k]];
+}
+
+// What all trials tell together.
+void RestrictedLikelihood::Summarise() {
+  root_mean_square_.clear();
+  longest_ = 0.0;
+  Eigen::ArrayXd square = Eigen::ArrayXd::Zero(channels_), count = square;
   double rows = 0.0, seconds = 0.0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!made[i].complete) continue;
-    square += made[i].squares;
-    count += made[i].counts;
-    const std::vector<double>& times = trials[places[i]].row_times;
-    longest_ = std::max(longest_, 0.5 * times.back());
-    rows += static_cast<double>(times.size());
-    seconds += times.back();
-    parts_.push_back(std::move(made[i].part));
+  for (const Part& part : parts_) {
+    square += part.squares;
+    count += part.counts;
+    longest_ = std::max(longest_, 0.5 * part.seconds);
+    rows += part.rows;
+    seconds += part.seconds;
   }
   shortest_ = rows > 0.0 ? 3.0 * seconds / rows : 0.0;
-  for (Eigen::Index c = 0; c < channels; ++c)
+  for (Eigen::Index c = 0; c < channels_; ++c)
     root_mean_square_.push_back(count[c] > 0.0 ? std::sqrt(square[c] / count[c]) : 0.0);
 }
 
@@ -100,20 +125,17 @@ std::vector<int> RestrictedLikelihood::Columns() const {
   return columns;
 }
 
-RestrictedLikelihood::Made RestrictedLikelihood::Make(const FitProblem& problem,
-                                                      const TrialProblem& trial,
-                                                      const Eigen::VectorXd& shared,
-                                                      const OwnValues& own,
-                                                      std::size_t rows_a_channel) const {
-  Made made;
+std::optional<RestrictedLikelihood::Part> RestrictedLikelihood::Make(const FitProblem& problem,
+                                                                     const TrialProblem& trial,
+                                                                     const Eigen::VectorXd& shared,
+                                                                     const OwnValues& own) const {
   const TrialEvaluator evaluator(problem, trial);
   TrialEvaluation e;
   EvaluationRequest request{shared, own, true};
   request.whiten = false;
   evaluator.Evaluate(request, e);
-  if (!e.complete) return made;
-  made.complete = true;
-  Part& part = made.part;
+  if (!e.complete) return std::nullopt;
+  Part part;
   part.channels = evaluator.channel_rows();
   part.averaged.assign(part.channels.size(), 1.0);
 
@@ -135,15 +157,16 @@ RestrictedLikelihood::Made RestrictedLikelihood::Make(const FitProblem& problem,
   part.block.conservativeResize(Eigen::NoChange, part.own + width + 1);
 
   const auto channels = static_cast<Eigen::Index>(problem.channels.size());
-  made.squares = made.counts = Eigen::ArrayXd::Zero(channels);
+  part.squares = part.counts = Eigen::ArrayXd::Zero(channels);
   for (Eigen::Index c = 0; c < channels; ++c) {
     for (const int row : part.channels[static_cast<std::size_t>(c)].rows) {
-      made.squares[c] += e.residuals[row] * e.residuals[row];
-      made.counts[c] += 1.0;
+      part.squares[c] += e.residuals[row] * e.residuals[row];
+      part.counts[c] += 1.0;
     }
   }
-  if (rows_a_channel > 0) Average(part, rows_a_channel);
-  return made;
+  part.rows = static_cast<double>(trial.row_times.size());
+  part.seconds = trial.row_times.back();
+  return part;
 }
 
 // Means of some rows following each other, times the root of their number: white noise of size one

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "fitting/problem.h"
@@ -41,6 +42,10 @@ class RestrictedLikelihood {
                        const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
                        int jobs, const LikelihoodDetail& detail = {});
 
+  /// The same in another detail, without simulating anew: that of a likelihood of every row and
+  /// trial.
+  RestrictedLikelihood With(const LikelihoodDetail& detail) const;
+
   /// Restricted log-likelihood [nats]: of the residuals with the linearised values marginalised
   /// under flat priors (beyond the own ones' stated priors), but for a constant that no noise
   /// changes:
@@ -67,15 +72,15 @@ class RestrictedLikelihood {
     std::vector<double> averaged;  // rows of one channel that were averaged into one
     RowMajorMatrix block;          // own columns, free shared ones, those on bounds, residuals
     Eigen::Index own = 0;
+    std::size_t place = 0;           // of its trial
+    Eigen::ArrayXd squares, counts;  // of its residuals per channel
+    double rows = 0.0, seconds = 0.0;
   };
-  // What one trial tells of itself.
-  struct Made {
-    Part part;
-    bool complete = false;
-    Eigen::ArrayXd squares, counts;  // per channel
-  };
-  Made Make(const FitProblem& problem, const TrialProblem& trial, const Eigen::VectorXd& shared,
-            const OwnValues& own, std::size_t rows_a_channel) const;
+  // None: the trial cannot be simulated to the end of its data.
+  std::optional<Part> Make(const FitProblem& problem, const TrialProblem& trial,
+                           const Eigen::VectorXd& shared, const OwnValues& own) const;
+  void SetPriorWidths(const Eigen::VectorXd& widths);
+  void Summarise();
   std::vector<int> Columns() const;
   static void Average(Part& part, std::size_t most);
   double Evaluate(const NoiseModel& noise, std::vector<OneSided>* on_bounds) const;
@@ -85,6 +90,8 @@ class RestrictedLikelihood {
   Eigen::VectorXd prior_widths_;   // of these, in this order; empty: flat
   std::vector<double> root_mean_square_;
   double longest_ = 0.0, shortest_ = 0.0;
+  Eigen::Index channels_;
+  std::size_t samples_ = 0;  // of all trials
   int jobs_;
 };
 

@@ -27,6 +27,11 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
   const Inertia<T> weight(p_);
   gravity_x_ = weight.gravity_x;
   gravity_y_ = weight.gravity_y;
+  const auto is_plain = [](const T& x) { return IsZero(T(x - Value(x))); };
+  masses_are_plain_ = is_plain(p_.m) && is_plain(p_.r) && is_plain(robot_.leg_mass) &&
+                      is_plain(robot_.pitch_inertia) && is_plain(robot_.rotor_inertia) &&
+                      is_plain(gravity_x_) && is_plain(gravity_y_);
+  centred_ = IsZero(robot_.com_x) && IsZero(robot_.com_y);
   fall_height_ =
       p_.fall_height == p_.fall_height ? p_.fall_height : robot_detail::kLowestHip * Value(p_.r);
   using std::cos;

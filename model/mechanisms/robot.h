@@ -90,6 +90,11 @@ class Robot final : public HybridSystem<T> {
   void AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z, T* dz) const;
   void LagShortly(const Frame& frame, Push& push, const T* z, T* dz) const;
   void MissJump(int leg, const T& jump, T* z) const;
+  template <class P>
+  struct Masses;  // masses and inertias as numbers of type P
+  template <class P>
+  void AccelerateWith(const Masses<P>& masses, const Frame& frame, const Push& push, const T* z,
+                      T* dz) const;
   ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const;
   /// The same from the end of the clamp.
   ClampedPlace<T> PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const;
@@ -113,6 +118,8 @@ class Robot final : public HybridSystem<T> {
   bool has_body_force_;
   bool has_leg_mass_;
   bool lags_, lags_shortly_;  // motors: with a state of their own, or to first order (M86)
+  bool masses_are_plain_;     // the run is not differentiated by them
+  bool centred_;              // the centre of mass is the reference point
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;
   std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]

@@ -131,43 +131,82 @@ void Robot<T>::MissJump(int leg, const T& jump, T* z) const {
   for (int i = 0; i < legs_; ++i) add(Rate(i));
 }
 
-// M83: the motors are eliminated, each from its own row; then three equations are left, of the
-// reference point and the pitch.
+// M83, with masses and sizes as plain numbers where the run is not differentiated by them.
 template <class T>
 void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z,
                                      T* dz) const {
+  if constexpr (kJetWidth<T> != 0) {
+    if (masses_are_plain_) return AccelerateWith(Masses<double>(*this), frame, push, z, dz);
+  }
+  AccelerateWith(Masses<T>(*this), frame, push, z, dz);
+}
+
+template <class T>
+template <class P>
+struct Robot<T>::Masses {
+  P body, leg, pitch, rotor, about_hip;
+  P gravity_x, gravity_y;
+
+  explicit Masses(const Robot& r)
+      : body(Plain(r.p_.m)),
+        leg(Plain(r.robot_.leg_mass)),
+        pitch(Plain(r.robot_.pitch_inertia)),
+        rotor(Plain(r.robot_.rotor_inertia)),
+        about_hip(Plain(2.0 * r.robot_.leg_mass * r.p_.r * r.p_.r)),
+        gravity_x(Plain(r.gravity_x_)),
+        gravity_y(Plain(r.gravity_y_)) {}
+  static P Plain(const T& value) {
+    if constexpr (kJetWidth<P> == 0)
+      return Value(value);
+    else
+      return value;
+  }
+};
+
+// The motors are eliminated, each from its own row; then three equations are left, of the reference
+// point and the pitch.
+template <class T>
+template <class P>
+void Robot<T>::AccelerateWith(const Masses<P>& k, const Frame& frame, const Push& push, const T* z,
+                              T* dz) const {
   const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
-  const T &m = robot_.leg_mass, &turn = z[Pitch() + 1];
-  const T about_hip = 2.0 * m * p_.r * p_.r, turn2 = turn * turn;
-  const T weight_x = p_.m * gravity_x_, weight_y = p_.m * gravity_y_;
+  const P& m = k.leg;
+  const T& turn = z[Pitch() + 1];
+  const T turn2 = turn * turn;
+  const P weight_x = k.body * k.gravity_x, weight_y = k.body * k.gravity_y;
   // Symmetric matrix and right side of (x, y, pitch).
-  T xx = p_.m, xy(0.0), yy = p_.m, xt = -p_.m * com.y, yt = p_.m * com.x;
-  T tt = robot_.pitch_inertia + p_.m * (com.x * com.x + com.y * com.y);
-  T qx = push.force_x + weight_x + p_.m * turn2 * com.x;
-  T qy = push.force_y + weight_y + p_.m * turn2 * com.y;
-  T qt = push.moment + com.x * (push.force_y + weight_y) - com.y * (push.force_x + weight_x);
+  T xx(k.body), xy(0.0), yy(k.body), xt(0.0), yt(0.0), tt(k.pitch);
+  T qx = push.force_x + weight_x, qy = push.force_y + weight_y, qt = push.moment;
+  if (!centred_) {
+    xt = -k.body * com.y;
+    yt = k.body * com.x;
+    tt += k.body * (com.x * com.x + com.y * com.y);
+    qt += com.x * qy - com.y * qx;
+    qx += k.body * turn2 * com.x;
+    qy += k.body * turn2 * com.y;
+  }
   // Of each motor: what couples it with (x, y, pitch), its inertia, its right side.
   std::array<T, kMaxLegs> bx, by, bt, own;
   const bool locked = robot_.control == MotorControl::kLocked;
-  const T over = 1.0 / (robot_.rotor_inertia + about_hip);
+  const P over = 1.0 / (k.rotor + k.about_hip);
   for (int i = 0; i < legs_; ++i) {
     const LegPlace leg = LegOf(frame, i, z);
     const Hip& p = leg.hip;
     const T rate2 = p.rate * p.rate, along = m * (p.x * leg.x + p.y * leg.y),
             across = m * (leg.x * p.y - leg.y * p.x),
-            falls = m * (leg.x * gravity_y_ - leg.y * gravity_x_);
+            falls = m * (leg.x * k.gravity_y - leg.y * k.gravity_x);
     xx += m;
     yy += m;
     xt -= m * (p.y + leg.y);
     yt += m * (p.x + leg.x);
-    tt += m * (p.x * p.x + p.y * p.y) + 2.0 * along + about_hip;
-    qx += m * (gravity_x_ + turn2 * p.x + rate2 * leg.x);
-    qy += m * (gravity_y_ + turn2 * p.y + rate2 * leg.y);
-    qt += falls + m * (p.x * gravity_y_ - p.y * gravity_x_) + across * (turn2 - rate2);
+    tt += m * (p.x * p.x + p.y * p.y) + 2.0 * along + k.about_hip;
+    qx += m * (k.gravity_x + turn2 * p.x + rate2 * leg.x);
+    qy += m * (k.gravity_y + turn2 * p.y + rate2 * leg.y);
+    qt += falls + m * (p.x * k.gravity_y - p.y * k.gravity_x) + across * (turn2 - rate2);
     if (locked) continue;
     bx[i] = -m * leg.y;
     by[i] = m * leg.x;
-    bt[i] = along + about_hip;
+    bt[i] = along + k.about_hip;
     own[i] = push.on_motor[i] + falls + across * turn2;
     const T sx = bx[i] * over, sy = by[i] * over, st = bt[i] * over;
     xx -= sx * bx[i];
@@ -181,11 +220,11 @@ void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const
     qt -= st * own[i];
   }
   // Cholesky without roots: x, y, then the pitch.
-  const T l = xy / xx, u = xt / xx;
-  const T dy = yy - l * xy, v = (yt - l * xt) / dy;
+  const T over_xx = 1.0 / xx, l = xy * over_xx, u = xt * over_xx;
+  const T over_dy = 1.0 / (yy - l * xy), v = (yt - l * xt) * over_dy;
   const T ry = qy - l * qx;
   const T spin = (qt - u * qx - v * ry) / (tt - u * xt - v * (yt - l * xt));
-  const T ay = ry / dy - v * spin, ax = (qx - xy * ay - xt * spin) / xx;
+  const T ay = ry * over_dy - v * spin, ax = (qx - xy * ay - xt * spin) * over_xx;
   dz[kVx] = ax;
   dz[kVy] = ay;
   dz[Pitch() + 1] = spin;

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "fitting/check.h"
 #include "tests/support/fit_cases.h"
+#include "tests/support/formulas.h"
+#include "tests/support/requests.h"
 
 namespace hoplab {
 namespace {
@@ -58,6 +62,80 @@ TEST(GradientCertificate, ATrialThatNeverTouchesSaysNothingOfTheLeg) {
   for (const std::string& w : report.warnings)
     told = told || w.find("never touches the ground") != std::string::npos;
   EXPECT_TRUE(told);
+}
+
+// A ball that is pushed up from x = 1 m on and bounces first at that place, but for `beside`:
+// before it the push has the sign that the bounce turns over, after it not, so that the slope of
+// the motion by every value is another one on either side.
+struct PushedWhereItBounces {
+  FitProblem problem;
+  std::vector<TrialProblem> trials;
+  std::vector<OwnValues> starts;
+
+  explicit PushedWhereItBounces(double beside) {
+    const SimulationRequest ball = testing::BallRequest();
+    problem.law = Law::kBall;
+    problem.channels = {{Channel::kBodyX, 0.001, false}, {Channel::kBodyY, 0.001, false}};
+    EffectSetting push = EffectSetting::Null(FormulaEffect(testing::Source(
+        "body_force_y", "f * step(x - at)",
+        {testing::Factor("f", "N", -10.0, 10.0, 0.1), testing::Shape("at", "m", 1.0, -10.0, 10.0)},
+        "push")));
+    push.values[0] = 0.5;
+    problem.effects = {push};
+    TrialProblem trial;
+    trial.file = trial.recording = "train-1.csv";
+    trial.parameters = ball.parameters;
+    for (int i = 1; i < 90; ++i) trial.row_times.push_back(0.01 * i);
+    trial.data.assign(2 * trial.row_times.size(), 0.0);
+    const double fall = std::sqrt(2.0 * (0.45 - ball.parameters.radius) / ball.parameters.g);
+    trial.start = Eigen::Vector4d(1.0 + beside - 1.5 * fall, 0.45, 1.5, 0.0);
+    const char* names[] = {"x0", "y0", "vx0", "vy0"};
+    for (int i = 0; i < 4; ++i)
+      trial.own.push_back({.name = names[i],
+                           .direction = SensitivityDirection::InitialState(i),
+                           .scale = 0.01,
+                           .prior_mean = trial.start[i],
+                           .prior_sigma = 0.01});
+    starts = {trial.start};
+    trials = {trial};
+  }
+  GradientCertificate Certify() const {
+    return CertifyGradients(problem, trials, Eigen::VectorXd(), starts, 1);
+  }
+  // The first two events that change the motion, x0 moved by `by`.
+  std::vector<EventKind> FirstEvents(double by) const {
+    OwnValues start = starts[0];
+    start[0] += by;
+    Trajectory run;
+    TrialEvaluator(problem, trials[0])
+        .Simulate({Eigen::VectorXd(), start, false}, problem.integrator, run);
+    std::vector<EventKind> kinds;
+    for (const Event& e : run.events) {
+      if (e.kind != EventKind::kApex && kinds.size() < 2) kinds.push_back(e.kind);
+    }
+    return kinds;
+  }
+};
+
+TEST(GradientCertificate, ADifferenceDoesNotStraddleAnotherOrderOfEvents) {
+  const PushedWhereItBounces beside(2e-6);
+  ASSERT_EQ(beside.FirstEvents(0.0), (std::vector{EventKind::kCorner, EventKind::kBounce}));
+  ASSERT_EQ(beside.FirstEvents(-1e-5), (std::vector{EventKind::kBounce, EventKind::kCorner}));
+  const GradientCertificate c = beside.Certify();
+  EXPECT_LT(c.max_relative_error, 1e-6) << c.worst_parameter;
+  EXPECT_EQ(c.columns.size(), 4u);
+  EXPECT_TRUE(c.flags.empty());
+}
+
+TEST(GradientCertificate, RightBesideAnotherOrderOfEventsDifferencesAreOfOneSide) {
+  for (const double beside : {2e-9, -2e-9}) {
+    const GradientCertificate c = PushedWhereItBounces(beside).Certify();
+    EXPECT_LT(c.max_relative_error, 1e-4) << c.worst_parameter;
+    bool told = false;
+    for (const CertificateFlag& f : c.flags)
+      told = told || f.text.find("right beside this x0") != std::string::npos;
+    EXPECT_TRUE(told);
+  }
 }
 
 }  // namespace

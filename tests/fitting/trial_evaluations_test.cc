@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "fitting/generate.h"
 #include "tests/support/fit_cases.h"
+#include "tests/support/robot_drops.h"
 
 namespace hoplab {
 namespace {
@@ -105,6 +107,35 @@ TEST(TrialEvaluations, AnEndBeforeTheDataIsCountedWithItsReason) {
   EXPECT_FALSE(at.IsComplete());
   ASSERT_FALSE(at.rejected().empty());
   EXPECT_NE(at.rejected().begin()->first.find(".csv: "), std::string::npos);
+}
+
+// A robot's start has six values: with three shared ones the simulator would run once more for the
+// columns of values that are held.
+TEST(TrialEvaluations, HeldSharedValuesCostNoColumnsAndChangeNone) {
+  const FitProblem problem = MakeProblem(GenerateDataset(testing::RobotDrops(), {}).dataset, {});
+  ASSERT_EQ(problem.shared_count(), 3);
+  const std::vector<TrialProblem> trials = {TrialsOf(problem, TrialRole::kTrain).front()};
+  SolveRequest request;
+  request.problem = &problem;
+  request.trials = &trials;
+  request.shared = InitialShared(problem);
+  request.starts = NominalStarts(trials);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto own_of = [&](bool hold, Eigen::VectorXd& slopes) {
+    request.hold_shared = hold;
+    TrialEvaluations at(request);
+    at.PrepareForEvaluation(true, true);
+    Eigen::VectorXd residuals(at.RowCount(0));
+    RowMajor own(at.RowCount(0), 6);
+    at.Copy(0, residuals.data(), nullptr, own.data());
+    slopes = own.transpose() * residuals;
+    return Eigen::MatrixXd(own.transpose() * own);
+  };
+  Eigen::VectorXd all_slopes, own_slopes;
+  const Eigen::MatrixXd all = own_of(false, all_slopes), own = own_of(true, own_slopes);
+  ASSERT_GT(all.norm(), 0.0);
+  EXPECT_LT((own - all).norm(), 1e-10 * all.norm());
+  EXPECT_LT((own_slopes - all_slopes).norm(), 1e-10 * all_slopes.norm());
 }
 
 }  // namespace

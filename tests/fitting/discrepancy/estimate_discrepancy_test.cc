@@ -117,6 +117,21 @@ TEST(RestrictedLikelihood, IsTheOneOfDenseMatrices) {
   EXPECT_NEAR(likelihood.At(first), Dense(d, first), 1e-6 * std::abs(dense) + 1e-6);
 }
 
+TEST(RestrictedLikelihood, InAnotherDetailIsTheOneSimulatedInIt) {
+  const Disturbed d({0.5, 0.5}, 0.02, 3, 4);
+  LikelihoodDetail detail = LikelihoodDetail::Coarse();
+  detail.rows_a_channel = 20;
+  detail.most_samples = 300;  // every second trial or fewer
+  const RestrictedLikelihood made(d.problem, d.trials, d.shared, d.starts, 1, detail);
+  const RestrictedLikelihood taken = d.Likelihood().With(detail);
+  const NoiseModel noise{{0.5, 0.7}, 0.02};
+  ASSERT_NE(made.At(noise), d.Likelihood().At(noise));
+  EXPECT_EQ(taken.At(noise), made.At(noise));
+  EXPECT_EQ(taken.RootMeanSquare(0), made.RootMeanSquare(0));
+  EXPECT_EQ(taken.longest(), made.longest());
+  EXPECT_EQ(taken.shortest(), made.shortest());
+}
+
 TEST(EstimateDiscrepancy, FindsTheMaximumOfAGrid) {
   const Disturbed d({3.0, 1.5}, 0.06, 4);
   const RestrictedLikelihood likelihood = d.Likelihood();
