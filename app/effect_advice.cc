@@ -124,6 +124,10 @@ constexpr std::array kAdvice = {
     EffectAdvice{
         "motor_gain_4",
         "Hang a known weight on a lever at this motor and read the torque it is told to give.", ""},
+    EffectAdvice{"motor_lag",
+                 "Block a motor, step the torque it is told and read its current: how long does it "
+                 "take to follow?",
+                 ""},
     EffectAdvice{"pitch_inertia_scale", "Hang the robot by a hip, let it swing and time it.", ""},
     EffectAdvice{"rest_length_step",
                  "If the robot pushes, this is its work; if it does not, look for a spring that "

@@ -1,25 +1,33 @@
 #include "app/gait_run.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "app/console.h"
-#include "app/csv.h"
-#include "app/gait_tables.h"
-#include "app/quantity.h"
 #include "app/simulation_record.h"
-#include "app/text_table.h"
-#include "app/trajectory_tables.h"
 #include "app/usage_error.h"
 #include "base/input_error.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "experiments/scenario_hopper.h"
 
 namespace hoplab {
 namespace {
 
+// What a robot's gait is differentiated by.
+std::vector<std::string> RobotParameterNames(const RobotParameters<double>& robot) {
+  std::vector<std::string> names = {"clock_period", "clock_duty", "clock_sweep", "clock_offset"};
+  for (int leg = 2; leg <= robot.legs; ++leg) names.push_back("clock_phase_" + std::to_string(leg));
+  if (robot.own_moduli) {
+    for (int leg = 1; leg <= robot.legs; ++leg) names.push_back("E_" + std::to_string(leg));
+  } else {
+    names.emplace_back("E");
+  }
+  for (const char* name : {"leg_damping", "motor_kp", "motor_kd", "pitch_inertia", "com_x"})
+    names.emplace_back(name);
+  return names;
+}
+
 std::vector<std::string> ParameterNames(const Hopper& hopper) {
+  if (const auto& robot = hopper.request.parameters.robot) return RobotParameterNames(*robot);
   std::vector<std::string> names;
   for (const ParameterId id : ParametersOf(MechanismOf(hopper.request.law)))
     names.emplace_back(InfoOf(id).name);
@@ -30,125 +38,26 @@ std::vector<std::string> ParameterNames(const Hopper& hopper) {
   return names;
 }
 
+// A parameter of the clock, as "clock_period" or like the scenario's key "clock.period_s".
+std::optional<ParameterId> ClockParameter(std::string name) {
+  if (name.starts_with("clock.")) {
+    name[5] = '_';
+    for (const std::string unit : {"_s", "_rad"})
+      if (name.ends_with(unit)) name.resize(name.size() - unit.size());
+  }
+  for (const ParameterId id : ClockParameters())
+    if (InfoOf(id).name == name) return id;
+  return std::nullopt;
+}
+
 SensitivityDirection DirectionOf(const Hopper& hopper, const std::string& name) {
+  if (HasStrides(hopper)) {
+    if (const auto clock = ClockParameter(name)) return SensitivityDirection::Parameter(*clock);
+    if (name.starts_with("ground_slope"))
+      throw InputError({"--along", name, "is not followed: the section turns with the ground",
+                        "Give the slope in the scenario."});
+  }
   return ResolveDirection(name, MechanismOf(hopper.request.law), LegMass::kNone, hopper.effects);
-}
-
-std::string Multiplier(const std::complex<double>& m) {
-  if (m.imag() == 0.0) return Significant(m.real(), 7);
-  return Significant(m.real(), 7) + (m.imag() > 0.0 ? " + " : " - ") +
-         Significant(std::abs(m.imag()), 7) + "i";
-}
-
-int BandPercent(ConvergenceTime::Band band) {
-  return band == ConvergenceTime::Band::kOnePercent ? 1 : 2;
-}
-
-Json CountedRecord(const std::optional<ConvergenceTime>& counted) {
-  if (!counted || !counted->converged()) return nullptr;
-  return {{"time_s", counted->time},
-          {"hops", counted->hops},
-          {"band_percent", BandPercent(counted->band)},
-          {"steady_speed_m_per_s", counted->steady_speed}};
-}
-
-Json BranchRecord(const GaitRun& run) {
-  if (!run.along) return nullptr;
-  Json points = Json::array(), bifurcations = Json::array();
-  for (const BranchPoint& p : run.branch.points) {
-    points.push_back({{"parameter", p.parameter},
-                      {"vx_m_per_s", NumberOrNull(p.fixed_point.state[0])},
-                      {"y_m", NumberOrNull(p.fixed_point.state[1])},
-                      {"spectral_radius", NumberOrNull(p.fixed_point.spectral_radius)},
-                      {"stable", p.fixed_point.stable()},
-                      {"sequence_changed", p.sequence_changed},
-                      {"near_grazing", p.near_grazing}});
-  }
-  for (const Bifurcation& b : run.branch.bifurcations)
-    bifurcations.push_back({{"kind", NameOf(b.kind)}, {"parameter", b.parameter}});
-  const auto end = [](BranchEnd why, Outcome outcome) {
-    return Json{{"why", NameOf(why)},
-                {"outcome", why == BranchEnd::kHopFails ? Json(NameOf(outcome)) : Json(nullptr)}};
-  };
-  return {{"parameter", run.along->name},
-          {"points", points},
-          {"bifurcations", bifurcations},
-          {"first_end", end(run.branch.first_end, run.branch.first_outcome)},
-          {"last_end", end(run.branch.last_end, run.branch.last_outcome)}};
-}
-
-std::string EndText(BranchEnd end, Outcome outcome) {
-  switch (end) {
-    case BranchEnd::kRange:
-      return "the end of the range";
-    case BranchEnd::kHopFails:
-      return "where the hop fails: " + std::string(SentenceOf(outcome));
-    case BranchEnd::kNotConverged:
-      return "where no fixed point is found any more";
-    case BranchEnd::kPointLimit:
-      return "the limit of points";
-    case BranchEnd::kStopped:
-      return "the interruption";
-  }
-  return "";
-}
-
-std::string BranchReport(const GaitRun& run) {
-  const Branch& branch = run.branch;
-  if (branch.points.empty()) return "";
-  const std::string& name = run.along->name;
-  std::string text =
-      fmt::format("\n  along {}, {} points from {} ({}) to {} ({})\n", name, branch.points.size(),
-                  Significant(branch.points.front().parameter, 4),
-                  EndText(branch.first_end, branch.first_outcome),
-                  Significant(branch.points.back().parameter, 4),
-                  EndText(branch.last_end, branch.last_outcome));
-  for (std::size_t i = 1; i < branch.points.size(); ++i) {
-    const BranchPoint &a = branch.points[i - 1], &b = branch.points[i];
-    const std::string place = fmt::format("  {} = {}: ", name, Significant(b.parameter, 4));
-    if (b.sequence_changed)
-      text += place + "an event grazes, " + EventSequence(a.fixed_point.hop) + " becomes " +
-              EventSequence(b.fixed_point.hop) + "\n";
-    else if (b.near_grazing && !a.near_grazing)
-      text += place + "an event is close to grazing from here on\n";
-    if (a.fixed_point.stable() != b.fixed_point.stable())
-      text += place + (b.fixed_point.stable() ? "stable" : "unstable") + " from here on\n";
-  }
-  for (const Bifurcation& b : branch.bifurcations)
-    text += fmt::format("  {} = {}: {}\n", name, Significant(b.parameter, 4), NameOf(b.kind));
-  return text;
-}
-
-std::string PredictionText(const GaitRun& run) {
-  if (run.prediction.linear_hops < 0) return "none, it does not come back";
-  return fmt::format("{} (the slowest mode starts at {} % and needs {})",
-                     run.prediction.linear_hops, Significant(100.0 * run.prediction.e0, 3),
-                     Fixed(run.prediction.hops, 1));
-}
-
-std::string CountedText(const GaitRun& run) {
-  if (!run.counted || !run.counted->converged()) return "";
-  return fmt::format("{} in the scenario's run, at {} s{}", run.counted->hops,
-                     Fixed(run.counted->time, 3),
-                     run.counted->band == ConvergenceTime::Band::kTwoPercent ? "* (2 %)" : "");
-}
-
-// The branch as CSV.
-std::string BranchTable(const GaitRun& run) {
-  CsvText csv({run.along->name, "vx_m_per_s", "y_m", "spectral_radius", "multiplier_1_re",
-               "multiplier_1_im", "multiplier_2_re", "multiplier_2_im", "stable",
-               "sequence_changed", "near_grazing", "events"});
-  for (const BranchPoint& point : run.branch.points) {
-    const FixedPoint& p = point.fixed_point;
-    csv.Cell(point.parameter).Cell(p.state[0]).Cell(p.state[1]).Cell(p.spectral_radius);
-    for (const std::complex<double>& m : p.multipliers) csv.Cell(m.real()).Cell(m.imag());
-    csv.Cell(p.stable() ? 1.0 : 0.0)
-        .Cell(point.sequence_changed ? 1.0 : 0.0)
-        .Cell(point.near_grazing ? 1.0 : 0.0)
-        .Cell(EventSequence(p.hop));
-    csv.EndRow();
-  }
-  return csv.text();
 }
 
 }  // namespace
@@ -166,138 +75,103 @@ AlongRange ParseAlong(const std::string& text) {
 }
 
 std::string GaitRun::Failure() const {
-  if (point.status == FixedPointStatus::kHopFails)
+  if (!HasStrides(hopper) && point.status == FixedPointStatus::kHopFails)
     return "no hop can be made from the start: " + std::string(SentenceOf(point.hop.outcome));
+  if (HasStrides(hopper) && !map)
+    return "the robot makes too few strides from its start: " +
+           std::string(SentenceOf(own_outcome)) +
+           "; search its clock with `hoplab optimize`, or try another initial state";
+  if (HasStrides(hopper) && !point.found())
+    return "no steady stride was found near the robot's run; search its clock with `hoplab "
+           "optimize`, or try another initial state";
   if (!point.found())
     return "no fixed point was found near the start; try another initial state or --set "
            "controller.kp_N_s";
   return "";
 }
 
+namespace {
+
+SectionState AsSection(const ApexState& state) { return state; }
+
+void FindHop(GaitRun& run) {
+  run.map = std::make_shared<ApexMap>(run.hopper);
+  run.start = AsSection(StartApex(run.hopper));
+  run.point = SearchFixedPoint(*run.map, run.start);
+  const Trajectory own = Simulate(RequestOf(run.hopper));
+  run.apexes = ApexSpeeds(own);
+  if (IsComplete(own.outcome)) run.counted = ConvergenceTimeOf(run.apexes);
+  if (run.point.found()) run.prediction = PredictHops(run.point, run.start);
+}
+
+void FindStride(GaitRun& run) {
+  SteadyStride steady = FindSteadyStride(run.hopper);
+  run.own_outcome = steady.start.outcome;
+  run.own_strides = steady.start.strides;
+  run.point = steady.point;
+  if (!steady.start.map) return;
+  run.start = steady.start.state;
+  if (steady.point.found()) run.stride = MeasureStride(*steady.start.map, steady.point.state);
+  run.map = std::make_shared<StrideMap>(std::move(*steady.start.map));
+}
+
+// What is followed must lie in its range.
+std::optional<SensitivityDirection> DirectionAlong(const Hopper& hopper,
+                                                   const std::optional<AlongRange>& along) {
+  if (!along) return std::nullopt;
+  const SensitivityDirection direction = DirectionOf(hopper, along->name);
+  const double here = ValueOf(hopper, direction);
+  if (direction.of == SensitivityDirection::Of::kInitialState || here < along->low ||
+      here > along->high) {
+    throw InputError({"--along", along->name + " = " + FormatDouble(here),
+                      "must be a parameter whose value in the scenario lies in the range",
+                      "Widen the range."});
+  }
+  return direction;
+}
+
+}  // namespace
+
 GaitRun RunGait(const Hopper& hopper, const GaitOptions& options) {
   GaitRun run;
   run.hopper = hopper;
   run.along = options.along;
-  run.start = StartApex(hopper);
   run.parameters = ParameterNames(hopper);
-  std::optional<SensitivityDirection> along;
-  if (options.along) {
-    along = DirectionOf(hopper, options.along->name);
-    const double here = ValueOf(hopper, *along);
-    if (along->of == SensitivityDirection::Of::kInitialState || here < options.along->low ||
-        here > options.along->high) {
-      throw InputError({"--along", options.along->name + " = " + FormatDouble(here),
-                        "must be a parameter whose value in the scenario lies in the range",
-                        "Widen the range."});
-    }
-  }
+  const std::optional<SensitivityDirection> along = DirectionAlong(hopper, options.along);
   const auto stage = [&](const std::string& text) {
     if (options.stage) options.stage(text);
   };
+  const bool strides = HasStrides(hopper);
   stage("searching the fixed point");
-  ReturnMap map(hopper);
-  run.point = SearchFixedPoint(map, run.start);
-  const Trajectory own = Simulate(RequestOf(hopper));
-  run.apexes = ApexSpeeds(own);
-  if (IsComplete(own.outcome)) run.counted = ConvergenceTimeOf(run.apexes);
+  if (strides)
+    FindStride(run);
+  else
+    FindHop(run);
+  if (run.map) run.components = run.map->Components(run.start);
   if (!run.point.found()) return run;
-  run.prediction = PredictHops(run.point, run.start);
   stage("differentiating the spectral radius");
-  for (const std::string& name : run.parameters)
-    run.rates.push_back(DifferentiateSpectralRadius(hopper, run.point, DirectionOf(hopper, name)));
+  // A stride takes longer than a hop, and three levels tell six digits.
+  const int levels = strides ? 3 : kRadiusLevels;
+  run.rates.resize(run.parameters.size());
+  ParallelFor(static_cast<int>(run.parameters.size()), options.jobs, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (options.stop && *options.stop) return;
+    run.rates[at] = DifferentiateSpectralRadius(*run.map, run.point,
+                                                DirectionOf(hopper, run.parameters[at]), levels);
+  });
   if (along) {
     stage("following the fixed point along " + options.along->name);
     ContinuationOptions continuation{.low = options.along->low, .high = options.along->high};
+    if (strides) continuation.fixed_point.tolerance = kStrideResidual;
     continuation.stop = options.stop;
-    run.branch = FollowFixedPoint(hopper, run.point, *along, continuation);
+    run.branch = FollowFixedPoint(*run.map, run.point, *along, continuation);
   }
   run.interrupted = options.stop && *options.stop;
   return run;
 }
 
-void AddGait(const GaitRun& run, Json& record) {
-  const FixedPoint& p = run.point;
-  record["start"] = {{"vx_m_per_s", run.start[0]}, {"y_m", run.start[1]}};
-  const bool found = p.found();
-  record["fixed_point"] = {{"vx_m_per_s", found ? NumberOrNull(p.state[0]) : nullptr},
-                           {"y_m", found ? NumberOrNull(p.state[1]) : nullptr}};
-  record["multipliers"] = Json::array();
-  for (const std::complex<double>& m : p.multipliers)
-    record["multipliers"].push_back({NumberOrNull(m.real()), NumberOrNull(m.imag())});
-  record["spectral_radius"] = NumberOrNull(p.spectral_radius);
-  record["period_s"] = found ? NumberOrNull(p.hop.period) : nullptr;
-  record["advance_m"] = found ? NumberOrNull(p.hop.advance) : nullptr;
-  const bool predicted = run.prediction.linear_hops >= 0;
-  record["predicted_hops"] = predicted ? Json(run.prediction.linear_hops) : Json(nullptr);
-  record["slowest_mode"] = {{"e0", NumberOrNull(run.prediction.e0)},
-                            {"hops", NumberOrNull(run.prediction.hops)}};
-  record["d_spectral_radius"] = Json::object();
-  record["d_spectral_radius_error"] = Json::object();
-  for (std::size_t i = 0; i < run.parameters.size(); ++i) {
-    const SpectralRadiusRate rate = i < run.rates.size() ? run.rates[i] : SpectralRadiusRate();
-    record["d_spectral_radius"][run.parameters[i]] = NumberOrNull(rate.value);
-    record["d_spectral_radius_error"][run.parameters[i]] = NumberOrNull(rate.error);
-  }
-  record["stable"] = found ? Json(p.stable()) : Json(nullptr);
-  record["conserves_energy"] = found ? Json(p.conserves_energy) : Json(nullptr);
-  record["events"] = EventSequence(p.hop);
-  record["mechanism"] = MechanismRecord(RequestOf(run.hopper));
-  record["apex_speeds"] = Json::array();
-  for (const ApexSpeed& apex : run.apexes)
-    record["apex_speeds"].push_back({{"time_s", apex.time}, {"vx_m_per_s", apex.vx}});
-  record["max_flexure"] = found ? NumberOrNull(p.hop.max_flexure) : nullptr;
-  record["iterations"] = p.iterations;
-  record["residual"] = NumberOrNull(p.residual);
-  record["counted"] = CountedRecord(run.counted);
-  record["branch"] = BranchRecord(run);
-}
-
-std::map<std::string, std::string> GaitTables(const GaitRun& run) {
-  constexpr double kLongest = 30.0;  // s
-  std::map<std::string, std::string> tables = {
-      {"trajectory.csv", OwnRunTable(run.hopper, kLongest)}};
-  if (run.point.found())
-    tables["cycles.csv"] = CycleTable({{"steady hop", &run.hopper, &run.point}});
-  if (run.along && !run.branch.points.empty()) tables["branch.csv"] = BranchTable(run);
-  return tables;
-}
-
-std::string GaitReport(const std::string& name, const GaitRun& run, bool colours) {
-  const FixedPoint& p = run.point;
-  std::string text =
-      Styled(name, Emphasis::kBold, colours) +
-      fmt::format("  law {}, from an apex at {} m with {} m/s\n\n", NameOf(run.hopper.request.law),
-                  Fixed(run.start[1], 4), Fixed(run.start[0], 4));
-  if (!p.found()) return text;
-  text += fmt::format("  steady hop       vx {} m/s, apex {} m, every {} s ({})\n",
-                      Significant(p.state[0], 7), Significant(p.state[1], 7),
-                      Significant(p.hop.period, 5), EventSequence(p.hop));
-  text += fmt::format("  multipliers      {} and {}\n", Multiplier(p.multipliers[0]),
-                      Multiplier(p.multipliers[1]));
-  text += fmt::format("  spectral radius  {}, {}\n", Significant(p.spectral_radius, 7),
-                      p.conserves_energy ? "one multiplier is the energy's, which is conserved"
-                      : p.stable()       ? "stable"
-                                         : "unstable");
-  text += "  hops to 1 %      " + PredictionText(run) + "\n";
-  if (const std::string counted = CountedText(run); !counted.empty())
-    text += "  counted          " + counted + "\n";
-  if (run.hopper.request.law == Law::kLargeDeflection && p.hop.max_flexure > kMaxFlexure)
-    text += fmt::format("  the leg bends to F C/l0 = {}; beyond {} this law is not to be trusted\n",
-                        Significant(p.hop.max_flexure, 2), kMaxFlexure);
-  using enum TextTable::Align;
-  TextTable table({kLeft, kRight, kRight, kRight});
-  table.AddRow({"parameter", "value (SI)", "d rho/d parameter", "rho per +1 %"});
-  for (std::size_t i = 0; i < run.rates.size(); ++i) {
-    const double value = ValueOf(run.hopper, DirectionOf(run.hopper, run.parameters[i]));
-    const double rate = run.rates[i].value;
-    table.AddRow({run.parameters[i], Significant(value, 5),
-                  std::isnan(rate) ? "does not exist" : fmt::format("{:+.5e}", rate),
-                  std::isnan(rate) ? "" : fmt::format("{:+.6f}", 0.01 * value * rate)});
-  }
-  const std::vector<std::string> lines = table.Lines();
-  text += "\n" + Styled(lines.front(), Emphasis::kFaint, colours) + "\n";
-  for (std::size_t i = 1; i < lines.size(); ++i) text += lines[i] + "\n";
-  return text + (run.along ? BranchReport(run) : "");
+SensitivityDirection GaitDirection(const Hopper& hopper, const std::string& name) {
+  return DirectionOf(hopper, name);
 }
 
 }  // namespace hoplab

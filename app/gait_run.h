@@ -9,6 +9,7 @@
 #include "app/run_record.h"
 #include "optimize/continuation.h"
 #include "optimize/convergence_time.h"
+#include "optimize/stride_measures.h"
 
 namespace hoplab {
 
@@ -21,11 +22,17 @@ struct AlongRange {
 /// `name=low:high`; throws UsageError for anything else.
 AlongRange ParseAlong(const std::string& text);
 
-/// What `hoplab gait` computes.
+/// What `hoplab gait` computes: of a hopper its steady hop, of a robot with a clock its steady
+/// stride.
 struct GaitRun {
   Hopper hopper;
-  ApexState start;
+  std::shared_ptr<ReturnMap> map;            // absent: a robot that fell too soon to have one
+  std::vector<SectionComponent> components;  // of `start` and the fixed point
+  SectionState start;
   FixedPoint point;
+  Outcome own_outcome = Outcome::kCompleted;  // of a robot's run from its own start
+  double own_strides = 0.0;                   // that it made
+  std::optional<StrideMeasures> stride;       // of a robot's steady stride
   HopPrediction prediction;
   std::vector<std::string> parameters;  // names of what the spectral radius is differentiated by
   std::vector<SpectralRadiusRate> rates;
@@ -43,17 +50,13 @@ struct GaitOptions {
   std::optional<AlongRange> along;
   std::function<void(const std::string& stage)> stage = nullptr;
   const std::atomic<bool>* stop = nullptr;
+  int jobs = 1;  // never changes a result
 };
 
 /// Throws InputError if `along` names nothing this hopper has.
 GaitRun RunGait(const Hopper& hopper, const GaitOptions& options);
 
-/// Keys of a gait in run.json.
-void AddGait(const GaitRun& run, Json& record);
-/// The CSVs behind a gait's plots by file name: trajectory (the scenario's own run), cycles (the
-/// steady hop), branch (where a parameter was followed).
-std::map<std::string, std::string> GaitTables(const GaitRun& run);
-/// What the command prints.
-std::string GaitReport(const std::string& name, const GaitRun& run, bool colours);
+/// What a name after --along, or of a rate, stands for. Throws InputError for none the hopper has.
+SensitivityDirection GaitDirection(const Hopper& hopper, const std::string& name);
 
 }  // namespace hoplab

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "app/stride_record.h"
 #include "app/trajectory_tables.h"
+#include "optimize/stride_map.h"
 
 namespace hoplab {
 namespace {
@@ -13,9 +15,16 @@ constexpr double kOwnRunRate = 250.0;  // Hz
 }  // namespace
 
 std::string CycleTable(const std::vector<LabelledGait>& gaits) {
-  CsvText csv(TrajectoryHeader({"run"}));
+  const int legs = gaits.empty() ? 0 : RobotLegsOf(gaits.front().hopper->request.parameters);
+  CsvText csv(TrajectoryHeader({"run"}, legs));
   for (const LabelledGait& gait : gaits) {
     if (!gait.point->found()) continue;
+    if (HasStrides(*gait.hopper)) {
+      const SteadyStride steady = FindSteadyStride(*gait.hopper);
+      AddTrajectoryRows(steady.start.map->RequestFrom(steady.point.state), kCycleRate, {gait.label},
+                        0.0, csv);
+      continue;
+    }
     SimulationRequest request = RequestOf(*gait.hopper);
     request.initial = {0.0, gait.point->state[1], gait.point->state[0], 0.0};
     request.horizon = gait.point->hop.period;
@@ -26,7 +35,7 @@ std::string CycleTable(const std::vector<LabelledGait>& gaits) {
 }
 
 std::string OwnRunTable(const Hopper& hopper, double longest) {
-  CsvText csv(TrajectoryHeader({}));
+  CsvText csv(TrajectoryHeader({}, RobotLegsOf(hopper.request.parameters)));
   SimulationRequest request = RequestOf(hopper);
   request.horizon = std::min(request.horizon, longest);
   AddTrajectoryRows(request, kOwnRunRate, {}, 0.0, csv);
@@ -38,8 +47,10 @@ Json GaitPointRecord(const FixedPoint& point) {
   Json multipliers = Json::array();
   for (const std::complex<double>& m : point.multipliers)
     multipliers.push_back({NumberOrNull(m.real()), NumberOrNull(m.imag())});
-  return {{"vx_m_per_s", NumberOrNull(point.state[0])},
-          {"y_m", NumberOrNull(point.state[1])},
+  // Of a robot the state leads with height and speed, and its mean speed says more.
+  const bool strides = point.state.size() > 2;
+  return {{"vx_m_per_s", NumberOrNull(strides ? SpeedOf(point.hop) : point.state[0])},
+          {"y_m", NumberOrNull(point.state[strides ? 0 : 1])},
           {"period_s", NumberOrNull(point.hop.period)},
           {"advance_m", NumberOrNull(point.hop.advance)},
           {"multipliers", multipliers},

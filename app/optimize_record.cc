@@ -35,7 +35,9 @@ Json PointRecord(const OptimizeRun& run, const SearchPoint& point) {
           {"steady_speed_m_per_s", NumberOrNull(point.speed)},
           {"max_torque_N_m", NumberOrNull(point.torque)},
           {"clearance_m", NumberOrNull(point.clearance)},
-          {"max_flexure", NumberOrNull(point.flexure)}};
+          {"max_flexure", NumberOrNull(point.flexure)},
+          {"cost_of_transport", NumberOrNull(point.cost_of_transport)},
+          {"gait", point.gait.empty() ? Json(nullptr) : Json(point.gait)}};
 }
 
 Json WorstRecord(const WorstCase& worst) {
@@ -95,12 +97,17 @@ std::string Worth(const SearchPoint& point) {
   if (!std::isnan(point.spectral_radius))
     text += fmt::format("{}spectral radius {}", text.empty() ? "" : ", ",
                         Significant(point.spectral_radius, 4));
-  return text + fmt::format(", {} m/s", Fixed(point.speed, 3));
+  text += fmt::format(", {} m/s", Fixed(point.speed, 3));
+  if (point.gait.empty()) return text;
+  return point.gait + ": " + text +
+         fmt::format(", cost of transport {}, at most {} N m",
+                     Significant(point.cost_of_transport, 3), Significant(point.torque, 3));
 }
 
 std::string WorstText(const WorstCase& worst) {
   std::string text = fmt::format("{} of {} converge", worst.converged, worst.runs);
-  if (worst.converged > 0) text += fmt::format(", at worst in {} s", Fixed(worst.worst_time, 3));
+  if (std::isfinite(worst.worst_time))
+    text += fmt::format(", at worst in {} s", Fixed(worst.worst_time, 3));
   return text + (worst.ended > 0 ? fmt::format(", {} fall", worst.ended) : "");
 }
 
@@ -221,8 +228,9 @@ std::string OptimizeReport(const std::string& name, const OptimizeRun& run, bool
           " (before: " + WorstText(run.before_robustness.stiffness) + ")\n";
   text += "  25 starts      " + WorstText(run.best_robustness.starts) +
           " (before: " + WorstText(run.before_robustness.starts) + ")\n";
-  text += "  0.5 deg noise  " + NoiseText(run.best_robustness.noise) +
-          " (before: " + NoiseText(run.before_robustness.noise) + ")\n";
+  if (run.best_robustness.noise.runs > 0)
+    text += "  0.5 deg noise  " + NoiseText(run.best_robustness.noise) +
+            " (before: " + NoiseText(run.before_robustness.noise) + ")\n";
   return text;
 }
 

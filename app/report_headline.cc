@@ -227,7 +227,37 @@ void DiagnosisHeadline(const Json& record, Headline& out) {
                                 : "95 %: " + Significant(low, 3) + " to " + Significant(high, 3);
 }
 
+std::string HowItDecays(double radius, const char* turn) {
+  return fmt::format(
+      " and is stable: a disturbance keeps {} % of its size from {} to "
+      "{}, once the slowest part of it is left.",
+      Significant(100.0 * radius, 3), turn, turn);
+}
+
+// Of a robot's stride.
+void StrideHeadline(const Json& record, Headline& out) {
+  const double radius = NumberAt(record, "/spectral_radius");
+  const std::string kind = TextAt(record, "/stride/kind");
+  if (kind.empty()) {
+    out.sentence = "No steady stride was found near the robot's run.";
+    return;
+  }
+  out.sentence = fmt::format("The robot's steady stride is a {} at {} m/s", kind,
+                             Significant(NumberAt(record, "/stride/speed_m_per_s"), 3));
+  out.sentence += At(record, "/stable") == Json(true) ? HowItDecays(radius, "stride")
+                                                      : " and is unstable: a disturbance grows.";
+  out.figures.push_back(Figure(record, "spectral radius", "/spectral_radius", ""));
+  out.figures.back().note = "stable below 1";
+  out.figures.push_back(Figure(record, "speed", "/stride/speed_m_per_s", "m/s"));
+  out.figures.push_back(Figure(record, "cost of transport", "/stride/cost_of_transport", ""));
+  out.figures.back().note = "work of the motors over weight times way";
+}
+
 void GaitHeadline(const Json& record, Headline& out) {
+  if (record.contains("stride")) {
+    StrideHeadline(record, out);
+    return;
+  }
   const double speed = NumberAt(record, "/fixed_point/vx_m_per_s");
   const double height = NumberAt(record, "/fixed_point/y_m");
   const double radius = NumberAt(record, "/spectral_radius");
@@ -238,10 +268,7 @@ void GaitHeadline(const Json& record, Headline& out) {
   if (neutral)
     out.sentence += "; energy is conserved, so a change of it stays.";
   else if (stable)
-    out.sentence += fmt::format(
-        " and is stable: a disturbance keeps {} % of its size from hop to "
-        "hop, once the slowest part of it is left.",
-        Significant(100.0 * radius, 3));
+    out.sentence += HowItDecays(radius, "hop");
   else
     out.sentence += " and is unstable: a disturbance grows.";
   out.figures.push_back(Figure(record, "spectral radius", "/spectral_radius", ""));

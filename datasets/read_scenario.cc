@@ -251,8 +251,12 @@ SearchSpec ReadSearch(const YamlCursor& cursor, const KeyProbe& probe) {
   search.over = ReadKeyRanges(
       cursor.Required("over", "what to vary, as {controller.kp_N_s: [0.5, 12]}"), probe);
   search.objective = static_cast<ObjectiveKind>(
-      cursor.Required("objective", "convergence_time, spectral_radius or weighted")
-          .Choice({"convergence_time", "spectral_radius", "weighted"}));
+      cursor
+          .Required("objective",
+                    "convergence_time, spectral_radius or weighted; of a robot spectral_radius, "
+                    "speed, cost_of_transport or peak_torque")
+          .Choice({"convergence_time", "spectral_radius", "weighted", "speed", "cost_of_transport",
+                   "peak_torque"}));
   if (const auto constraints = cursor.Optional("constraints"))
     search.constraints = ReadNamedNumbers(*constraints, 0);
   if (const auto budget = cursor.Optional("budget")) search.budget = budget->Integer(1, kMaxBudget);
@@ -432,7 +436,7 @@ std::optional<double> ScenarioDocument::NumberAt(std::string_view key) const {
   const YamlNode* node = &root_;
   while (node && !key.empty()) {
     const std::size_t dot = key.find('.');
-    node = node->Find(key.substr(0, dot));
+    node = node->At(key.substr(0, dot));
     key = dot == key.npos ? std::string_view() : key.substr(dot + 1);
   }
   if (!node || node->kind != Kind::kScalar) return std::nullopt;

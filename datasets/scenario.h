@@ -49,7 +49,14 @@ struct KeyRange {
   bool operator==(const KeyRange&) const = default;
 };
 
-enum class ObjectiveKind { kConvergenceTime, kSpectralRadius, kWeighted };
+enum class ObjectiveKind {
+  kConvergenceTime,
+  kSpectralRadius,
+  kWeighted,
+  kSpeed,
+  kCostOfTransport,
+  kPeakTorque
+};
 
 struct SearchSpec {
   std::vector<KeyRange> over;

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <functional>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -239,6 +240,14 @@ YamlNode Parse(std::string_view text, const TreeBuilder::PlaceOf& place_of,
   return builder.Take();
 }
 
+std::optional<std::size_t> PlaceInList(std::string_view text) {
+  std::size_t index = 0;
+  const char* end = text.data() + text.size();
+  const std::from_chars_result result = std::from_chars(text.data(), end, index);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return index;
+}
+
 }  // namespace
 
 const YamlNode* YamlNode::Find(std::string_view key) const {
@@ -249,6 +258,12 @@ const YamlNode* YamlNode::Find(std::string_view key) const {
 
 YamlNode* YamlNode::Find(std::string_view key) {
   return const_cast<YamlNode*>(std::as_const(*this).Find(key));
+}
+
+const YamlNode* YamlNode::At(std::string_view key) const {
+  if (kind != Kind::kSequence) return Find(key);
+  const std::optional<std::size_t> place = PlaceInList(key);
+  return place && *place < items.size() ? &items[*place] : nullptr;
 }
 
 void YamlNode::Erase(std::string_view key) {
@@ -299,14 +314,12 @@ namespace {
 
 YamlNode& ListItem(YamlNode& list, std::string_view part, std::string_view dotted_key,
                    const std::string& place) {
-  std::size_t index = 0;
-  const char* end = part.data() + part.size();
-  const std::from_chars_result result = std::from_chars(part.data(), end, index);
-  if (result.ec != std::errc() || result.ptr != end || index >= list.items.size())
+  const std::optional<std::size_t> index = PlaceInList(part);
+  if (!index || *index >= list.items.size())
     BadSetKey(dotted_key, place,
               "`" + Printable(part) + "` must be the place in a list of " +
                   std::to_string(list.items.size()) + ", counted from 0");
-  return list.items[index];
+  return list.items[*index];
 }
 
 }  // namespace

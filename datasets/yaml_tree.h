@@ -22,6 +22,9 @@ struct YamlNode {
   /// The value under `key`, or null if this is no map or has no such key.
   const YamlNode* Find(std::string_view key) const;
   YamlNode* Find(std::string_view key);
+  /// The value under `key`, or the item of a list at that place, counted from 0; null if there is
+  /// none.
+  const YamlNode* At(std::string_view key) const;
   /// Removes `key` and its value if they are there.
   void Erase(std::string_view key);
 };

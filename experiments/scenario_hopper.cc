@@ -28,11 +28,11 @@ Hopper LeggedHopperOfScenario(const Scenario& scenario, const IntegratorOptions&
                       "has no gait: what bounces has no steady hop to come back to",
                       "Use c_leg or straight_leg."});
   }
-  if (scenario.mechanism.type == MechanismType::kRobot) {
-    throw InputError({scenario.origin.place, "mechanism.type = robot",
-                      "has no return map of speed and height alone: its pitch and motors come back "
-                      "to themselves, too",
-                      "Look at its runs with simulate and sweep."});
+  if (scenario.mechanism.type == MechanismType::kRobot &&
+      scenario.controller->motors->kind != MotorsSpec::Kind::kClock) {
+    throw InputError({scenario.origin.place, "controller.type",
+                      "a robot whose motors stand still makes no strides: nothing drives it",
+                      "Use type: clock, or look at its runs with simulate and sweep."});
   }
   if (LegMassOfSpec(scenario.mechanism) == LegMass::kAtToe) {
     throw InputError(

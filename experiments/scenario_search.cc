@@ -82,8 +82,31 @@ Objective ObjectiveOf(ObjectiveKind kind) {
       return Objective::kSpectralRadius;
     case ObjectiveKind::kWeighted:
       return Objective::kWeighted;
+    case ObjectiveKind::kSpeed:
+      return Objective::kSpeed;
+    case ObjectiveKind::kCostOfTransport:
+      return Objective::kCostOfTransport;
+    case ObjectiveKind::kPeakTorque:
+      return Objective::kPeakTorque;
   }
   return Objective::kConvergenceTime;
+}
+
+// An objective and constraints that the mechanism has.
+void CheckProblem(const SearchProblem& problem, const Scenario& scenario) {
+  const bool robot = scenario.mechanism.type == MechanismType::kRobot;
+  const auto refuse = [&](const std::string& key, const char* rule, const char* remedy) {
+    throw InputError({scenario.search->origin.place, key, rule, remedy});
+  };
+  const std::string objective = "objective: " + std::string(NameOf(problem.objective));
+  if (robot && !IsOfStrides(problem.objective))
+    refuse(objective, "is counted in hops, which a robot does not make",
+           "Use spectral_radius, speed, cost_of_transport or peak_torque.");
+  if (!robot && !IsOfHops(problem.objective))
+    refuse(objective, "is that of a robot's stride",
+           "Use convergence_time, spectral_radius or weighted.");
+  if (robot && problem.constraints.min_clearance)
+    refuse("constraints.min_clearance_m", "is that of a hopper's apexes", "Leave it out.");
 }
 
 }  // namespace
@@ -99,6 +122,7 @@ SearchProblem SearchProblemOfScenario(const ScenarioDocument& document, const Sc
   SearchProblem problem;
   problem.objective = ObjectiveOf(scenario.search->objective);
   problem.constraints = ConstraintsOf(scenario.search->constraints);
+  CheckProblem(problem, scenario);
   std::vector<OverOption> wanted = over;
   if (wanted.empty()) {
     for (const KeyRange& range : scenario.search->over) wanted.push_back({range.key, {}, {}});

@@ -10,7 +10,7 @@ namespace {
 
 using enum ParameterId;
 
-constexpr std::array<ParameterInfo, 35> kParameters = {{
+constexpr std::array<ParameterInfo, 42> kParameters = {{
     {kE, "E", "Pa", 1e3, 1e13},
     {kG, "G", "Pa", 1e3, 1e13},
     {kD, "d", "N s/m", 0.0, 1e5},
@@ -46,6 +46,13 @@ constexpr std::array<ParameterInfo, 35> kParameters = {{
     {kClockPeriod, "clock_period", "s", 1e-3, 1e3},
     {kClamp, "clamp", "m", 0.0, 1e2},
     {kLegMass, "leg_mass", "kg", 0.0, 1e3},
+    {kClockDuty, "clock_duty", "-", 1e-6, 1.0 - 1e-6},
+    {kClockSweep, "clock_sweep", "rad", 1e-6, 6.2831},
+    {kClockOffset, "clock_offset", "rad", -1e3, 1e3},
+    {kClockPhase1, "clock_phase_1", "-", -1e3, 1e3},
+    {kClockPhase2, "clock_phase_2", "-", -1e3, 1e3},
+    {kClockPhase3, "clock_phase_3", "-", -1e3, 1e3},
+    {kClockPhase4, "clock_phase_4", "-", -1e3, 1e3},
 }};
 
 constexpr std::array kCLegParameters = {
@@ -59,6 +66,9 @@ constexpr std::array kRobotParameters = {
     kE,       kLegDamping, kE1,           kE2,           kE3,     kE4,   kM,
     kGravity, kR,          kSecondMoment, kPitchInertia, kComX,   kComY, kRotorInertia,
     kMotorKp, kMotorKd,    kFriction,     kClamp,        kLegMass};
+
+constexpr std::array kClockParameters = {kClockPeriod, kClockDuty,   kClockSweep,  kClockOffset,
+                                         kClockPhase1, kClockPhase2, kClockPhase3, kClockPhase4};
 
 struct LawRow {
   Law law;
@@ -137,6 +147,8 @@ std::span<const ParameterId> ParametersOf(MechanismKind mechanism) {
   }
   return {};
 }
+
+std::span<const ParameterId> ClockParameters() { return kClockParameters; }
 
 std::span<const ParameterId> ToeParameters() { return kToeParameters; }
 

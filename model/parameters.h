@@ -147,7 +147,14 @@ enum class ParameterId {
   kE4,
   kClockPeriod,
   kClamp,
-  kLegMass
+  kLegMass,
+  kClockDuty,
+  kClockSweep,
+  kClockOffset,
+  kClockPhase1,
+  kClockPhase2,
+  kClockPhase3,
+  kClockPhase4
 };
 
 /// Name, unit and physical range of a parameter.
@@ -165,6 +172,8 @@ const ParameterInfo& InfoOf(ParameterId id);
 std::optional<ParameterId> FindParameter(std::string_view name);
 /// Parameters that mean something for a mechanism, the ones fitted by default first.
 std::span<const ParameterId> ParametersOf(MechanismKind mechanism);
+/// What the clock of a robot's motors has; a fit takes it as it is told.
+std::span<const ParameterId> ClockParameters();
 /// What a leg with a mass at its toe has besides; never free unless asked for.
 std::span<const ParameterId> ToeParameters();
 /// Parameters that are free unless asked otherwise.
@@ -241,6 +250,18 @@ T& Field(Parameters<T>& p, ParameterId id) {
       return p.robot->clamp;
     case ParameterId::kLegMass:
       return p.robot->leg_mass;
+    case ParameterId::kClockDuty:
+      return p.robot->duty;
+    case ParameterId::kClockSweep:
+      return p.robot->sweep;
+    case ParameterId::kClockOffset:
+      return p.robot->offset;
+    case ParameterId::kClockPhase1:
+    case ParameterId::kClockPhase2:
+    case ParameterId::kClockPhase3:
+    case ParameterId::kClockPhase4:
+      return p.robot->phase[static_cast<std::size_t>(id) -
+                            static_cast<std::size_t>(ParameterId::kClockPhase1)];
   }
   return p.m;  // unreachable: every enumerator is listed above
 }

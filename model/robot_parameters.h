@@ -27,6 +27,7 @@ struct RobotParameters {
   T motor_kp{0.0};           // [N m/rad]
   T motor_kd{0.0};           // [N m s/rad]
   T motor_gain{1.0};         // what a motor gives of what it is told [-]
+  T motor_lag{0.0};          // how long what it gives follows what it is told [s]
   T friction{std::numeric_limits<double>::infinity()};  // under the feet [-]
   T clamp{0.0};     // length of every leg that its hub holds rigid [m]
   T damping{0.0};   // retardation time of every leg's material [s]
@@ -55,8 +56,8 @@ struct RobotParameters {
   template <class Self, class Do>
   static void Each(Self& p, const Do& act) {
     for (auto* v : {&p.pitch_inertia, &p.com_x, &p.com_y, &p.rotor_inertia, &p.motor_kp,
-                    &p.motor_kd, &p.motor_gain, &p.friction, &p.clamp, &p.damping, &p.leg_mass,
-                    &p.period, &p.duty, &p.sweep, &p.offset})
+                    &p.motor_kd, &p.motor_gain, &p.motor_lag, &p.friction, &p.clamp, &p.damping,
+                    &p.leg_mass, &p.period, &p.duty, &p.sweep, &p.offset})
       act(*v);
     for (auto* list :
          {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.E_scale, &p.extra_damping, &p.gain_of, &p.phase})
@@ -68,7 +69,7 @@ struct RobotParameters {
 template <class To, class From>
 RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   RobotParameters<To> to;
-  std::array<double, 15 + 8 * kMaxLegs> values{};
+  std::array<double, 16 + 8 * kMaxLegs> values{};
   std::size_t n = 0;
   RobotParameters<From>::Each(from, [&](const From& v) { values[n++] = Value(v); });
   n = 0;

@@ -280,7 +280,7 @@ void RunChunk(const SimulationRequest& request, const Mechanism& mechanism, int 
   IntegratorOptions integrator = request.integrator;
   integrator.steering = SharpDirections(request, first, count);
   Engine<T> engine({*system, *values, *rates}, integrator,
-                   {request.horizon, request.max_hops, request.fly_on}, sink, record);
+                   {request.horizon, request.max_hops, request.fly_on, request.feet}, sink, record);
   T z[kMaxStates];
   PlaceStart<T>({seeds.initial.data(), seeds.initial.size()}, request.start_mode, *system, frame,
                 z);

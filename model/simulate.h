@@ -54,6 +54,9 @@ struct SimulationRequest {
   std::vector<double> initial = std::vector<double>(4, 0.0);
   /// kStance of a C-leg is whichever of rolling and toe it is in.
   Mode start_mode = Mode::kFlight;
+  /// Of a robot that goes on where another run ended: that run's final_feet, a leg after the other.
+  /// `initial` is then its whole final state. Empty: M79 says which legs stand.
+  std::span<const Foot> feet;
   /// Commanded leg angles of the run's touch-downs, the last one's for later ones [rad]; empty:
   /// parameters.theta_td for all.
   std::span<const double> touchdown_angles;

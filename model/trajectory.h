@@ -28,6 +28,17 @@ struct Segment {
   double begin = 0.0, end = 0.0;  // s
 };
 
+/// What a leg of a robot does on the ground where a run ends, or where it is to go on.
+struct Foot {
+  enum class On { kAir, kArc, kToe };
+  On on = On::kAir;
+  int slides = 0;  // direction in which it slides, 0: it holds
+
+  bool operator==(const Foot&) const = default;
+  /// Whether its contact coordinate means a place on the ground.
+  bool Holds() const { return on != On::kAir && slides == 0; }
+};
+
 /// A simulated run: outcome, events, segments, and the samples asked for.
 /// `samples` is row-major [row][channel]; rows past the end of the run are NaN, or where
 /// SimulationRequest::fly_on asks for it those of a free flight from there.
@@ -49,9 +60,10 @@ struct Trajectory {
   std::vector<double> final_state;
   std::vector<double> final_sensitivities;
   std::vector<double> final_rate;
-  int hops = 0;         // apexes after a stance (bounces of a ball)
-  int rows_in_run = 0;  // the first rows, read before the run ended
-  long steps = 0;       // integrator steps taken
+  std::vector<Foot> final_feet;  // of a robot, a leg after the other
+  int hops = 0;                  // apexes after a stance (bounces of a ball)
+  int rows_in_run = 0;           // the first rows, read before the run ended
+  long steps = 0;                // integrator steps taken
   /// Smallest |crossing_rate| over the events that reset something.
   double least_crossing_rate = std::numeric_limits<double>::infinity();
   /// Smallest value, in units of its scale, of a guard that came down and turned back without
@@ -78,6 +90,7 @@ struct Trajectory {
     keep(final_state, fresh.final_state);
     keep(final_sensitivities, fresh.final_sensitivities);
     keep(final_rate, fresh.final_rate);
+    keep(final_feet, fresh.final_feet);
     *this = std::move(fresh);
   }
 };

@@ -57,9 +57,9 @@ struct Branch {
   Outcome first_outcome = Outcome::kHopLimit, last_outcome = Outcome::kHopLimit;
 };
 
-/// Follows the fixed point `start` of `hopper` along a parameter, both ways, by pseudo-arclength:
+/// Follows the fixed point `start` of `map` along a parameter, both ways, by pseudo-arclength:
 /// through folds as well. Empty if `start` was not found.
-Branch FollowFixedPoint(const Hopper& hopper, const FixedPoint& start,
+Branch FollowFixedPoint(const ReturnMap& map, const FixedPoint& start,
                         const SensitivityDirection& parameter, const ContinuationOptions& options);
 
 }  // namespace hoplab

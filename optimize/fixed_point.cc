@@ -2,7 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "base/check.h"
 
 namespace hoplab {
 namespace {
@@ -17,49 +20,48 @@ struct Residual {
   Eigen::MatrixXd jacobian;
 };
 
-Residual ResidualAt(const ReturnMap& map, const ApexState& z, const Hop& hop,
+Residual ResidualAt(const ReturnMap& map, const SectionState& z, const Hop& hop,
                     std::optional<double> energy) {
-  const int rows = energy ? 3 : 2;
-  Residual r{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, 2)};
-  r.value.head<2>() = hop.next - z;
-  r.jacobian.topRows<2>() = hop.jacobian - Eigen::Matrix2d::Identity();
+  const Eigen::Index n = z.size(), rows = energy ? n + 1 : n;
+  Residual r{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, n)};
+  r.value.head(n) = hop.next - z;
+  if (hop.jacobian.size() > 0)
+    r.jacobian.topRows(n) = hop.jacobian - Eigen::MatrixXd::Identity(n, n);
   if (energy) {
-    r.value[2] = map.SpecificEnergy(z) - *energy;
-    r.jacobian.row(2) = map.SpecificEnergyRate(z);
+    r.value[n] = map.SpecificEnergy(z) - *energy;
+    r.jacobian.row(n) = map.SpecificEnergyRate(z);
   }
   return r;
 }
 
 void AddMultipliers(FixedPoint& point) {
-  const Eigen::EigenSolver<Eigen::Matrix2d> solver(point.hop.jacobian, false);
-  for (int i = 0; i < 2; ++i) point.multipliers[i] = solver.eigenvalues()[i];
-  if (std::abs(point.multipliers[1]) > std::abs(point.multipliers[0]))
-    std::swap(point.multipliers[0], point.multipliers[1]);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(point.hop.jacobian, false);
+  point.multipliers.assign(solver.eigenvalues().begin(), solver.eigenvalues().end());
+  std::stable_sort(point.multipliers.begin(), point.multipliers.end(),
+                   [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   point.spectral_radius = std::abs(point.multipliers[0]);
 }
 
 // Derivative of the modulus of the dominant eigenvalue of J in the direction dJ.
-double ModulusRate(const Eigen::Matrix2d& J, const Eigen::Matrix2d& dJ) {
-  const Eigen::EigenSolver<Eigen::Matrix2d> right(J), left(J.transpose());
-  const auto dominant = [](const auto& values) {
-    return std::abs(values[0]) >= std::abs(values[1]) ? 0 : 1;
-  };
-  const int r = dominant(right.eigenvalues());
+double ModulusRate(const Eigen::MatrixXd& J, const Eigen::MatrixXd& dJ) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> right(J), left(J.transpose());
+  Eigen::Index r = 0, l = 0;
+  right.eigenvalues().cwiseAbs().maxCoeff(&r);
   const std::complex<double> lambda = right.eigenvalues()[r];
   // The left eigenvector of the same eigenvalue, not of its conjugate.
-  const int l =
-      std::abs(left.eigenvalues()[0] - lambda) <= std::abs(left.eigenvalues()[1] - lambda) ? 0 : 1;
-  const Eigen::Vector2cd v = right.eigenvectors().col(r), w = left.eigenvectors().col(l);
+  (left.eigenvalues().array() - lambda).abs().minCoeff(&l);
+  const Eigen::VectorXcd v = right.eigenvectors().col(r), w = left.eigenvectors().col(l);
   const std::complex<double> rate =
       (w.transpose() * dJ.cast<std::complex<double>>() * v).value() / (w.transpose() * v).value();
   return (std::conj(lambda) * rate).real() / std::abs(lambda);
 }
 
-// Moduli of real multipliers so close that no difference step would keep them apart.
+// Moduli so close that no difference step would keep them apart, of two that are no pair.
 bool HasKink(const FixedPoint& point) {
   const auto& m = point.multipliers;
-  if (m[0].imag() != 0.0) return false;
-  return std::abs(std::abs(m[0]) - std::abs(m[1])) <= 1e-9 * point.spectral_radius;
+  const std::size_t next = m[0].imag() == 0.0 ? 1 : 2;
+  return next < m.size() &&
+         std::abs(std::abs(m[0]) - std::abs(m[next])) <= 1e-9 * point.spectral_radius;
 }
 
 // On which sides of a value differences can be taken: a parameter at its physical bound (damping 0)
@@ -94,7 +96,7 @@ std::string_view NameOf(FixedPointStatus status) {
   return "";
 }
 
-FixedPoint FindFixedPoint(ReturnMap& map, const ApexState& start,
+FixedPoint FindFixedPoint(ReturnMap& map, const SectionState& start,
                           const FixedPointOptions& options) {
   FixedPoint point;
   point.state = start;
@@ -118,12 +120,18 @@ FixedPoint FindFixedPoint(ReturnMap& map, const ApexState& start,
       AddMultipliers(point);
       return point;
     }
-    const Eigen::Vector2d step =
+    const Eigen::VectorXd step =
         -residual.jacobian.completeOrthogonalDecomposition().solve(residual.value);
     double length = 1.0;
     bool accepted = false;
     for (int halving = 0; halving < kMaxHalvings && !accepted; ++halving, length *= 0.5) {
-      const ApexState trial = point.state + length * step;
+      const SectionState trial = point.state + length * step;
+      // Most full steps are taken; of shorter ones the hop alone tells.
+      if (halving > 0) {
+        const Hop tried = map.Apply(trial);
+        if (!tried.ok() || !(ResidualAt(map, trial, tried, energy).value.norm() < point.residual))
+          continue;
+      }
       const Hop hop = map.Differentiate(trial);
       if (!hop.ok()) continue;
       Residual next = ResidualAt(map, trial, hop, energy);
@@ -143,11 +151,11 @@ FixedPoint FindFixedPoint(ReturnMap& map, const ApexState& start,
   return point;
 }
 
-FixedPoint SearchFixedPoint(ReturnMap& map, const ApexState& start,
+FixedPoint SearchFixedPoint(ReturnMap& map, const SectionState& start,
                             const FixedPointOptions& options) {
   FixedPoint first = FindFixedPoint(map, start, options);
   if (first.found()) return first;
-  ApexState state = start;
+  SectionState state = start;
   int made = 0;
   for (const int hops : {1, 3, 10, 30, 100}) {
     for (; made < hops; ++made) {
@@ -161,31 +169,32 @@ FixedPoint SearchFixedPoint(ReturnMap& map, const ApexState& start,
   return first;
 }
 
-SpectralRadiusRate DifferentiateSpectralRadius(const Hopper& hopper, const FixedPoint& fixed_point,
-                                               const SensitivityDirection& parameter) {
-  constexpr int kLevels = 5;
+SpectralRadiusRate DifferentiateSpectralRadius(const ReturnMap& at, const FixedPoint& fixed_point,
+                                               const SensitivityDirection& parameter, int levels) {
   constexpr double kFirstStep = 0.008;  // of the parameter's scale
+  HOPLAB_CHECK(levels <= kRadiusLevels);
   SpectralRadiusRate rate;
   if (!fixed_point.found() || HasKink(fixed_point)) return rate;
-  ReturnMap map(hopper);
+  const std::unique_ptr<ReturnMap> map = at.Clone();
+  const Hopper& hopper = at.hopper();
   const double value = ValueOf(hopper, parameter);
   const double scale = ScaleOf(hopper, parameter);
   FixedPointOptions options;
   if (fixed_point.conserves_energy) options.specific_energy = fixed_point.specific_energy;
 
   // DP at the fixed point of p + h; false if it is gone or lies on another branch.
-  const auto jacobian_at = [&](double h, Eigen::Matrix2d& J) {
-    SetValue(map.hopper(), parameter, value + h);
-    const FixedPoint moved = FindFixedPoint(map, fixed_point.state, options);
+  const auto jacobian_at = [&](double h, Eigen::MatrixXd& J) {
+    SetValue(map->hopper(), parameter, value + h);
+    const FixedPoint moved = FindFixedPoint(*map, fixed_point.state, options);
     J = moved.hop.jacobian;
     return moved.found() && moved.hop.events == fixed_point.hop.events &&
            moved.conserves_energy == fixed_point.conserves_energy;
   };
   const StepSide side = SideOf(hopper, parameter, value, kFirstStep * scale);
-  const Eigen::Matrix2d here = fixed_point.hop.jacobian;
+  const Eigen::MatrixXd here = fixed_point.hop.jacobian;
   // One difference of step h; false if it leaves the branch.
-  const auto difference = [&](double h, Eigen::Matrix2d& out) {
-    Eigen::Matrix2d up = here, down = here;
+  const auto difference = [&](double h, Eigen::MatrixXd& out) {
+    Eigen::MatrixXd up = here, down = here;
     if (side != StepSide::kBelow && !jacobian_at(h, up)) return false;
     if (side != StepSide::kAbove && !jacobian_at(-h, down)) return false;
     out = (up - down) / (side == StepSide::kBoth ? 2.0 * h : h);
@@ -194,10 +203,10 @@ SpectralRadiusRate DifferentiateSpectralRadius(const Hopper& hopper, const Fixed
   // The error of a central difference is even in h, that of a one-sided one is not.
   const double ratio = side == StepSide::kBoth ? 4.0 : 2.0;
   double best_change = std::numeric_limits<double>::infinity();
-  std::array<std::array<Eigen::Matrix2d, kLevels>, kLevels> table;
+  std::array<std::array<Eigen::MatrixXd, kRadiusLevels>, kRadiusLevels> table;
   int rows = 0;  // of consecutive steps that stayed on the branch
   double h = kFirstStep * scale;
-  for (int level = 0; level < kLevels + 3 && rows < kLevels; ++level, h *= 0.5) {
+  for (int level = 0; level < levels + 3 && rows < levels; ++level, h *= 0.5) {
     if (!difference(h, table[rows][0])) {
       rows = 0;
       continue;
@@ -218,15 +227,16 @@ SpectralRadiusRate DifferentiateSpectralRadius(const Hopper& hopper, const Fixed
   return rate;
 }
 
-HopPrediction PredictHops(const FixedPoint& fixed_point, const ApexState& start) {
+HopPrediction PredictHops(const FixedPoint& fixed_point, const SectionState& start) {
   HopPrediction prediction;
-  const double speed = std::abs(fixed_point.state[0]);
-  if (!fixed_point.found() || speed == 0.0) return prediction;
-  const Eigen::EigenSolver<Eigen::Matrix2d> solver(fixed_point.hop.jacobian);
-  const Eigen::Vector2d deviation = start - fixed_point.state;
-  const Eigen::Vector2cd share =
+  const double speed = fixed_point.found() ? std::abs(fixed_point.state[0]) : 0.0;
+  if (speed == 0.0) return prediction;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(fixed_point.hop.jacobian);
+  const Eigen::VectorXd deviation = start - fixed_point.state;
+  const Eigen::VectorXcd share =
       solver.eigenvectors().partialPivLu().solve(deviation.cast<std::complex<double>>());
-  const int slow = std::abs(solver.eigenvalues()[0]) >= std::abs(solver.eigenvalues()[1]) ? 0 : 1;
+  Eigen::Index slow = 0;
+  solver.eigenvalues().cwiseAbs().maxCoeff(&slow);
   const bool pair = solver.eigenvalues()[slow].imag() != 0.0;
   prediction.e0 =
       (pair ? 2.0 : 1.0) * std::abs(share[slow] * solver.eigenvectors()(0, slow)) / speed;
@@ -238,7 +248,7 @@ HopPrediction PredictHops(const FixedPoint& fixed_point, const ApexState& start)
   // Last hop outside the band, in a number of hops after which nothing is.
   constexpr int kMaxHops = 100000;
   const int enough = std::min(kMaxHops, 20 + static_cast<int>(2.0 * prediction.hops));
-  Eigen::Vector2d z = deviation;
+  Eigen::VectorXd z = deviation;
   prediction.linear_hops = 0;
   for (int hop = 0; hop <= enough; ++hop, z = fixed_point.hop.jacobian * z) {
     if (std::abs(z[0]) > kBand * speed) prediction.linear_hops = hop + 1;

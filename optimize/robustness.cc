@@ -5,6 +5,8 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "optimize/stride_map.h"
+#include "optimize/stride_search.h"
 
 namespace hoplab {
 namespace {
@@ -14,17 +16,24 @@ double Spread(int i, int count) { return count > 1 ? 2.0 * i / (count - 1) - 1.0
 
 WorstCase TryAll(const std::vector<Hopper>& hoppers, int jobs) {
   std::vector<ConvergenceTime> times(hoppers.size());
-  std::vector<char> ended(hoppers.size(), 0);
+  std::vector<char> ended(hoppers.size(), 0), settled(hoppers.size(), 0);
   ParallelFor(static_cast<int>(hoppers.size()), jobs, [&](int i) {
+    if (HasStrides(hoppers[i])) {
+      const StrideEnd end = EndOfStrides(hoppers[i]);
+      ended[i] = end.ended;
+      settled[i] = end.settled;
+      return;
+    }
     const Trajectory run = Simulate(RequestOf(hoppers[i]));
     ended[i] = !IsComplete(run.outcome);
     if (!ended[i]) times[i] = ConvergenceTimeOf(ApexSpeeds(run));
+    settled[i] = times[i].converged();
   });
   WorstCase worst;
   worst.runs = static_cast<int>(hoppers.size());
   for (std::size_t i = 0; i < hoppers.size(); ++i) {
     worst.ended += ended[i];
-    worst.converged += times[i].converged();
+    worst.converged += settled[i];
     worst.worst_time = std::fmax(worst.worst_time, times[i].time);
   }
   return worst;
@@ -35,19 +44,24 @@ std::vector<Hopper> OverStiffness(const Hopper& hopper, const RobustnessOptions&
   const ParameterId id = straight ? ParameterId::kStiffness : ParameterId::kE;
   std::vector<Hopper> hoppers(static_cast<std::size_t>(options.stiffness_points), hopper);
   for (int i = 0; i < options.stiffness_points; ++i) {
-    Field(hoppers[i].request.parameters, id) *=
-        1.0 + options.stiffness_range * Spread(i, options.stiffness_points);
+    Parameters<double>& p = hoppers[i].request.parameters;
+    const double factor = 1.0 + options.stiffness_range * Spread(i, options.stiffness_points);
+    Field(p, id) *= factor;
+    if (!p.robot) continue;
+    for (double& E : p.robot->E) E *= factor;
   }
   return hoppers;
 }
 
 std::vector<Hopper> OverStarts(const Hopper& hopper, const RobustnessOptions& options) {
+  const double height_range =
+      HasStrides(hopper) ? options.robot_height_range : options.height_range;
   std::vector<Hopper> hoppers;
   for (int i = 0; i < options.start_points; ++i) {
     for (int j = 0; j < options.start_points; ++j) {
       Hopper moved = hopper;
       moved.request.initial[2] *= 1.0 + options.speed_range * Spread(i, options.start_points);
-      moved.request.initial[1] *= 1.0 + options.height_range * Spread(j, options.start_points);
+      moved.request.initial[1] *= 1.0 + height_range * Spread(j, options.start_points);
       hoppers.push_back(std::move(moved));
     }
   }
@@ -59,7 +73,7 @@ std::vector<Hopper> OverStarts(const Hopper& hopper, const RobustnessOptions& op
 std::vector<double> HopNoisily(const Hopper& hopper, const RobustnessOptions& options, int run,
                                int hops) {
   RandomStream random(options.seed, 7000 + static_cast<std::uint64_t>(run));
-  ReturnMap map(hopper);
+  ApexMap map(hopper);
   const double angle = hopper.request.parameters.theta_td;
   const auto& s = hopper.request.initial;
   ApexState z(s[2], s[1] + s[3] * s[3] / (2.0 * hopper.request.parameters.g));
@@ -76,6 +90,7 @@ std::vector<double> HopNoisily(const Hopper& hopper, const RobustnessOptions& op
 
 NoisyHops WithNoise(const Hopper& hopper, const RobustnessOptions& options) {
   constexpr int kHops = 60;
+  if (HasStrides(hopper)) return {};  // a clock lands its legs
   std::vector<std::vector<double>> speeds(static_cast<std::size_t>(options.noise_runs));
   ParallelFor(options.noise_runs, options.jobs,
               [&](int i) { speeds[i] = HopNoisily(hopper, options, i, kHops); });

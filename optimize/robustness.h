@@ -12,6 +12,7 @@ struct RobustnessOptions {
   int stiffness_points = 11;
   double speed_range = 0.2;  // of the start: both ways, relative
   double height_range = 1.0 / 3.0;
+  double robot_height_range = 0.1;        // a robot begins near the ground
   int start_points = 5;                   // per axis: the published study's grid
   double touchdown_noise = 0.0087266463;  // 1 standard deviation of every landing [rad]: 0.5 deg
   int noise_runs = 20;

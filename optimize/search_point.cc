@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimize/stride_map.h"
+#include "optimize/stride_search.h"
+
 namespace hoplab {
 namespace {
 
@@ -152,8 +155,22 @@ std::string_view NameOf(Objective objective) {
       return "spectral_radius";
     case Objective::kWeighted:
       return "weighted";
+    case Objective::kSpeed:
+      return "speed";
+    case Objective::kCostOfTransport:
+      return "cost_of_transport";
+    case Objective::kPeakTorque:
+      return "peak_torque";
   }
   return "";
+}
+
+bool IsOfStrides(Objective objective) {
+  return objective != Objective::kConvergenceTime && objective != Objective::kWeighted;
+}
+
+bool IsOfHops(Objective objective) {
+  return !IsOfStrides(objective) || objective == Objective::kSpectralRadius;
 }
 
 std::string_view NameOf(PointVerdict verdict) {
@@ -180,7 +197,9 @@ double TouchdownHeightOf(const Hopper& hopper) {
 }
 
 FixedPoint SteadyHop(const Hopper& hopper, const std::optional<ApexState>& near) {
-  ReturnMap map(hopper);
+  if (hopper.request.law == Law::kRobot)
+    return HasStrides(hopper) ? FindSteadyStride(hopper).point : FixedPoint();
+  ApexMap map(hopper);
   const auto& s = hopper.request.initial;
   const ApexState start(s[2], s[1] + s[3] * s[3] / (2.0 * hopper.request.parameters.g));
   return SearchFixedPoint(map, near.value_or(start), {.tolerance = 1e-8});
@@ -190,7 +209,9 @@ SearchPoint EvaluatePoint(const SearchProblem& problem, std::span<const double> 
   SearchPoint point;
   point.x.assign(x.begin(), x.end());
   const Hopper hopper = problem.hopper_at(x);
-  if (problem.objective == Objective::kSpectralRadius)
+  if (HasStrides(hopper))
+    ScoreStride(problem, hopper, point);
+  else if (problem.objective == Objective::kSpectralRadius)
     ScoreRadius(problem, hopper, point);
   else
     ScoreTime(problem, hopper, point);

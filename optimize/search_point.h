@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "optimize/apex_map.h"
 #include "optimize/convergence_time.h"
 #include "optimize/fixed_point.h"
 
@@ -16,8 +17,15 @@ namespace hoplab {
 enum class Objective {
   kConvergenceTime,  // M23 [s]: a staircase
   kSpectralRadius,   // of the fixed point that hopping leads to: smooth but for kinks
-  kWeighted          // (1 - weight) time/horizon + weight rho
+  kWeighted,         // (1 - weight) time/horizon + weight rho
+  // Of the steady stride of a robot, which must be stable:
+  kSpeed,            // greatest [m/s]
+  kCostOfTransport,  // StrideMeasures
+  kPeakTorque        // of any motor [N m]
 };
+/// Whether it is asked of a robot's strides, or of a hopper's hops; the spectral radius is of both.
+bool IsOfStrides(Objective objective);
+bool IsOfHops(Objective objective);
 std::string_view NameOf(Objective objective);
 
 /// A quantity that is searched over, in the unit of its name.
@@ -71,12 +79,14 @@ struct SearchPoint {
   double torque = std::numeric_limits<double>::quiet_NaN();     // largest |T| [N m], if asked for
   double clearance = std::numeric_limits<double>::quiet_NaN();  // [m]
   double flexure = std::numeric_limits<double>::quiet_NaN();
+  double cost_of_transport = std::numeric_limits<double>::quiet_NaN();  // of a robot's stride
+  std::string gait;                                                     // its GaitKind
 };
 
 SearchPoint EvaluatePoint(const SearchProblem& problem, std::span<const double> x);
 
-/// Spectral radius of the fixed point that hopping from the hopper's start leads to, and the start
-/// of the search for it; not found where there is none.
+/// Fixed point that hopping from the hopper's start leads to, searched from `near` if that is
+/// given; of a robot with a clock its steady stride. Not found where there is none.
 FixedPoint SteadyHop(const Hopper& hopper, const std::optional<ApexState>& near = std::nullopt);
 
 /// Hip height at touch-down [m] (guards of the equation sheet).

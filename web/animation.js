@@ -24,8 +24,9 @@ function repeated(motion, times) {
   const last = motion.time.length - 1;
   const [period, advance] = [motion.time[last] - motion.time[0], motion.x[last] - motion.x[0]];
   const copies = (values, step) => Array.from({length: times}, (_, k) => Array.from(values, (v) => (step ? v + k * step : v))).flat();
-  const steps = {time: period, x: advance, contactX: advance};
-  return Object.fromEntries(Object.entries(motion).map(([name, values]) => [name, copies(values, steps[name])]));
+  const steps = {time: period, x: advance};
+  const stepOf = (name) => (name.startsWith('contactX') ? advance : steps[name]);
+  return Object.fromEntries(Object.entries(motion).map(([name, values]) => [name, copies(values, stepOf(name))]));
 }
 
 // Steady hops of different length side by side, each repeated until the longest has been seen twice.

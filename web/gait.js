@@ -33,12 +33,63 @@ function branchPlots() {
       shapes: [...(more.limit ? [{type: 'line', xref: 'paper', x0: 0, x1: 1, y0: 1, y1: 1, line: {color: colour('soft'), dash: 'dash', width: 1}}] : []),
         ...bifurcations.map((b) => ({type: 'line', yref: 'paper', y0: 0, y1: 1, x0: b.parameter, x1: b.parameter, line: {color: colour('two'), dash: 'dot'}}))]},
   }), {height: 260});
-  return section(`Along ${name}`, line('spectral_radius', 'spectral radius', '', {limit: true, caption: 'Stable below 1.'}),
-    line('vx_m_per_s', 'speed', 'm/s', {caption: 'Speed at the apex.'}), line('y_m', 'height', 'm', {caption: 'Height of the apex.'}),
+  const states = run.stride !== undefined
+    ? [line('speed_m_per_s', 'speed', 'm/s', {caption: 'Mean speed of the stride.'}), line('pitch_rad', 'pitch', 'rad', {caption: 'Pitch at the section.'})]
+    : [line('vx_m_per_s', 'speed', 'm/s', {caption: 'Speed at the apex.'}), line('y_m', 'height', 'm', {caption: 'Height of the apex.'})];
+  return section(`Along ${name}`, line('spectral_radius', 'spectral radius', '', {limit: true, caption: 'Stable below 1.'}), ...states,
     bifurcations.length ? dataTable([name, 'what happens'], bifurcations.map((b) => [significant(b.parameter, 5), words(b.kind)]), 'rl') : undefined);
 }
 
+// A robot's stride: what it does, when its legs stand, how its neighbours behave.
+function strideTable(stride) {
+  return dataTable(['', ''], [['kind', words(stride.kind)], ['speed', quantity(stride.speed_m_per_s, 'm/s')], ['stride', `${quantity(run.advance_m, 'm')} in ${quantity(run.period_s, 's')}`],
+    ['all legs in the air', percent(stride.flight_share, 2)], ['cost of transport', significant(stride.cost_of_transport, 3)], ['greatest torque of a motor', quantity(stride.peak_torque_N_m, 'N m', 3)],
+    ...list(stride.legs).map((leg, i) => [`leg ${i + 1}`, `on the ground ${percent(leg.duty, 2)} of the stride, the middle at ${percent(leg.middle, 2)}`]),
+    ['spectral radius', `${significant(run.spectral_radius, 5)}, ${run.stable ? 'stable' : 'unstable'}`]], 'll');
+}
+
+// Pitch against its rate, over the way there and the steady stride.
+function pitchPhasePlot(own, cycles) {
+  const curve = (name, kind, trajectory, faint) => {
+    const rows = trajectory.where({});
+    const [time, pitch] = ['time_s', 'body_pitch_rad'].map((column) => trajectory.pick(column, rows));
+    const rate = pitch.map((_, i) => (i > 0 && i + 1 < pitch.length ? (pitch[i + 1] - pitch[i - 1]) / (time[i + 1] - time[i - 1]) : null));
+    return {x: pitch, y: rate, mode: 'lines', name, line: {color: colour(kind), width: faint ? 1 : 2.5}, opacity: faint ? 0.7 : 1,
+      hovertemplate: `pitch %{x:.4g} rad, %{y:.4g} rad/s<extra>${name}</extra>`};
+  };
+  return plot('Pitch and its rate: a steady stride is a closed curve.', () => ({
+    traces: [...(own ? [curve('from the scenario\'s start', 'soft', own, true)] : []), curve('steady stride', 'one', cycles, false)],
+    layout: {xaxis: {title: {text: 'pitch [rad], nose up'}}, yaxis: {title: {text: 'pitch rate [rad/s]'}, zeroline: true}, showlegend: Boolean(own)},
+  }), {height: 380});
+}
+
+function strideReport() {
+  const cycles = table('cycles');
+  const own = table('trajectory');
+  if (run.stride && cycles) {
+    section('The steady stride', strideTable(run.stride),
+      multiplierPlot([{name: 'multipliers', kind: 'one', values: list(run.multipliers)}], 'Multipliers of the return map: inside the unit circle a disturbance dies out, the nearer to 0 the sooner.'),
+      pitchPhasePlot(own, cycles),
+      phasePlot([{name: 'steady stride', kind: 'one', trajectory: cycles, rows: cycles.where({})}], 'Height against vertical speed of the body.'),
+      explained('fixed-point', 'return-map', 'floquet-multiplier', 'spectral-radius'));
+  }
+  const moving = cycles ?? own;
+  if (moving && run.mechanism) {
+    const motion = cycles ? repeated(motionOf(cycles, cycles.where({})), 3) : motionOf(own, own.where({}));
+    const shown = {label: '', kind: 'after', mechanism: run.mechanism, motion};
+    section('In motion', animationOf([shown]), animationLegend(), paragraph(animationNote, 'note'), gaitDiagram(() => shown).figure);
+  }
+  const effects = sensitivityPlot(run.d_spectral_radius, {...run.mechanism?.parameters, ...run.clock});
+  if (effects) section('What changes its stability', effects);
+  branchPlots();
+  runDetails();
+}
+
 function gaitReport() {
+  if (run.stride !== undefined) {
+    strideReport();
+    return;
+  }
   const cycles = table('cycles');
   const own = table('trajectory');
   const fixed = run.fixed_point;

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <ostream>
 
-#include "app/gait_run.h"
+#include "app/gait_record.h"
 #include "app/interrupt.h"
 #include "app/problem_settings.h"
 #include "app/progress.h"
@@ -18,6 +18,7 @@ namespace {
 struct GaitSettings : RunSettings {
   ScenarioSettings scenario;
   std::string along;
+  int jobs = 0;
   SolverSettings solver{.tolerance = 1e-12};
 };
 
@@ -47,6 +48,7 @@ ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
   const InterruptGuard interrupt;
   Progress progress(console, settings.quiet);
   options.stop = interrupt.flag();
+  options.jobs = JobsOf(settings.jobs);
   options.stage = [&](const std::string& stage) { progress.Stage(stage); };
   const GaitRun run = RunGait(hopper, options);
   progress.Clear();
@@ -76,18 +78,20 @@ ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
 
 void AddGaitCommand(CLI::App& app, Invocation& invocation) {
   auto settings = std::make_shared<GaitSettings>();
-  CLI::App& sub =
-      *app.add_subcommand("gait", "Steady hop of a scenario, its stability and what changes it");
+  CLI::App& sub = *app.add_subcommand(
+      "gait", "Steady hop or stride of a scenario, its stability and what changes it");
   AddScenarioOptions(sub, settings->scenario);
   sub.add_option("--along", settings->along,
-                 "Follow the steady hop along a parameter, SI units, as kp=0.5:12")
+                 "Follow it along a parameter, SI units, as kp=0.5:12 or clock.period_s=0.25:0.6")
       ->option_text("NAME=LOW:HIGH");
+  AddJobsOption(sub, settings->jobs);
   AddSolverOptions(sub, settings->solver);
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<scenario>-gait-NNN)");
   sub.footer(
       "Examples:\n"
       "  hoplab gait experiments/controlled-hopping.yaml\n"
       "  hoplab gait experiments/controlled-hopping.yaml --along theta_td=0.5:0.9\n"
+      "  hoplab gait experiments/robot-walk.yaml --along clock.period_s=0.5:0.6\n"
       "  hoplab gait hopping.yaml --set controller.kp_N_s=2 --json");
   OnParsed(sub, invocation, settings, RunGaitCommand);
 }

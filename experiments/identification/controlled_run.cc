@@ -7,6 +7,7 @@
 
 #include "base/units.h"
 #include "experiments/leg_stiffness.h"
+#include "optimize/apex_map.h"
 #include "optimize/fixed_point.h"
 
 namespace hoplab {
@@ -76,8 +77,8 @@ double FixedSpeed(const StudyHopper& hopper, SimulationRequest request, const Tr
   const Event* last = ApexBeforeLast(run, 0);
   if (last == nullptr) return std::nan("");
   if (!HasToeMass(hopper)) {
-    ReturnMap map({request, EffectsOf(hopper)});
-    const FixedPoint point = FindFixedPoint(map, {last->vx, last->y});
+    ApexMap map({request, EffectsOf(hopper)});
+    const FixedPoint point = FindFixedPoint(map, ApexState(last->vx, last->y));
     return point.stable() ? point.state[0] : std::nan("");
   }
   request.horizon = kSettled;

@@ -59,12 +59,12 @@ SteadyHop FindSteadyHop(const StudyHopper& hopper, double modulus_Pa, double dam
   steady.start.outcome = run.outcome;
   steady.start.end_time_s = run.end_time;
   if (!IsComplete(run.outcome) || run.events.empty()) return steady;
-  ReturnMap map({ControlledRequest(hopper, settings), EffectsOf(hopper)});
+  ApexMap map({ControlledRequest(hopper, settings), EffectsOf(hopper)});
   FixedPointOptions options;
   options.max_iterations = kNewtonSteps;
   options.tolerance = kNear;
   const Event& last = run.events.back();
-  steady.point = FindFixedPoint(map, {last.vx, last.y}, options);
+  steady.point = FindFixedPoint(map, ApexState(last.vx, last.y), options);
   return steady;
 }
 

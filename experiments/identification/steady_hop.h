@@ -1,6 +1,7 @@
 #pragma once
 
 #include "experiments/identification/controlled_run.h"
+#include "optimize/apex_map.h"
 #include "optimize/fixed_point.h"
 
 namespace hoplab {

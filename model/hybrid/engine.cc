@@ -60,7 +60,7 @@ void Engine<T>::Derivative(const void* engine, double t, const double* y, double
 template <class T>
 void Engine<T>::Run(Mode mode, const T* z0) {
   Copy(z0, z_);
-  mode_ = system_.Begin(mode, z_);
+  mode_ = settings_.feet.empty() ? system_.Begin(mode, z_) : system_.Resume(settings_.feet, z_);
   watch_.Follow(system_);
   t_ = 0.0;
   rows_.Reset(0);
@@ -82,6 +82,7 @@ void Engine<T>::Run(Mode mode, const T* z0) {
   out_.final_rate.resize(states_);
   watch_.Follow(system_);
   watch_.Flow(mode_, t_, out_.final_state.data(), out_.final_rate.data());
+  system_.TellFeet(out_.final_feet);
 }
 
 template <class T>

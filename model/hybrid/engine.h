@@ -17,9 +17,10 @@ namespace hoplab {
 
 /// What a run of the automaton does besides running: how long, how many hops.
 struct RunSettings {
-  double horizon = 1.0;  // s
-  int max_hops = 0;      // 0: no limit
-  bool fly_on = false;   // rows past the end are read from a free flight
+  double horizon = 1.0;             // s
+  int max_hops = 0;                 // 0: no limit
+  bool fly_on = false;              // rows past the end are read from a free flight
+  std::span<const Foot> feet = {};  // a run that goes on with these
 };
 
 /// One mechanism in the scalar types a run needs: T for flow and resets, double and Jet<1> to watch

@@ -2,11 +2,14 @@
 
 #include <limits>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "model/hybrid/automaton.h"
 #include "model/hybrid/ballistic.h"
 #include "model/hybrid/discrete_state.h"
 #include "model/observation.h"
+#include "model/trajectory.h"
 
 namespace hoplab {
 
@@ -45,6 +48,10 @@ class HybridSystem {
   /// Prepares the discrete state for a run that begins in `mode` at state `z`, and completes `z`
   /// where it begins in stance with the place of its contact; gives the mode it is in.
   virtual Mode Begin(Mode mode, T* /*z*/) { return mode; }
+  /// The same for a run that goes on where another one ended, with its feet; `z` is whole.
+  virtual Mode Resume(std::span<const Foot> /*feet*/, const T* /*z*/) { return Mode::kFlight; }
+  /// What its legs do now; empty of what is no robot.
+  virtual void TellFeet(std::vector<Foot>& feet) const { feet.clear(); }
   virtual void SaveDiscreteState(DiscreteState& /*to*/) const {}
   virtual void LoadDiscreteState(DiscreteState& /*from*/) {}
   /// Prepares for a state that did not come out of a run.

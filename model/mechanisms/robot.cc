@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/check.h"
 #include "model/laws/leg_load.h"
 #include "model/mechanisms/inertia.h"
 #include "model/mechanisms/robot_dynamics_inl.h"
@@ -18,7 +19,11 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
       effects_(setup.effects),
       legs_(robot_.legs),
       has_body_force_(effects_.HasBodyForce()),
-      has_leg_mass_(!IsZero(robot_.leg_mass)) {
+      has_leg_mass_(!IsZero(robot_.leg_mass)),
+      lags_(robot_.control != MotorControl::kLocked &&
+            Value(robot_.motor_lag) >= robot_detail::kShortestLag),
+      lags_shortly_(!lags_ && robot_.control != MotorControl::kLocked &&
+                    !IsZero(robot_.motor_lag)) {
   const Inertia<T> weight(p_);
   gravity_x_ = weight.gravity_x;
   gravity_y_ = weight.gravity_y;
@@ -147,10 +152,42 @@ Mode Robot<T>::Begin(Mode, T* z) {
     leg.piece = leg.clock.PieceAt(0.0);
   }
   FindLimits(0.0, z);
-  for (int i = 0; i < legs_; ++i) BeginOnFoot(i, z);
+  for (int i = 0; i < legs_; ++i) {
+    if (lags_) z[Given(i)] = Torque(i, T(0.0), z);
+    BeginOnFoot(i, z);
+  }
   const Mode mode = ModeNow();
   ListGuards(mode);
   return mode;
+}
+
+// Turns, pieces and limits follow from the state; where a contact's root is searched, from the arc
+// at rest.
+template <class T>
+Mode Robot<T>::Resume(std::span<const Foot> feet, const T* z) {
+  HOPLAB_CHECK(static_cast<int>(feet.size()) == legs_);
+  for (int i = 0; i < legs_; ++i) {
+    Leg& leg = leg_[i];
+    const Foot& foot = feet[static_cast<std::size_t>(i)];
+    leg.stance = static_cast<Stance>(foot.on);
+    leg.slides = foot.slides;
+    leg.piece = leg.clock.PieceAt(0.0);
+    const double angle = Value(z[Pitch()] - p_.slope + z[Angle(i)]);
+    leg.turns = TurnsOf(angle);
+    const double tip = std::max(0.0, 2.0 * robot_detail::kPi * leg.turns - angle);
+    if (IsDown(leg)) leg.arc.StartAt(leg.stance == Stance::kToe ? tip : 0.0);
+  }
+  FindLimits(0.0, z);
+  const Mode mode = ModeNow();
+  ListGuards(mode);
+  return mode;
+}
+
+template <class T>
+void Robot<T>::TellFeet(std::vector<Foot>& feet) const {
+  feet.clear();
+  for (int i = 0; i < legs_; ++i)
+    feet.push_back({static_cast<Foot::On>(leg_[i].stance), static_cast<int>(leg_[i].slides)});
 }
 
 template <class T>
@@ -205,11 +242,13 @@ std::optional<T> Robot<T>::PassKnot(Mode mode, double t, T* z) {
     if (leg_[i].clock.End(leg_[i].piece) < leg_[due].clock.End(leg_[due].piece)) due = i;
   Leg& leg = leg_[due];
   const T instant = leg.clock.End(leg.piece);
+  const T before = lags_shortly_ ? Torque(due, T(t), z) : T(0.0);
   ++leg.piece;
   // The rate of the reference jumps, and with it the command: on which side of its limit it is then
   // is part of the knot.
   const double command = Value(Command(due, T(t), z));
   leg.limit = std::abs(command) > robot_.torque_limit ? (command > 0.0 ? 1 : -1) : 0;
+  if (lags_shortly_) MissJump(due, Torque(due, T(t), z) - before, z);
   ListGuards(mode);
   return instant;
 }

@@ -11,14 +11,15 @@ namespace hoplab {
 
 /// A rigid body with pitch on up to four clamped arcs, each turned by a motor at its hip (section 8
 /// of the equation sheet). State: x, y, vx, vy of the body's reference point, pitch and its rate,
-/// the motors' angles, their rates, and of each leg the contact coordinate (X0 while it rolls, x_c
-/// on its toe). Flight is when no leg is on the ground; which ones are and how is a discrete state.
+/// the motors' angles, their rates, of each leg the contact coordinate (X0 while it rolls, x_c
+/// on its toe), and where motors lag what each is giving. Flight is when no leg is on the ground;
+/// which ones are and how is a discrete state.
 template <class T>
 class Robot final : public HybridSystem<T> {
  public:
   explicit Robot(const MechanismSetup<T>& setup);
 
-  int size() const override { return 6 + 3 * legs_; }
+  int size() const override { return 6 + (lags_ ? 4 : 3) * legs_; }
   void Derivative(Mode mode, const T& t, const T* z, T* dz) const override;
   int GuardCount(Mode mode) const override;
   GuardSpec Guard(Mode mode, int i) const override;
@@ -28,6 +29,8 @@ class Robot final : public HybridSystem<T> {
   bool CompletesAnyStart() const override { return true; }
   void CompleteStart(T* z, int given) const override;
   Mode Begin(Mode mode, T* z) override;
+  Mode Resume(std::span<const Foot> feet, const T* z) override;
+  void TellFeet(std::vector<Foot>& feet) const override;
   void SaveDiscreteState(DiscreteState& to) const override;
   void LoadDiscreteState(DiscreteState& from) override;
   void StartSearch(Mode mode, const double* z) override;
@@ -70,6 +73,7 @@ class Robot final : public HybridSystem<T> {
   int Angle(int leg) const { return 6 + leg; }
   int Rate(int leg) const { return 6 + legs_ + leg; }
   int Contact(int leg) const { return 6 + 2 * legs_ + leg; }
+  int Given(int leg) const { return 6 + 3 * legs_ + leg; }
   bool HasCone() const { return Value(robot_.friction) < std::numeric_limits<double>::infinity(); }
   bool IsDown(const Leg& leg) const { return leg.stance != Stance::kFlight; }
   static Footing FootOf(const Leg& leg) { return {leg.stance == Stance::kRolling, leg.slides}; }
@@ -83,6 +87,9 @@ class Robot final : public HybridSystem<T> {
   LegPlace LegOf(const Frame& frame, int leg, const T* z) const;
   Push PushOf(const Frame& frame, const T& t, const T* z) const;
   void Accelerate(const Frame& frame, const Push& push, const T* z, T* dz) const;
+  void AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z, T* dz) const;
+  void LagShortly(const Frame& frame, Push& push, const T* z, T* dz) const;
+  void MissJump(int leg, const T& jump, T* z) const;
   ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const;
   /// The same from the end of the clamp.
   ClampedPlace<T> PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const;
@@ -105,6 +112,7 @@ class Robot final : public HybridSystem<T> {
   T gravity_x_, gravity_y_;
   bool has_body_force_;
   bool has_leg_mass_;
+  bool lags_, lags_shortly_;  // motors: with a state of their own, or to first order (M86)
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;
   std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]

@@ -51,8 +51,9 @@ typename Robot<T>::Push Robot<T>::PushOf(const Frame& frame, const T& t, const T
       push.force_y += fy;
       push.moment += (hip.x - com.x) * fy - (hip.y - com.y) * fx + on_hip;
     }
-    push.on_motor[i] =
-        robot_.control == MotorControl::kLocked ? T(0.0) : T(gain_[i] * Torque(i, t, z) + on_hip);
+    push.on_motor[i] = robot_.control == MotorControl::kLocked
+                           ? T(0.0)
+                           : T(gain_[i] * (lags_ ? z[Given(i)] : Torque(i, t, z)) + on_hip);
   }
   if (has_body_force_) {
     const Vector2<T> air = effects_.BodyForce(
@@ -67,7 +68,7 @@ typename Robot<T>::Push Robot<T>::PushOf(const Frame& frame, const T& t, const T
 template <class T>
 void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
   const Frame frame(z[Pitch()] - p_.slope);
-  const Push push = PushOf(frame, t, z);
+  Push push = PushOf(frame, t, z);
   const bool locked = robot_.control == MotorControl::kLocked;
   dz[kX] = z[kVx];
   dz[kY] = z[kVy];
@@ -75,8 +76,16 @@ void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
   for (int i = 0; i < legs_; ++i) {
     dz[Angle(i)] = locked ? T(0.0) : z[Rate(i)];
     dz[Contact(i)] = T(0.0);
+    if (lags_) dz[Given(i)] = (Torque(i, t, z) - z[Given(i)]) / robot_.motor_lag;
   }
-  if (has_leg_mass_) return Accelerate(frame, push, z, dz);
+  Accelerate(frame, push, z, dz);
+  if (lags_shortly_) LagShortly(frame, push, z, dz);
+}
+
+template <class T>
+void Robot<T>::Accelerate(const Frame& frame, const Push& push, const T* z, T* dz) const {
+  if (has_leg_mass_) return AccelerateWithLegMass(frame, push, z, dz);
+  const bool locked = robot_.control == MotorControl::kLocked;
   const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
   const T& turn = z[Pitch() + 1];
   const T spin = push.moment / robot_.pitch_inertia;
@@ -87,10 +96,46 @@ void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
     dz[Rate(i)] = locked ? T(0.0) : T(push.on_motor[i] / robot_.rotor_inertia);
 }
 
+// M86: a lag too short to integrate, to its first order: what a motor gives is behind by the lag
+// times the rate of what it is told.
+template <class T>
+void Robot<T>::LagShortly(const Frame& frame, Push& push, const T* z, T* dz) const {
+  for (int i = 0; i < legs_; ++i) {
+    if (leg_[i].limit != 0) continue;
+    const T rate =
+        robot_.control == MotorControl::kClock ? leg_[i].clock.Rate(leg_[i].piece) : T(0.0);
+    const T told = robot_.motor_kp * (rate - z[Rate(i)]) - robot_.motor_kd * dz[Rate(i)];
+    push.on_motor[i] -= gain_[i] * robot_.motor_lag * told;
+  }
+  Accelerate(frame, push, z, dz);
+}
+
+// M86: where what a motor is told jumps, the lag withholds the lag times the jump of its impulse.
+// Accelerations are affine in the motors' torques: what one of 1 N m adds is the column of the
+// inverse mass matrix.
+template <class T>
+void Robot<T>::MissJump(int leg, const T& jump, T* z) const {
+  const Frame frame(z[Pitch()] - p_.slope);
+  Push none, unit;
+  none.on_motor.fill(T(0.0));
+  unit.on_motor = none.on_motor;
+  unit.on_motor[leg] = T(1.0);
+  T without[kMaxStates], with[kMaxStates];
+  Accelerate(frame, none, z, without);
+  Accelerate(frame, unit, z, with);
+  const T impulse = -gain_[leg] * robot_.motor_lag * jump;
+  const auto add = [&](int rate) { z[rate] += impulse * (with[rate] - without[rate]); };
+  add(kVx);
+  add(kVy);
+  add(Pitch() + 1);
+  for (int i = 0; i < legs_; ++i) add(Rate(i));
+}
+
 // M83: the motors are eliminated, each from its own row; then three equations are left, of the
 // reference point and the pitch.
 template <class T>
-void Robot<T>::Accelerate(const Frame& frame, const Push& push, const T* z, T* dz) const {
+void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z,
+                                     T* dz) const {
   const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
   const T &m = robot_.leg_mass, &turn = z[Pitch() + 1];
   const T about_hip = 2.0 * m * p_.r * p_.r, turn2 = turn * turn;

@@ -17,6 +17,8 @@ inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kLeastArc = 0.2;
 // A leg that begins deeper below the ground than this cannot stand on it [rest radii].
 inline constexpr double kDeepest = 0.4;
+// A shorter lag of the motors is taken to its first order [s].
+inline constexpr double kShortestLag = 1e-5;
 // Lowest hip, in rest radii, where nothing else is said.
 inline constexpr double kLowestHip = 0.3;
 }  // namespace robot_detail

@@ -104,10 +104,59 @@ TEST_F(RobotCli, RefusesWhatDoesNotGoTogether) {
   refused("mechanism.motor.kp_N_m_per_rad=-1", "kp_N_m_per_rad");
   refused("initial.mode=stance", "contact_x_m");
   refused("mechanism.leg.mass_kg=-0.01", "mass_kg");
-  const ProcessResult gait = Hoplab({"gait", Shipped("experiments/robot-walk.yaml")});
+  const ProcessResult gait = Hoplab({"gait", Shipped("experiments/robot-drop.yaml")});
   EXPECT_EQ(gait.exit_code, 65);
-  EXPECT_NE(gait.err.find("has no return map of speed and height alone"), std::string::npos)
-      << gait.err;
+  EXPECT_NE(gait.err.find("makes no strides"), std::string::npos) << gait.err;
+  const auto search = [&](const std::string& objective) {
+    return Hoplab({"optimize", Shipped("experiments/robot-walk.yaml"), "--set",
+                   "search={over: {controller.duty: [0.75, 0.8]}, objective: " + objective + "}"});
+  };
+  EXPECT_EQ(search("convergence_time").exit_code, 65);
+  EXPECT_NE(search("convergence_time").err.find("does not make"), std::string::npos);
+  const ProcessResult hopper = Hoplab({"optimize", Shipped("experiments/fastest-convergence.yaml"),
+                                       "--set", "search.objective=speed"});
+  EXPECT_EQ(hopper.exit_code, 65);
+  EXPECT_NE(hopper.err.find("robot's stride"), std::string::npos) << hopper.err;
+}
+
+// Three legs, the middle one half a turn behind: a stable stride, whatever the number of jobs.
+TEST_F(RobotCli, FindsTheSteadyStrideOfAWalkingRobot) {
+  const auto gait = [&](const char* jobs) {
+    return Hoplab({"gait", Shipped("experiments/robot-walk.yaml"), "--tolerance", "1e-9", "--jobs",
+                   jobs, "--json", "--quiet", "--out", std::string("gait-") + jobs});
+  };
+  const ProcessResult run = gait("2");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  auto record = nlohmann::json::parse(run.out);
+  EXPECT_EQ(record.at("stable"), true);
+  EXPECT_NEAR(record.at("spectral_radius").get<double>(), 0.8203, 0.001);
+  EXPECT_NEAR(record.at("stride").at("speed_m_per_s").get<double>(), 0.2472, 0.0005);
+  EXPECT_EQ(record.at("stride").at("legs").size(), 3u);
+  EXPECT_EQ(record.at("multipliers").size(), 14u);
+  EXPECT_EQ(record.at("own_run").at("outcome"), "completed");
+  EXPECT_TRUE(std::filesystem::exists(temp_.path() / "gait-2" / "cycles.csv"));
+  auto alone = nlohmann::json::parse(gait("1").out);
+  for (auto* r : {&record, &alone}) {
+    for (const char* key : {"seconds", "command_line", "started"}) r->erase(key);
+  }
+  EXPECT_EQ(record.at("d_spectral_radius"), alone.at("d_spectral_radius"));
+}
+
+// What a search finds is at least as good as what it began with, and stands as the limit says.
+TEST_F(RobotCli, SearchesTheClockOfARobot) {
+  const ProcessResult run = Hoplab(
+      {"optimize", Shipped("experiments/robot-walk.yaml"), "--set",
+       "search={over: {controller.period_s: [0.52, 0.56], controller.phases.1: [0.48, 0.52]}, "
+       "objective: cost_of_transport, constraints: {min_speed_m_per_s: 0.24}}",
+       "--budget", "14", "--seeds", "1", "--map", "0", "--json", "--quiet"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto record = nlohmann::json::parse(run.out);
+  const auto& best = record.at("best");
+  EXPECT_GE(best.at("steady_speed_m_per_s").get<double>(), 0.24);
+  EXPECT_LT(best.at("spectral_radius").get<double>(), 1.0);
+  EXPECT_LE(best.at("cost_of_transport").get<double>(),
+            record.at("before").at("cost_of_transport").get<double>());
+  EXPECT_TRUE(best.at("parameters").contains("controller.phases.1"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "optimize/apex_map.h"
 #include "tests/support/controlled_hopper.h"
 
 namespace hoplab {
@@ -14,9 +15,9 @@ using D = SensitivityDirection;
 
 Branch FollowGain(double low, double high) {
   const Hopper hopper = ControlledHopper();
-  ReturnMap map(hopper);
-  return FollowFixedPoint(hopper, SearchFixedPoint(map, {1.2, 0.3}), D::Parameter(ParameterId::kKp),
-                          {.low = low, .high = high});
+  ApexMap map(hopper);
+  return FollowFixedPoint(map, SearchFixedPoint(map, ApexState(1.2, 0.3)),
+                          D::Parameter(ParameterId::kKp), {.low = low, .high = high});
 }
 
 TEST(Continuation, EveryPointOfABranchIsAFixedPointAndTheBranchCoversItsRange) {
@@ -32,7 +33,7 @@ TEST(Continuation, EveryPointOfABranchIsAFixedPointAndTheBranchCoversItsRange) {
     before = point.parameter;
     Hopper there = ControlledHopper();
     SetValue(there, D::Parameter(ParameterId::kKp), point.parameter);
-    ReturnMap map(there);
+    ApexMap map(there);
     const Hop hop = map.Apply(point.fixed_point.state);
     EXPECT_LT((hop.next - point.fixed_point.state).norm(), 1e-10);
   }
@@ -47,9 +48,9 @@ TEST(Continuation, ABranchThatEndsInAFallSaysSo) {
 
 TEST(Continuation, TheStraightLegsBranchKeepsItsEnergy) {
   const Hopper hopper{SteadyStraightLeg(), {}};
-  ReturnMap map(hopper);
-  const FixedPoint start = FindFixedPoint(map, {0.513806075894484, 1.238312718076982});
-  const Branch branch = FollowFixedPoint(hopper, start, D::Parameter(ParameterId::kThetaTd),
+  ApexMap map(hopper);
+  const FixedPoint start = FindFixedPoint(map, ApexState(0.513806075894484, 1.238312718076982));
+  const Branch branch = FollowFixedPoint(map, start, D::Parameter(ParameterId::kThetaTd),
                                          {.low = Degrees(3.0), .high = Degrees(8.0)});
   ASSERT_GE(branch.points.size(), 5u);
   for (const BranchPoint& point : branch.points) {
@@ -63,9 +64,9 @@ TEST(Continuation, TheStraightLegsBranchKeepsItsEnergy) {
 TEST(Continuation, AChangeOfTheEventSequenceIsFlagged) {
   // With the touch-down angle the stance comes to begin, or end, on the toe.
   const Hopper hopper = ControlledHopper();
-  ReturnMap map(hopper);
+  ApexMap map(hopper);
   const Branch branch =
-      FollowFixedPoint(hopper, SearchFixedPoint(map, {1.2, 0.3}),
+      FollowFixedPoint(map, SearchFixedPoint(map, ApexState(1.2, 0.3)),
                        D::Parameter(ParameterId::kThetaTd), {.low = 0.1, .high = 1.2});
   int changes = 0;
   for (std::size_t i = 1; i < branch.points.size(); ++i) {

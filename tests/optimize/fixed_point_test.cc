@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "base/random.h"
+#include "optimize/apex_map.h"
 #include "optimize/continuation.h"
 #include "optimize/convergence_time.h"
 #include "tests/support/controlled_hopper.h"
@@ -23,7 +24,7 @@ using D = SensitivityDirection;
 const ApexState kSlip(0.513806075894484, 1.238312718076982);
 
 FixedPoint SlipFrom(const ApexState& start) {
-  ReturnMap map({SteadyStraightLeg(), {}});
+  ApexMap map({SteadyStraightLeg(), {}});
   FixedPointOptions options;
   options.specific_energy = map.SpecificEnergy(kSlip);  // fixed points are a family over energy
   return SearchFixedPoint(map, start, options);
@@ -31,9 +32,9 @@ FixedPoint SlipFrom(const ApexState& start) {
 
 TEST(ReturnMap, IsThatOfAPlacedLegWhateverItsStart) {
   Hopper hopper = ControlledHopper();
-  const Hop placed = ReturnMap(hopper).Apply({1.0, 0.3});
+  const Hop placed = ApexMap(hopper).Apply(ApexState(1.0, 0.3));
   hopper.request.parameters.start_angle = 0.3;  // M47
-  const Hop other = ReturnMap(hopper).Apply({1.0, 0.3});
+  const Hop other = ApexMap(hopper).Apply(ApexState(1.0, 0.3));
   ASSERT_TRUE(placed.ok());
   EXPECT_EQ(placed.next, other.next);
 }
@@ -41,7 +42,7 @@ TEST(ReturnMap, IsThatOfAPlacedLegWhateverItsStart) {
 TEST(FixedPoint, KnownSteadyHopIsFoundFromTenPercentOff) {
   for (const double vx : {0.9, 1.1}) {
     for (const double y : {0.9, 1.1}) {
-      const FixedPoint point = SlipFrom({vx * kSlip[0], y * kSlip[1]});
+      const FixedPoint point = SlipFrom(ApexState(vx * kSlip[0], y * kSlip[1]));
       ASSERT_TRUE(point.found()) << vx << ' ' << y;
       EXPECT_TRUE(point.conserves_energy);
       EXPECT_NEAR(point.state[0], kSlip[0], 1e-9);
@@ -51,7 +52,7 @@ TEST(FixedPoint, KnownSteadyHopIsFoundFromTenPercentOff) {
 }
 
 TEST(FixedPoint, MultipliersOfTheKnownSteadyHopAreAsPublished) {
-  const FixedPoint point = SlipFrom({0.9 * kSlip[0], 1.1 * kSlip[1]});
+  const FixedPoint point = SlipFrom(ApexState(0.9 * kSlip[0], 1.1 * kSlip[1]));
   ASSERT_TRUE(point.found());
   EXPECT_NEAR(point.multipliers[0].real(), 4.180741, 1e-6);
   EXPECT_NEAR(point.multipliers[1].real(), 1.0, 1e-6);
@@ -60,8 +61,8 @@ TEST(FixedPoint, MultipliersOfTheKnownSteadyHopAreAsPublished) {
 }
 
 TEST(FixedPoint, AHopThatFallsIsNamed) {
-  ReturnMap map({SteadyStraightLeg(), {}});
-  const FixedPoint point = FindFixedPoint(map, {0.5, 0.3});
+  ApexMap map({SteadyStraightLeg(), {}});
+  const FixedPoint point = FindFixedPoint(map, ApexState(0.5, 0.3));
   EXPECT_EQ(point.status, FixedPointStatus::kHopFails);
   EXPECT_EQ(point.hop.outcome, Outcome::kStartsInGround);
   EXPECT_TRUE(std::isnan(point.spectral_radius));
@@ -69,7 +70,7 @@ TEST(FixedPoint, AHopThatFallsIsNamed) {
 
 TEST(ReturnMap, ItsDerivativesAreThoseOfTheMap) {
   Hopper hopper = ControlledHopper();
-  ReturnMap map(hopper);
+  ApexMap map(hopper);
   const std::array parameters = {D::Parameter(ParameterId::kKp), D::Parameter(ParameterId::kE),
                                  D::Parameter(ParameterId::kThetaTd)};
   const ApexState z(1.2, 0.3);
@@ -105,7 +106,7 @@ TEST(ReturnMap, ItsDerivativesAreThoseOfTheMap) {
 // Spectral radius from the map alone: its Jacobian by differences, its fixed point by Newton's
 // method with that Jacobian. Shares nothing with the sensitivities.
 double SpectralRadiusByDifferences(Hopper hopper, ApexState z) {
-  ReturnMap map(std::move(hopper));
+  ApexMap map(std::move(hopper));
   Eigen::Matrix2d J;
   for (int iteration = 0; iteration < 8; ++iteration) {
     for (int k = 0; k < 2; ++k) {
@@ -125,14 +126,14 @@ double SpectralRadiusByDifferences(Hopper hopper, ApexState z) {
 
 TEST(SpectralRadius, ItsDerivativesAgreeWithDifferencesOfTheMapAlone) {
   const Hopper hopper = ControlledHopper();
-  ReturnMap map(hopper);
-  const FixedPoint point = SearchFixedPoint(map, {1.2, 0.3});
+  ApexMap map(hopper);
+  const FixedPoint point = SearchFixedPoint(map, ApexState(1.2, 0.3));
   ASSERT_TRUE(point.found());
   EXPECT_NEAR(SpectralRadiusByDifferences(hopper, point.state), point.spectral_radius, 1e-8);
   for (const ParameterId id : {ParameterId::kKp, ParameterId::kThetaTd, ParameterId::kE,
                                ParameterId::kD, ParameterId::kVDes, ParameterId::kM}) {
     const D direction = D::Parameter(id);
-    const SpectralRadiusRate rate = DifferentiateSpectralRadius(hopper, point, direction);
+    const SpectralRadiusRate rate = DifferentiateSpectralRadius(map, point, direction);
     const double value = ValueOf(hopper, direction);
     const auto radius = [&](double v) {
       Hopper moved = hopper;
@@ -153,8 +154,8 @@ TEST(SpectralRadius, AtZeroDampingItsDerivativeIsOneSided) {
   const D damping = D::Parameter(ParameterId::kD);
   const auto rate_at = [&](double d) {
     SetValue(hopper, damping, d);
-    ReturnMap map(hopper);
-    return DifferentiateSpectralRadius(hopper, SearchFixedPoint(map, {1.0, 0.3}), damping);
+    ApexMap map(hopper);
+    return DifferentiateSpectralRadius(map, SearchFixedPoint(map, ApexState(1.0, 0.3)), damping);
   };
   // From the other side: values at small damping, extrapolated to none.
   const double extrapolated = 2.0 * rate_at(0.02).value - rate_at(0.04).value;

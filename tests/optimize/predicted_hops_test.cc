@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "base/random.h"
+#include "optimize/apex_map.h"
 #include "optimize/fixed_point.h"
 #include "tests/support/controlled_hopper.h"
 
@@ -30,8 +31,8 @@ Setting StableSetting(RandomStream& random) {
     p.v_des = random.Uniform(1.0, 2.5);
     p.E = random.Uniform(18e9, 26e9);
     hopper.request.integrator = {IntegratorKind::kDop853, 1e-10, 1e-11};
-    ReturnMap map(hopper);
-    FixedPoint point = SearchFixedPoint(map, {1.0, 0.3}, {.tolerance = 1e-9});
+    ApexMap map(hopper);
+    FixedPoint point = SearchFixedPoint(map, ApexState(1.0, 0.3), {.tolerance = 1e-9});
     if (point.stable() && point.spectral_radius < 0.99 && std::abs(point.state[0]) > 0.1)
       return {hopper, point};
   }
@@ -43,7 +44,7 @@ struct Counted {
   int speed = 0, slow_mode = 0;
 };
 Counted CountHops(const Setting& setting, const ApexState& start, int hops) {
-  ReturnMap map(setting.hopper);
+  ApexMap map(setting.hopper);
   const double steady = setting.point.state[0];
   Counted counted;
   ApexState z = start;

@@ -1,0 +1,77 @@
+// Gaits of a robot found from nothing but a box of clocks and starts, seed by seed: the figures of
+// docs/statistics/robot.md. ctest -L statistics; the seeds are 1 to 10.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+#include <thread>
+
+#include "optimize/gain_search.h"
+#include "optimize/stride_measures.h"
+#include "tests/support/robot_gaits.h"
+
+namespace hoplab {
+namespace {
+
+using namespace testing;
+
+// A robot, and how its legs follow one another.
+struct Search {
+  const char* name;
+  int legs;
+  double phase;  // of leg 2
+  int budget;
+};
+
+SearchProblem GaitProblem(const Search& search) {
+  SearchProblem problem;
+  problem.variables = {{"period", 0.2, 0.6},  {"duty", 0.3, 0.8},  {"sweep", 0.3, 1.5},
+                       {"offset", -0.3, 0.6}, {"speed", 0.1, 1.5}, {"height", 0.185, 0.25}};
+  problem.objective = Objective::kSpectralRadius;
+  problem.hopper_at = [search](std::span<const double> x) {
+    Hopper hopper = ClockedRobot(search.legs, x[0], x[1], x[2], x[3]);
+    hopper.request.parameters.robot->phase[1] = search.phase;
+    hopper.request.initial = {0.0, x[5], x[4], 0.0};
+    hopper.request.integrator = {};
+    return hopper;
+  };
+  return problem;
+}
+
+class GaitsFromScratch : public ::testing::TestWithParam<Search> {};
+
+TEST_P(GaitsFromScratch, AStableOneIsFoundFromMostSeeds) {
+  const Search& search = GetParam();
+  const SearchProblem problem = GaitProblem(search);
+  GainSearchOptions options;
+  options.algorithm = SearchAlgorithm::kCrs2;
+  options.budget = search.budget;
+  options.seeds = 10;
+  options.jobs = static_cast<int>(std::thread::hardware_concurrency());
+  const GainSearchResult result = SearchGains(problem, options);
+  int found = 0;
+  for (const SeedResult& seed : result.seeds) {
+    const bool good = seed.best.verdict == PointVerdict::kGood;
+    found += good;
+    std::printf("  %s, seed %llu: %s, %s, spectral radius %.3f, %.2f m/s\n", search.name,
+                static_cast<unsigned long long>(seed.seed),
+                std::string(NameOf(seed.best.verdict)).c_str(), seed.best.gait.c_str(),
+                seed.best.spectral_radius, seed.best.speed);
+    if (!good) continue;
+    // Found again to rounding, and where it goes on for forty strides.
+    const SteadyStride steady = FindSteadyStride(problem.hopper_at(seed.best.x));
+    EXPECT_TRUE(steady.point.stable()) << seed.seed;
+    EXPECT_NEAR(steady.point.spectral_radius, seed.best.spectral_radius, 1e-3);
+  }
+  std::printf("  %s: stable from %d of %zu seeds, %d evaluations\n", search.name, found,
+              result.seeds.size(), result.evaluations);
+  EXPECT_GE(found, 8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Robot, GaitsFromScratch,
+                         ::testing::Values(Search{"Pronk", 2, 0.0, 700},
+                                           Search{"Walk", 3, 0.5, 60}),
+                         [](const auto& at) { return at.param.name; });
+
+}  // namespace
+}  // namespace hoplab
