@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "datasets/read_scenario.h"
 #include "experiments/scenario_hopper.h"
+#include "optimize/apex_map.h"
 #include "optimize/fixed_point.h"
 
 int main(int argc, char** argv) {
@@ -13,7 +14,7 @@ int main(int argc, char** argv) {
   try {
     const hoplab::Scenario scenario = hoplab::ReadScenario(argv[1]);
     const hoplab::Hopper hopper = hoplab::LeggedHopperOfScenario(scenario, {});
-    hoplab::ReturnMap map(hopper);
+    hoplab::ApexMap map(hopper);
     const hoplab::FixedPoint steady = hoplab::SearchFixedPoint(map, hoplab::StartApex(hopper));
     if (!steady.found()) {
       std::printf("no steady hop: %s\n", NameOf(steady.status).data());
