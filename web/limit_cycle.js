@@ -33,4 +33,5 @@ const gaitRow = (name, gait) => (gait
     gait.stable ? 'stable' : 'unstable', gait.events]
   : [name, notComputed, '', '', '', 'no steady hop found', '']);
 
-const gaitTable = (rows) => dataTable(['', 'speed at apex', 'apex height', 'period', 'spectral radius', '', 'events of a hop'], rows.map(([name, gait]) => gaitRow(name, gait)), 'lrrrrll');
+const gaitTable = (rows) => dataTable(run.mechanism?.type === 'robot' ? ['', 'speed', 'height at the section', 'period', 'spectral radius', '', 'events of a stride']
+  : ['', 'speed at apex', 'apex height', 'period', 'spectral radius', '', 'events of a hop'], rows.map(([name, gait]) => gaitRow(name, gait)), 'lrrrrll');

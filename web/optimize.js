@@ -1,6 +1,7 @@
 // The report of a search for gains.
 
 const objectiveUnit = () => (run.objective === 'convergence_time' ? 's' : '');
+const ofStrides = () => run.mechanism?.type === 'robot';
 const objectiveName = () => words(run.objective ?? 'objective');
 
 function historyPlot() {
@@ -53,14 +54,15 @@ function robustnessTable(robustness) {
   return dataTable(['', 'before', 'best'], [
     ['stiffness up to 5 % off', worst(robustness.before?.stiffness_5_percent), worst(robustness.best?.stiffness_5_percent)],
     ['other starts', worst(robustness.before?.starts), worst(robustness.best?.starts)],
-    ['half a degree of noise at every landing', noise(robustness.before?.touchdown_noise_half_deg), noise(robustness.best?.touchdown_noise_half_deg)]], 'lll');
+    ...(robustness.before?.touchdown_noise_half_deg?.runs ? [['half a degree of noise at every landing', noise(robustness.before?.touchdown_noise_half_deg), noise(robustness.best?.touchdown_noise_half_deg)]] : [])], 'lll');
 }
 
 function searchTable() {
   const value = (point, key, unit) => (point ? quantity(point[key], unit) : notComputed);
   return dataTable(['', 'before', 'best', 'searched'], [
     ...list(run.variables).map((v) => [withUnit(splitKey(v.name).name, splitKey(v.name).unit), significant(v.before), significant(run.best?.parameters?.[v.name]), `${significant(v.low)} to ${significant(v.high)}`]),
-    ...[['convergence time', 'convergence_time_s', 's'], ['steady speed', 'steady_speed_m_per_s', 'm/s'], ['spectral radius', 'spectral_radius', ''], ['greatest torque', 'max_torque_N_m', 'N m'], ['ground clearance', 'clearance_m', 'm']]
+    ...[['convergence time', 'convergence_time_s', 's', !ofStrides()], ['steady speed', 'steady_speed_m_per_s', 'm/s', true], ['cost of transport', 'cost_of_transport', '', ofStrides()],
+      ['spectral radius', 'spectral_radius', '', true], ['greatest torque', 'max_torque_N_m', 'N m', true], ['ground clearance', 'clearance_m', 'm', !ofStrides()]].filter((row) => row[3])
       .map(([name, key, unit]) => [name, value(run.before, key, unit), value(run.best, key, unit), ''])], 'lrrr');
 }
 
