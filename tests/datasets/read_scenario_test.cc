@@ -222,9 +222,9 @@ TEST(BadScenario, AMisspeltKeyGetsTheNearestKnownOne) {
 
 TEST(BadScenario, AnUnknownObjectiveIsRefused) {
   EXPECT_EQ(
-      ErrorWith("objective: convergence_time", "objective: speed"),
-      "s.yaml:12: search.objective = speed; must be one of convergence_time, spectral_radius, "
-      "weighted. Write one of these words.");
+      ErrorWith("objective: convergence_time", "objective: haste"),
+      "s.yaml:12: search.objective = haste; must be one of convergence_time, spectral_radius, "
+      "weighted, speed, cost_of_transport, peak_torque. Write one of these words.");
 }
 
 TEST(BadScenario, ASearchKeyThatIsNoneOfTheScenarioIsRefused) {

@@ -70,7 +70,7 @@ TEST_P(GaitsFromScratch, AStableOneIsFoundFromMostSeeds) {
 
 INSTANTIATE_TEST_SUITE_P(Robot, GaitsFromScratch,
                          ::testing::Values(Search{"Pronk", 2, 0.0, 700},
-                                           Search{"Walk", 3, 0.5, 60}),
+                                           Search{"Walk", 3, 0.5, 250}),
                          [](const auto& at) { return at.param.name; });
 
 }  // namespace
