@@ -24,13 +24,19 @@ double Shown(const TrialDesign& design, DesignSetting setting) {
 }
 
 Json SettingsRecord(const TrialDesign& design) {
-  return {{"like", design.like},
-          {"touchdown_angle_rad", NumberOrNull(design.touchdown_angle)},
-          {"height_m", NumberOrNull(design.height)},
-          {"speed_m_per_s", NumberOrNull(design.speed)},
-          {"kp_N_s", NumberOrNull(design.kp)},
-          {"added_mass_kg", NumberOrNull(design.added_mass)},
-          {"throw_m_per_s", NumberOrNull(design.throw_speed)}};
+  Json record = {{"like", design.like},
+                 {"touchdown_angle_rad", NumberOrNull(design.touchdown_angle)},
+                 {"height_m", NumberOrNull(design.height)},
+                 {"speed_m_per_s", NumberOrNull(design.speed)},
+                 {"kp_N_s", NumberOrNull(design.kp)},
+                 {"added_mass_kg", NumberOrNull(design.added_mass)},
+                 {"throw_m_per_s", NumberOrNull(design.throw_speed)}};
+  if (std::isnan(design.pitch)) return record;
+  record["pitch_rad"] = design.pitch;
+  for (std::size_t leg = 0; leg < design.leg_angle.size(); ++leg)
+    if (!std::isnan(design.leg_angle[leg]))
+      record["leg_angle_" + std::to_string(leg + 1) + "_rad"] = design.leg_angle[leg];
+  return record;
 }
 
 Json TriedRecord(const DesignRun& run, const DesignTried& tried) {

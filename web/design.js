@@ -1,9 +1,10 @@
 // The report of a search for the trial to record next.
 
 const designValue = (settings, range) => {
-  const keys = {angle: 'touchdown_angle_rad', height: 'height_m', speed: 'speed_m_per_s', mass: 'added_mass_kg', throw: 'throw_m_per_s', gain: 'kp_N_s'};
-  const value = settings?.[keys[range.name]];
-  return isNumber(value) && range.name === 'angle' ? value * 180 / Math.PI : value;
+  const keys = {angle: 'touchdown_angle_rad', height: 'height_m', speed: 'speed_m_per_s', mass: 'added_mass_kg', throw: 'throw_m_per_s', gain: 'kp_N_s', pitch: 'pitch_rad'};
+  const leg = range.name.startsWith('leg_') ? `leg_angle_${range.name.slice(4)}_rad` : undefined;
+  const value = settings?.[leg ?? keys[range.name]];
+  return isNumber(value) && range.unit === 'deg' ? value * 180 / Math.PI : value;
 };
 
 function designsTable() {

@@ -125,9 +125,11 @@ void AddDesignCommand(CLI::App& app, Invocation& invocation) {
                  "Fitted value whose interval is to shrink (default of both: diagnose decides)")
       ->option_text("NAME")
       ->excludes(cause);
-  sub.add_option("--space", settings->space,
-                 "Ranges of angle [deg], height [m], speed [m/s], mass [kg] added, throw [m/s] "
-                 "up, gain [N s]; as angle=10:50,mass=0")
+  sub.add_option(
+         "--space", settings->space,
+         "Ranges of angle [deg], height [m], speed [m/s], mass [kg] added, throw [m/s] "
+         "up, gain [N s], of a robot pitch [deg] and the motors' angles leg_1, ... [deg]; as "
+         "angle=10:50,mass=0")
       ->delimiter(',')
       ->option_text("SETTING=LOW:HIGH,...")
       ->allow_extra_args(false);

@@ -20,12 +20,27 @@ constexpr std::array<DesignSettingInfo, kDesignSettings> kInfo = {
      {"speed", "speed_m_per_s", "m/s", 1.0},
      {"mass", "added_mass_kg", "kg", 1.0},
      {"throw", "throw_m_per_s", "m/s", 1.0},
-     {"gain", "gain_N_s", "N s", 1.0}}};
+     {"gain", "gain_N_s", "N s", 1.0},
+     {"pitch", "pitch_deg", "deg", kDegree},
+     {"leg_1", "leg_1_deg", "deg", kDegree},
+     {"leg_2", "leg_2_deg", "deg", kDegree},
+     {"leg_3", "leg_3_deg", "deg", kDegree},
+     {"leg_4", "leg_4_deg", "deg", kDegree}}};
 // What may be asked for at all, in the unit of the option: beyond it is a slip of the unit.
-constexpr std::array<std::pair<double, double>, kDesignSettings> kWidest = {
-    {{-80.0, 80.0}, {1e-3, 100.0}, {-100.0, 100.0}, {0.0, 1000.0}, {0.0, 100.0}, {0.0, 1e6}}};
+constexpr std::array<std::pair<double, double>, kDesignSettings> kWidest = {{{-80.0, 80.0},
+                                                                             {1e-3, 100.0},
+                                                                             {-100.0, 100.0},
+                                                                             {0.0, 1000.0},
+                                                                             {0.0, 100.0},
+                                                                             {0.0, 1e6},
+                                                                             {-60.0, 60.0},
+                                                                             {-180.0, 180.0},
+                                                                             {-180.0, 180.0},
+                                                                             {-180.0, 180.0},
+                                                                             {-180.0, 180.0}}};
 
 constexpr double kMostTurn = 15.0 * kDegree;  // beyond the recorded angles
+constexpr double kMostPitch = 10.0 * kDegree;
 constexpr double kSteepest = 60.0 * kDegree;  // of a default range
 constexpr double kSlowest = 0.5;              // m/s, where no trial has a speed
 constexpr double kMostThrow = 1.0;            // m/s
@@ -51,6 +66,11 @@ bool Fits(const FitProblem& problem, ParameterId parameter) {
   });
 }
 
+// Of a setting of one leg, which: 0 the hindmost.
+std::size_t LegOf(DesignSetting setting) {
+  return static_cast<std::size_t>(setting) - static_cast<std::size_t>(DesignSetting::kLeg1);
+}
+
 void Set(TrialDesign& design, DesignSetting setting, double value) {
   switch (setting) {
     case DesignSetting::kAngle:
@@ -71,7 +91,28 @@ void Set(TrialDesign& design, DesignSetting setting, double value) {
     case DesignSetting::kGain:
       design.kp = value;
       return;
+    case DesignSetting::kPitch:
+      design.pitch = value;
+      return;
+    default:
+      design.leg_angle[LegOf(setting)] = value;
   }
+}
+
+// Pitch, and where its motors are held the angle of each.
+void AddRobotRanges(const std::vector<TrialProblem>& train, std::vector<DesignRange>& ranges) {
+  const RobotParameters<double>& robot = *train.front().parameters.robot;
+  const int held = robot.control == MotorControl::kClock ? 0 : robot.legs;
+  for (int leg = 0; leg < held; ++leg) {
+    Extent angle;
+    for (const TrialProblem& trial : train)
+      angle.Add(trial.parameters.robot->angle[static_cast<std::size_t>(leg)]);
+    const auto setting = static_cast<DesignSetting>(static_cast<int>(DesignSetting::kLeg1) + leg);
+    ranges.push_back({setting, angle.low - kMostTurn, angle.high + kMostTurn});
+  }
+  Extent pitch;
+  for (const TrialProblem& trial : train) pitch.Add(trial.start.size() > 4 ? trial.start[4] : 0.0);
+  ranges.push_back({DesignSetting::kPitch, pitch.low - kMostPitch, pitch.high + kMostPitch});
 }
 
 std::string RangeText(double low, double high, const DesignSettingInfo& info) {
@@ -107,8 +148,11 @@ double ValueOf(const TrialDesign& design, DesignSetting setting) {
       return design.throw_speed;
     case DesignSetting::kGain:
       return design.kp.value_or(0.0);
+    case DesignSetting::kPitch:
+      return design.pitch;
+    default:
+      return design.leg_angle[LegOf(setting)];
   }
-  return 0.0;
 }
 
 std::vector<DesignRange> DesignSpace::Searched() const {
@@ -163,9 +207,12 @@ DesignSpace PlainSpace(const FitProblem& problem, const std::vector<TrialProblem
     height.Add(trial.start[1]);
     speed.Add(std::abs(trial.start[2]));
   }
-  if (problem.law != Law::kBall && !Fits(problem, ParameterId::kThetaTd))
+  if (problem.law == Law::kRobot) {
+    AddRobotRanges(train, space.ranges);
+  } else if (problem.law != Law::kBall && !Fits(problem, ParameterId::kThetaTd)) {
     space.ranges.push_back({DesignSetting::kAngle, std::max(angle.low - kMostTurn, 0.0),
                             std::min(angle.high + kMostTurn, std::max(kSteepest, angle.high))});
+  }
   space.ranges.push_back({DesignSetting::kHeight, 0.85 * height.low, 1.6 * height.high});
   if (!space.like.parameters.on_guide)
     space.ranges.push_back({DesignSetting::kSpeed, 0.0, std::max(1.5 * speed.high, kSlowest)});
@@ -205,8 +252,13 @@ TrialProblem TrialOf(const TrialDesign& design, const TrialProblem& like) {
   trial.touchdown_angles.clear();
   trial.inputs.clear();
   trial.shared_priors.clear();
-  trial.own.resize(4);
-  trial.start.conservativeResize(4);
+  const int states = like.parameters.robot ? 6 : 4;
+  trial.own.resize(static_cast<std::size_t>(states));
+  trial.start.conservativeResize(states);
+  if (!std::isnan(design.pitch)) trial.start[4] = design.pitch;
+  for (std::size_t leg = 0; leg < design.leg_angle.size(); ++leg)
+    if (!std::isnan(design.leg_angle[leg]))
+      trial.parameters.robot->angle[leg] = design.leg_angle[leg];
   trial.start.head<4>() << like.start[0], design.height, design.speed, design.throw_speed;
   for (int k = 0; k < trial.own_count(); ++k) trial.own[k].prior_mean = trial.start[k];
   trial.contact = {};
@@ -225,6 +277,11 @@ std::string Describe(const TrialDesign& design) {
   if (thrown) words += text(" and %.3g m/s up", design.throw_speed);
   if (!std::isnan(design.touchdown_angle))
     words += text(" with a touch-down angle of %.3g deg", design.touchdown_angle / kDegree);
+  if (!std::isnan(design.pitch)) words += text(" with a pitch of %.3g deg", design.pitch / kDegree);
+  std::string angles;
+  for (const double angle : design.leg_angle)
+    if (!std::isnan(angle)) angles += text(angles.empty() ? "%.3g" : ", %.3g", angle / kDegree);
+  if (!angles.empty()) words += " and the motors held at " + angles + " deg";
   if (design.kp) words += text(" and a controller gain of %.3g N s", *design.kp);
   if (design.added_mass != 0.0) words += text(" and %.3g kg added", design.added_mass);
   return words;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,14 +21,35 @@ struct TrialDesign {
   std::optional<double> kp;      // N s; absent without a controller
   double added_mass = 0.0;       // on the body, beside what that trial had [kg]
   double throw_speed = 0.0;      // vy of the start [m/s], up
+  // Of a robot: pitch of the start, angles its motors are held at [rad]; NaN where it has none.
+  double pitch = std::numeric_limits<double>::quiet_NaN();
+  std::array<double, kMaxLegs> leg_angle = NoAngles();
+
+  static std::array<double, kMaxLegs> NoAngles() {
+    std::array<double, kMaxLegs> none;
+    none.fill(std::numeric_limits<double>::quiet_NaN());
+    return none;
+  }
 };
 
 /// "drop from 0.35 m at 1.2 m/s with a touch-down angle of 40 deg": a design in words.
 std::string Describe(const TrialDesign& design);
 
 /// What may be set for a trial to come.
-enum class DesignSetting { kAngle, kHeight, kSpeed, kMass, kThrow, kGain };
-inline constexpr int kDesignSettings = 6;
+enum class DesignSetting {
+  kAngle,
+  kHeight,
+  kSpeed,
+  kMass,
+  kThrow,
+  kGain,
+  kPitch,
+  kLeg1,
+  kLeg2,
+  kLeg3,
+  kLeg4
+};
+inline constexpr int kDesignSettings = 11;
 
 struct DesignSettingInfo {
   std::string_view name;    // on the command line: "angle"
@@ -59,9 +82,9 @@ double ValueOf(const TrialDesign& design, DesignSetting setting);
 
 /// Settings of the trials that were recorded, and somewhat beyond: angles by 15 deg, heights by 15
 /// % down and 60 % up, speeds from half the greatest backwards to one and a half times it, up to
-/// half of the body's mass added, a throw of up to 1 m/s, gains up to twice the greatest. What the
-/// set-up has not (the angle of a ball, the speed on a guide, the mass where it is fitted) is not
-/// among them.
+/// half of the body's mass added, a throw of up to 1 m/s, gains up to twice the greatest; of a
+/// robot pitches by 10 deg, and angles of each motor that is held by 15 deg. What the set-up has
+/// not (the angle of a ball, the speed on a guide, the mass where it is fitted) is not among them.
 DesignSpace DefaultSpace(const FitProblem& problem, const std::vector<TrialProblem>& train);
 
 /// The same without what asks for more than another drop: mass, throw, hop back.

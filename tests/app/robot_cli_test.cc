@@ -119,6 +119,33 @@ TEST_F(RobotCli, RefusesWhatDoesNotGoTogether) {
   EXPECT_NE(hopper.err.find("robot's stride"), std::string::npos) << hopper.err;
 }
 
+// The next drop of a robot: its legs' angles and pitch are set, not a touch-down angle.
+TEST_F(RobotCli, ProposesADropOverTheAnglesOfItsLegs) {
+  const auto design = [&](const std::string& space) {
+    return Hoplab({"design", Shipped("datasets/robot-drops"), "--sharpen", "E", "--budget", "12",
+                   "--map", "2", "--space", space, "--json", "--quiet"});
+  };
+  const ProcessResult run = design("leg_1=0:20,mass=0,throw=0");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto record = nlohmann::json::parse(run.out);
+  const auto& best = record.at("designs").at(0);
+  EXPECT_GT(best.at("worth").get<double>(), 0.0);
+  EXPECT_LT(best.at("half_width"), record.at("sharpened").at("half_width"));
+  const auto& settings = best.at("settings");
+  EXPECT_TRUE(settings.at("touchdown_angle_rad").is_null());
+  EXPECT_TRUE(settings.contains("pitch_rad"));
+  EXPECT_TRUE(settings.contains("leg_angle_2_rad"));
+  EXPECT_FALSE(settings.contains("leg_angle_3_rad"));
+  const double angle = settings.at("leg_angle_1_rad").get<double>();
+  EXPECT_GE(angle, 0.0);
+  EXPECT_LE(angle, 0.35);
+  EXPECT_EQ(settings.at("added_mass_kg"), 0.0);
+  const ProcessResult refused = design("angle=10:50");
+  EXPECT_EQ(refused.exit_code, 65);
+  EXPECT_NE(refused.err.find("angle; cannot be set in these trials"), std::string::npos)
+      << refused.err;
+}
+
 // Three legs, the middle one half a turn behind: a stable stride, whatever the number of jobs.
 TEST_F(RobotCli, FindsTheSteadyStrideOfAWalkingRobot) {
   const auto gait = [&](const char* jobs) {
