@@ -93,7 +93,7 @@ class Robot final : public HybridSystem<T> {
   template <class P>
   struct Masses;  // masses and inertias as numbers of type P
   template <class P>
-  void AccelerateWith(const Masses<P>& masses, const Frame& frame, const Push& push, const T* z,
+  void AccelerateWith(const Masses<P>& k, const Frame& frame, const Push& push, const T* z,
                       T* dz) const;
   ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const;
   /// The same from the end of the clamp.
