@@ -169,14 +169,14 @@ FixedPoint SearchFixedPoint(ReturnMap& map, const SectionState& start,
   return first;
 }
 
-SpectralRadiusRate DifferentiateSpectralRadius(const ReturnMap& at, const FixedPoint& fixed_point,
+SpectralRadiusRate DifferentiateSpectralRadius(const ReturnMap& map, const FixedPoint& fixed_point,
                                                const SensitivityDirection& parameter, int levels) {
   constexpr double kFirstStep = 0.008;  // of the parameter's scale
   HOPLAB_CHECK(levels <= kRadiusLevels);
   SpectralRadiusRate rate;
   if (!fixed_point.found() || HasKink(fixed_point)) return rate;
-  const std::unique_ptr<ReturnMap> map = at.Clone();
-  const Hopper& hopper = at.hopper();
+  const std::unique_ptr<ReturnMap> moving = map.Clone();
+  const Hopper& hopper = map.hopper();
   const double value = ValueOf(hopper, parameter);
   const double scale = ScaleOf(hopper, parameter);
   FixedPointOptions options;
@@ -184,8 +184,8 @@ SpectralRadiusRate DifferentiateSpectralRadius(const ReturnMap& at, const FixedP
 
   // DP at the fixed point of p + h; false if it is gone or lies on another branch.
   const auto jacobian_at = [&](double h, Eigen::MatrixXd& J) {
-    SetValue(map->hopper(), parameter, value + h);
-    const FixedPoint moved = FindFixedPoint(*map, fixed_point.state, options);
+    SetValue(moving->hopper(), parameter, value + h);
+    const FixedPoint moved = FindFixedPoint(*moving, fixed_point.state, options);
     J = moved.hop.jacobian;
     return moved.found() && moved.hop.events == fixed_point.hop.events &&
            moved.conserves_energy == fixed_point.conserves_energy;
