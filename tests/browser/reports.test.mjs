@@ -40,7 +40,7 @@ before(async () => {
 });
 after(() => browser?.close());
 
-const ready = (page) => page.waitForFunction(() => document.body.dataset.ready === 'yes', undefined, {timeout: 60000});
+const ready = (page) => page.waitForFunction(() => document.body.dataset.ready === 'yes', undefined, {timeout: 120000});
 const picture = (page, name) => page.screenshot({path: join(out, `${name}.png`), fullPage: true});
 
 for (const [kind, expected] of Object.entries(kinds)) {
@@ -55,7 +55,7 @@ for (const [kind, expected] of Object.entries(kinds)) {
       page.on('request', (request) => {
         if (request.url() !== pageOf(kind) && !/^(data|blob):/.test(request.url())) complaints.push(`asks for ${request.url()}`);
       });
-      await page.goto(pageOf(kind));
+      await page.goto(pageOf(kind), {timeout: 120000});
       await ready(page);
     });
     after(async () => page.close());
@@ -87,7 +87,7 @@ for (const [kind, expected] of Object.entries(kinds)) {
       assert.ok(place);
       await page.mouse.move(place.x - 3, place.y);
       await page.mouse.move(place.x, place.y, {steps: 2});
-      const label = await page.waitForSelector('.hoverlayer .hovertext', {timeout: 5000});
+      const label = await page.waitForSelector('.hoverlayer .hovertext', {timeout: 30000});
       const lines = await label.$$eval('text, tspan', (all) => all.map((line) => line.textContent).join(' '));
       assert.match(lines, expected.hover, place.caption);
       await page.mouse.move(2, 2);
@@ -101,7 +101,7 @@ for (const [kind, expected] of Object.entries(kinds)) {
         const [first, begin] = [await legs(), await time()];
         assert.ok(first.length >= 1 && first.every((points) => !points.includes('NaN')));
         await page.click('.animation .play');
-        await page.waitForFunction((t) => Number(document.querySelector('.animation').dataset.time) > t, begin, {timeout: 5000});
+        await page.waitForFunction((t) => Number(document.querySelector('.animation').dataset.time) > t, begin, {timeout: 30000});
         await page.click('.animation .play');
         assert.notDeepEqual(await legs(), first);
         const stopped = await time();
@@ -140,7 +140,7 @@ for (const [kind, expected] of Object.entries(kinds)) {
 test('on a touch screen no tools lie over a plot', async () => {
   const context = await browser.newContext({viewport: {width: 800, height: 1000}, hasTouch: true, isMobile: true});
   const page = await context.newPage();
-  await page.goto(pageOf('fit'));
+  await page.goto(pageOf('fit'), {timeout: 120000});
   await ready(page);
   assert.equal(await page.evaluate(() => matchMedia('(hover: hover)').matches), false);
   assert.ok(await page.$$eval('.plot', (plots) => plots.length) > 0);
@@ -150,7 +150,7 @@ test('on a touch screen no tools lie over a plot', async () => {
 
 test('a report prints with everything unfolded but what words mean', async () => {
   const page = await browser.newPage({colorScheme: 'dark'});
-  await page.goto(pageOf('fit'));
+  await page.goto(pageOf('fit'), {timeout: 120000});
   await ready(page);
   await page.evaluate(() => addEventListener('beforeprint', () => {
     window.folded = document.querySelectorAll('section details:not([open]):not(.words)').length;
