@@ -50,7 +50,9 @@ std::optional<ParameterId> ClockParameter(std::string name) {
   return std::nullopt;
 }
 
-SensitivityDirection DirectionOf(const Hopper& hopper, const std::string& name) {
+}  // namespace
+
+SensitivityDirection GaitDirection(const Hopper& hopper, const std::string& name) {
   if (HasStrides(hopper)) {
     if (const auto clock = ClockParameter(name)) return SensitivityDirection::Parameter(*clock);
     if (name.starts_with("ground_slope"))
@@ -59,8 +61,6 @@ SensitivityDirection DirectionOf(const Hopper& hopper, const std::string& name) 
   }
   return ResolveDirection(name, MechanismOf(hopper.request.law), LegMass::kNone, hopper.effects);
 }
-
-}  // namespace
 
 AlongRange ParseAlong(const std::string& text) {
   const std::size_t equals = text.find('='), colon = text.find(':', equals);
@@ -119,7 +119,7 @@ void FindStride(GaitRun& run) {
 std::optional<SensitivityDirection> DirectionAlong(const Hopper& hopper,
                                                    const std::optional<AlongRange>& along) {
   if (!along) return std::nullopt;
-  const SensitivityDirection direction = DirectionOf(hopper, along->name);
+  const SensitivityDirection direction = GaitDirection(hopper, along->name);
   const double here = ValueOf(hopper, direction);
   if (direction.of == SensitivityDirection::Of::kInitialState || here < along->low ||
       here > along->high) {
@@ -157,7 +157,7 @@ GaitRun RunGait(const Hopper& hopper, const GaitOptions& options) {
     const auto at = static_cast<std::size_t>(i);
     if (options.stop && *options.stop) return;
     run.rates[at] = DifferentiateSpectralRadius(*run.map, run.point,
-                                                DirectionOf(hopper, run.parameters[at]), levels);
+                                                GaitDirection(hopper, run.parameters[at]), levels);
   });
   if (along) {
     stage("following the fixed point along " + options.along->name);
@@ -168,10 +168,6 @@ GaitRun RunGait(const Hopper& hopper, const GaitOptions& options) {
   }
   run.interrupted = options.stop && *options.stop;
   return run;
-}
-
-SensitivityDirection GaitDirection(const Hopper& hopper, const std::string& name) {
-  return DirectionOf(hopper, name);
 }
 
 }  // namespace hoplab

@@ -30,13 +30,13 @@ struct Segment {
 
 /// What a leg of a robot does on the ground where a run ends, or where it is to go on.
 struct Foot {
-  enum class On { kAir, kArc, kToe };
-  On on = On::kAir;
+  enum class Stance { kFlight, kRolling, kToe };
+  Stance stance = Stance::kFlight;
   int slides = 0;  // direction in which it slides, 0: it holds
 
   bool operator==(const Foot&) const = default;
   /// Whether its contact coordinate means a place on the ground.
-  bool Holds() const { return on != On::kAir && slides == 0; }
+  bool Holds() const { return stance != Stance::kFlight && slides == 0; }
 };
 
 /// A simulated run: outcome, events, segments, and the samples asked for.

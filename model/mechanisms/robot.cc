@@ -174,7 +174,7 @@ Mode Robot<T>::Resume(std::span<const Foot> feet, const T* z) {
   for (int i = 0; i < legs_; ++i) {
     Leg& leg = leg_[i];
     const Foot& foot = feet[static_cast<std::size_t>(i)];
-    leg.stance = static_cast<Stance>(foot.on);
+    leg.stance = foot.stance;
     leg.slides = foot.slides;
     leg.piece = leg.clock.PieceAt(0.0);
     const double angle = Value(z[Pitch()] - p_.slope + z[Angle(i)]);
@@ -192,7 +192,7 @@ template <class T>
 void Robot<T>::TellFeet(std::vector<Foot>& feet) const {
   feet.clear();
   for (int i = 0; i < legs_; ++i)
-    feet.push_back({static_cast<Foot::On>(leg_[i].stance), static_cast<int>(leg_[i].slides)});
+    feet.push_back({leg_[i].stance, static_cast<int>(leg_[i].slides)});
 }
 
 template <class T>

@@ -42,8 +42,7 @@ class Robot final : public HybridSystem<T> {
   T Energy(Mode mode, const T* z) const override;
 
  private:
-  /// What a leg does on the ground, or that it is off it.
-  enum class Stance { kFlight, kRolling, kToe };
+  using Stance = Foot::Stance;
   struct Leg {
     Stance stance = Stance::kFlight;
     double slides = 0.0;  // direction of its foot

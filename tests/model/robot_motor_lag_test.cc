@@ -123,7 +123,7 @@ TEST(MotorLag, HasItsDerivativeAtNull) {
     }
     std::printf("  legs of %.3f kg: derivative at null off by %.1e of %.1e\n", leg_mass, worst,
                 size);
-    EXPECT_LT(worst, 2e-3 * size) << leg_mass;
+    EXPECT_LT(worst, 1e-5 * size) << leg_mass;
   }
 }
 
