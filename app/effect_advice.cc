@@ -35,8 +35,8 @@ constexpr std::array kAdvice = {
     EffectAdvice{"constant_force",
                  "Hop both ways: a draught or a cable pulls the same way in both.", "air_drag"},
     EffectAdvice{"foot_coulomb_friction",
-                 "Pull the loaded foot sideways with a spring balance; film the last moments of "
-                 "contact, or glue sandpaper under the sole.",
+                 "Pull the loaded foot sideways with a spring balance; film the foot as it lands, "
+                 "where it slides some millimetres, or glue sandpaper under the sole.",
                  ""},
     EffectAdvice{"foot_slip",
                  "Film the contact from near by, or chalk it; another sole or a rougher floor "

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "fitting/apex_segments.h"
 #include "fitting/growing_horizon.h"
+#include "fitting/threshold.h"
 
 namespace hoplab {
 namespace {
@@ -249,10 +250,7 @@ FitResult Fit(const FitProblem& problem, const FitOptions& options) {
   const std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
   const Eigen::VectorXd nominal = InitialShared(problem);
   FitResult fit;
-  for (int i = 0; i < std::max(options.starts, 1); ++i) {
-    if (i > 0 && Stopped(options)) break;
-    const Eigen::VectorXd from =
-        i == 0 ? nominal : ScatteredStart(problem, nominal, options.seed, i);
+  const auto search = [&](const Eigen::VectorXd& from, int i) {
     std::vector<OwnValues> starts;
     StartRecord record = FitFrom(problem, trials, from, options, i, &starts);
     const bool interrupted = record.status == SolveStatus::kInterrupted;
@@ -265,6 +263,16 @@ FitResult Fit(const FitProblem& problem, const FitOptions& options) {
     }
     fit.interrupted = fit.interrupted || interrupted;
     fit.records.push_back(std::move(record));
+  };
+  const int searches = std::max(options.starts, 1);
+  for (int i = 0; i < searches; ++i) {
+    if (i > 0 && Stopped(options)) break;
+    search(i == 0 ? nominal : ScatteredStart(problem, nominal, options.seed, i), i);
+  }
+  if (fit.best_start >= 0 && !Stopped(options)) {
+    int number = searches;
+    for (const Eigen::VectorXd& beyond : BeginningsBeyondThresholds(problem, fit.shared))
+      search(beyond, number++);
   }
   fit.interrupted = fit.interrupted || Stopped(options);
   fit.ok = fit.best_start >= 0;

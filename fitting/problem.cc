@@ -404,10 +404,15 @@ class Builder {
         throw InputError({place, name,
                           "is known to be null: known of the set-up is " + problem_.known.Text(),
                           "Remove the line under `known` if it may be present after all."});
-      problem_.shared.push_back(
-          {name, std::string(info->unit), SensitivityDirection::EffectParameter(index, component),
-           info->lower, info->upper, problem_.effects[index].values[component],
-           std::abs(info->typical)});
+      problem_.shared.push_back({name,
+                                 std::string(info->unit),
+                                 SensitivityDirection::EffectParameter(index, component),
+                                 info->lower,
+                                 info->upper,
+                                 problem_.effects[index].values[component],
+                                 std::abs(info->typical),
+                                 {},
+                                 effect.info.has_threshold});
       return;
     }
     const ParameterId id = KnownParameter(name, place);

@@ -26,6 +26,8 @@ struct SharedParameter {
   /// The one recording (TrialProblem::recording) in which it acts; empty: in all. Elsewhere an
   /// effect's parameter stays at its null.
   std::string only_recording = {};
+  /// Small sizes change nothing (EffectInfo::has_threshold).
+  bool has_threshold = false;
 };
 
 /// A value one trial has of its own, to be fitted beside the shared ones: a component of its start.

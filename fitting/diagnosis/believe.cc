@@ -8,9 +8,18 @@ namespace {
 
 constexpr double kMostOthers = 2.0;  // no more causes were planted together
 constexpr double kMostNats = 50.0;   // a gap beyond is no surer
+// Sizes in the trials that spread by less than this share of their mean are alike, however many
+// rows tell them apart.
+constexpr double kAlike = 0.1;
 constexpr double kLeastChance = 1e-10, kLeastShare = 1e-4;
 
 double Rarity(double p_value) { return -std::log10(std::max(p_value, kLeastChance)); }
+
+// 0: all trials say the same size; 1: they differ by more than a tenth of it.
+double Spread(const Heterogeneity& h) {
+  const double alike = kAlike * std::abs(h.mean);
+  return h.spread < alike ? h.spread / alike : 1.0;
+}
 
 // Place of a member's first value among the shared ones.
 std::size_t FirstValue(const Extension& e, std::size_t member) {
@@ -41,7 +50,7 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
     const auto first = sizes.begin() + static_cast<std::ptrdiff_t>(FirstValue(best, member));
     c.sizes.assign(first, first + c.cause.parameter_count());
     for (const Heterogeneity& h : c.sizes)
-      f.heterogeneity = std::max(f.heterogeneity, Rarity(h.p_value));
+      f.heterogeneity = std::max(f.heterogeneity, Rarity(h.p_value) * Spread(h));
     c.group_probability = CalibratedProbability(f);
     c.probability = c.group_probability * naming.group_weights[member].front();
   }

@@ -12,7 +12,8 @@ struct NameFeatures {
   double left_gain = 0.0;      // log(1 + nats a discrepancy gains beside the extension)
   double left_share = 0.0;     // log10 of the share of the misfit that is left, -4..0
   double remainder = 0.0;      // - log10 of the chance of what is left under noise, 0..10
-  double heterogeneity = 0.0;  // - log10 of the chance that trials agree on its size, 0..10
+  double heterogeneity = 0.0;  // - log10 of the chance that trials agree on its size, 0..10, times
+                               // their spread in tenths of it, 0..1
   double gain = 0.0;           // log10(1 + nats the extension gains over the null fit)
   double decided = 0.0;        // gain times gap
   double others = 0.0;         // causes in the extension beside it, 0..2

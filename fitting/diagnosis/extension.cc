@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "fitting/discrepancy/restricted_likelihood.h"
+#include "fitting/threshold.h"
 
 namespace hoplab {
 namespace {
@@ -116,6 +118,35 @@ Extension Refit(const Extension& base, std::span<const Candidate> added,
     e.cost = base.cost;
   }
   return e;
+}
+
+void RefitBeyondThresholds(Extension& model, const Extension& base, const RefitSettings& settings) {
+  const Eigen::VectorXd of_added =
+      NullValues(std::span(model.members).subspan(base.members.size()));
+  Eigen::VectorXd null(base.shared.size() + of_added.size());
+  null << base.shared, of_added;
+  Extension from = model;
+  from.starts = base.starts;
+  SolveRequest request = RequestFrom(from, settings);
+  // Where it begins, what stood in for it is still in place, and costs much: the best of a few
+  // short searches goes on.
+  constexpr int kLook = 8;
+  request.max_iterations = std::min(kLook, settings.max_iterations);
+  std::optional<SolveResult> best;
+  for (const Eigen::VectorXd& begun : BeginningsBeyondThresholds(model.problem, null)) {
+    request.shared = begun;
+    const SolveResult found = Solve(request);
+    if (IsUsable(found.status) && found.complete && (!best || found.cost < best->cost))
+      best = found;
+  }
+  if (!best) return;
+  request.shared = best->shared;
+  request.starts = best->starts;
+  request.max_iterations = 2 * settings.max_iterations;
+  request.give_up_above = model.ok() ? model.cost : settings.give_up_above;
+  const SolveResult found = Solve(request);
+  if (IsUsable(found.status) && found.complete && (!model.ok() || found.cost < model.cost))
+    Take(model, found);
 }
 
 Extension RefitWithout(const Extension& base, int i, const FitProblem& null_problem,

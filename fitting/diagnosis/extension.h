@@ -56,6 +56,10 @@ struct RefitSettings {
 Extension Refit(const Extension& base, std::span<const Candidate> added,
                 const Eigen::VectorXd& sizes, const RefitSettings& settings);
 
+/// `model`, fitted from `base`, sought anew from beyond the thresholds of what it adds, where it
+/// has some; kept where that fits no better.
+void RefitBeyondThresholds(Extension& model, const Extension& base, const RefitSettings& settings);
+
 /// The same model without member `i`.
 Extension RefitWithout(const Extension& base, int i, const FitProblem& null_problem,
                        const RefitSettings& settings);

@@ -63,7 +63,7 @@ class Search {
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
       CandidateResult& c = naming_.candidates[i];
       const CandidateSet alone = {static_cast<int>(i)};
-      if (!c.separable || !refits_.Has(alone)) continue;
+      if (!(c.separable || c.has_threshold) || !refits_.Has(alone)) continue;
       c.alone = refits_.At(alone);
       c.gain = c.alone.ok() ? refits_.Gain(alone) : 0.0;
     }
@@ -85,7 +85,8 @@ class Search {
   std::vector<CandidateSet> Singles() const {
     std::vector<CandidateSet> sets;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
-      if (naming_.candidates[i].separable) sets.push_back({static_cast<int>(i)});
+      if (naming_.candidates[i].separable || naming_.candidates[i].has_threshold)
+        sets.push_back({static_cast<int>(i)});
     }
     return sets;
   }
@@ -132,7 +133,7 @@ class Search {
   }
 
   // By what gains most beside the set under its own noise, and under white noise.
-  std::vector<CandidateSet> Forward(const CandidateSet& set) const {
+  std::vector<CandidateSet> Forward(const CandidateSet& set) {
     const auto white = Ranked(set, refits_.White(set));
     std::set<int> matters;
     for (const auto& [gain, i] : white)
@@ -151,6 +152,21 @@ class Search {
     if (!matters.empty() && !refits_.At(set).problem.noise.IsWhite())
       take(Ranked(set, refits_.At(set)));
     take(white);
+    for (const CandidateSet& grown : BeyondThresholds(set)) sets.push_back(grown);
+    return sets;
+  }
+  // No linear model promises what has a threshold: it is tried, and taken as far as it gains.
+  std::vector<CandidateSet> BeyondThresholds(const CandidateSet& set) {
+    std::vector<CandidateSet> tried, sets;
+    for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
+      const bool in = std::find(set.begin(), set.end(), i) != set.end();
+      if (naming_.candidates[i].has_threshold && !in) tried.push_back(With(set, i));
+    }
+    refits_.Try(tried);
+    for (const CandidateSet& grown : tried) {
+      const double gain = refits_.White(set).cost - refits_.White(grown).cost;
+      if (refits_.Usable(grown) && gain >= std::max(LeastGain(), kWorthATry)) sets.push_back(grown);
+    }
     return sets;
   }
   // Nats under white noise.
@@ -313,6 +329,8 @@ class Search {
         c.status = CandidateStatus::kSupported;
       } else if (c.separable && c.power >= kTestable) {
         c.status = CandidateStatus::kExcluded;
+      } else if (c.has_threshold && c.alone.ok()) {
+        c.status = CandidateStatus::kNotNeeded;
       }
       if (!members.count(i) && c.separable) Bound(left, i, c);
     }

@@ -45,6 +45,7 @@ struct CandidateResult {
   Score score;             // at the null fit
   double power = 0.0;      // noncentrality of a typical size, typical^2 V (least of its parameters)
   bool separable = false;  // some of it can be told from the fitted values
+  bool has_threshold = false;  // no slope at null tells of it: it is tried at a few sizes
   /// Added alone to the null model and refitted; status kFailed if it was not.
   Extension alone;
   double gain = 0.0;         // nats over the null fit, of `alone`, under white noise

@@ -79,6 +79,7 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
     CandidateResult c;
     c.candidate = candidates[i];
     c.score = ScoreOf(null_at, hypotheses[i]);
+    c.has_threshold = candidates[i].effect->info.has_threshold;
     c.separable = c.score.rank > 0;
     c.power = std::numeric_limits<double>::infinity();
     for (int k = 0; k < hypotheses[i].count; ++k) {
@@ -86,7 +87,7 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
       c.power =
           std::min(c.power, typical * typical * Information(null_at, hypotheses[i].first + k));
     }
-    tested += c.separable;
+    tested += c.separable || c.has_threshold;
     naming.candidates.push_back(std::move(c));
   }
   std::set<std::string> recordings;

@@ -146,6 +146,7 @@ Extension Refits::Refitted(const CandidateSet& set) const {
   settings.max_iterations = kTryIterations;
   if (score.predicted_gain > kForecast) settings.forecast = score.predicted_gain;
   Extension e = Refit(base, candidates, score.size, settings);
+  RefitBeyondThresholds(e, base, settings);  // no slope tells of them
   e.settled = false;
   CandidateSet order = part;
   order.insert(order.end(), added.begin(), added.end());

@@ -11,8 +11,8 @@ struct FootCoulombFriction {
   static constexpr EffectInfo kInfo = {
       .name = "foot_coulomb_friction",
       .kind = EffectKind::kGuard,
-      .equation = "stance ends where |u|/Y > mu, mu = 1/inverse_mu (M64)",
-      .sentence = "the foot slips away as soon as the leg pushes more sideways than friction holds",
+      .equation = "stance ends where |u|/Y > mu, mu = 1/inverse_mu (M64); with leg_mass the foot slides (M87)",
+      .sentence = "the ground is slippery: the foot slides where it is pushed more sideways than friction holds",
       .for_legs = true,
       .for_ball = false,
       .dissipative = true,

@@ -34,7 +34,7 @@ constexpr EventTraits kEvents[] = {
     {.name = "fall_arc"},
     {.name = "fall_pitch"},
     {.name = "slide", .waits_to_open = true},
-    {.name = "stick"},
+    {.name = "stick", .waits_to_open = true},
     {.name = "switch"},
     {.name = "corner", .changes_flow = true},
 };

@@ -38,6 +38,8 @@ struct LegConditions {
 enum LegState { kX = 0, kY, kVx, kVy, kContact, kLegStateSize };
 /// One state more where the hip torque lags: what the motor gives [N m].
 inline constexpr int kMotorTorque = kLegStateSize, kLaggedLegStateSize = kLegStateSize + 1;
+/// And one more, the last, where the foot of a leg with mass may slide: its speed [m/s].
+inline constexpr int kMostLegStates = kLaggedLegStateSize + 1;
 /// State of a body on a leg with a mass at its toe: in flight, position and velocity of the toe
 /// stand where the contact coordinate is in stance, when the other three rest at zero.
 enum ToeState { kToeX = kContact, kToeY, kToeVx, kToeVy, kToeStateSize };

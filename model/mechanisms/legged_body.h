@@ -49,10 +49,12 @@ class LeggedBody final : public HybridSystem<T> {
  public:
   /// A shorter lag is taken to its first order [s].
   static constexpr double kShortestLag = 1e-5;
+  /// A foot with less of the body's mass, or with less of 1/mu, slides as one without mass.
+  static constexpr double kLeastFootShare = 1e-4, kLeastFriction = 1e-6;
 
   explicit LeggedBody(const MechanismSetup<T>& setup);
 
-  int size() const override { return lagged_ ? kLaggedLegStateSize : kLegStateSize; }
+  int size() const override { return FootSpeed() + (foot_has_inertia_ ? 1 : 0); }
   int ReportedSize() const override { return kLegStateSize; }
   void Derivative(Mode mode, const T& t, const T* z, T* dz) const override;
   int GuardCount(Mode mode) const override;
@@ -153,8 +155,24 @@ class LeggedBody final : public HybridSystem<T> {
   void ApplyLanding(const T& theta, T* z) const;
   LegInertia<T> InertiaOfLeg(const LegLoad<T>& load) const;
   LegLoad<T> Placed(const T& theta) const;
+  LegMomentum<T> MomentumOfLeg(const LegLoad<T>& load) const;
+  T KineticEnergyOfLeg(const LegLoad<T>& load, const T* z) const;
+  Vector2<T> HeavyForce(const LegInertia<T>& leg, const Vector2<T>& force, const T& vx,
+                        const T& vy) const;
   Vector2<T> HeavyAcceleration(const LegLoad<T>& load, const Vector2<T>& force, const T* z) const;
-  void TakeLegAlong(const LegLoad<T>& load, T* z) const;
+  // A leg with mass whose foot slides, M87.
+  /// Index of the foot's speed over the ground [m/s].
+  int FootSpeed() const { return lagged_ ? kLaggedLegStateSize : kLegStateSize; }
+  void SlidingAcceleration(const LegLoad<T>& load, const Vector2<T>& force, Mode mode, const T& t,
+                           const T* z, T* dz) const;
+  std::array<T, 3> SolveSliding(const LegInertia<T>& leg, const LegMomentum<T>& momentum,
+                                double side, std::array<T, 3> right) const;
+  Vector2<T> GroundForce(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const;
+  T ConeMargin(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const;
+  void BeginSlide(Mode mode, const T& t, T* z);
+  void ResetFoot(EventKind event, Mode mode, const T& t, T* z);
+  void LetFootGo(T* z);
+  void TakeLegAlong(const LegLoad<T>& load, T* z);
   void LeaveWithLeg(const LegLoad<T>& load, const T& t, T* z) const;
   Vector2<T> HipForce(const LegLoad<T>& load, const T& torque, const T& t) const;
 
@@ -163,7 +181,9 @@ class LeggedBody final : public HybridSystem<T> {
   LiftoffRule liftoff_;
   bool lagged_, has_body_force_, has_chord_force_, has_hip_torque_, has_hip_formula_,
       has_joint_torque_, is_driven_, has_quick_lag_, flies_freely_, extended_;
-  bool is_bar_, has_leg_mass_, has_foot_friction_, damps_along_arc_;
+  bool is_bar_, has_leg_mass_, has_foot_friction_;
+  bool foot_has_inertia_;  // it slides as M87 says; else it slips away at once, M64
+  bool damps_along_arc_;
   bool may_pull_;       // for a moment after touch-down, bent by the hip torque
   double torque_lift_;  // sign of the torque's vertical force: 1, or -1 (M37)
   Inertia<T> inertia_;
@@ -175,7 +195,9 @@ class LeggedBody final : public HybridSystem<T> {
   std::vector<T> angles_;  // of the touch-downs; empty: theta_td, the first at start_angle_
   bool driven_;            // by an input
   int landings_ = 0;
-  bool sinks_ = true;  // in flight, of a leg whose angle an input moves: it has passed its apex
+  bool sinks_ = true;     // in flight, of a leg whose angle an input moves: it has passed its apex
+  double slides_ = 0.0;   // direction in which the foot slides; 0: it holds
+  bool unloads_ = false;  // the stance has passed its greatest compression
 };
 
 }  // namespace hoplab

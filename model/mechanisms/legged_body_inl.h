@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "model/mechanisms/heavy_leg_inl.h"
 #include "model/mechanisms/legged_body.h"
 
 namespace hoplab {
@@ -31,6 +32,9 @@ LeggedBody<T, LegT>::LeggedBody(const MechanismSetup<T>& setup)
       is_bar_(setup.law == Law::kStraightLeg),
       has_leg_mass_(p_.law_terms.leg_mass_active),
       has_foot_friction_(p_.law_terms.foot_friction_active),
+      foot_has_inertia_(has_leg_mass_ && has_foot_friction_ && !p_.on_guide &&
+                        Value(p_.law_terms.foot_friction) > kLeastFriction &&
+                        Value(p_.law_terms.leg_mass) > kLeastFootShare * Value(p_.m)),
       damps_along_arc_(DampsAlongArc(setup)),
       may_pull_(p_.law_terms.torque_active),
       torque_lift_(p_.variant.torque_sign == ThesisVariant::TorqueSign::kPrinted ? -1.0 : 1.0),
@@ -62,6 +66,8 @@ void LeggedBody<T, LegT>::SaveDiscreteState(DiscreteState& to) const {
   to.Put(controller_.saturation());
   to.Put(landings_);
   to.Put(sinks_ ? 1.0 : 0.0);
+  to.Put(slides_);
+  to.Put(unloads_ ? 1.0 : 0.0);
   if (driven_) inputs_.Save(to);
   effects_.SaveCorners(to);
 }
@@ -71,6 +77,8 @@ void LeggedBody<T, LegT>::LoadDiscreteState(DiscreteState& from) {
   controller_.set_saturation(static_cast<int>(from.Take()));
   landings_ = static_cast<int>(from.Take());
   sinks_ = from.Take() > 0.5;
+  slides_ = from.Take();
+  unloads_ = from.Take() > 0.5;
   if (driven_) inputs_.Load(from);
   effects_.LoadCorners(from);
 }
@@ -78,10 +86,13 @@ void LeggedBody<T, LegT>::LoadDiscreteState(DiscreteState& from) {
 template <class T, class LegT>
 Mode LeggedBody<T, LegT>::Begin(Mode mode, T* z) {
   sinks_ = Value(z[kVy]) <= 0.0;
+  slides_ = 0.0;
+  if (foot_has_inertia_) z[FootSpeed()] = T(0.0);
   if (mode != Mode::kFlight) {
     controller_.Enter(Value(z[kVx]));
     if (lagged_) z[kMotorTorque] = CommandedTorque(T(0.0), z);
     mode = PlaceContact(mode, z);
+    unloads_ = Value(Load(mode, T(0.0), z).damping_rate) > 0.0;
   }
   Seat(mode, T(0.0), z);
   return mode;
@@ -184,10 +195,15 @@ void LeggedBody<T, LegT>::Derivative(Mode mode, const T& t, const T* z, T* dz) c
   dz[kVx] = inertia_.on_guide ? T(0.0) : T(fx / inertia_.mx + inertia_.gravity_x);  // M13
   dz[kVy] = fy / inertia_.my + inertia_.gravity_y;                                  // M14
   dz[kContact] = contact_rate;
+  if (foot_has_inertia_) dz[FootSpeed()] = T(0.0);
   if (has_leg_mass_ && mode != Mode::kFlight) {
-    const Vector2<T> rate = HeavyAcceleration(load, {fx, fy}, z);
-    dz[kVx] = rate.x;
-    dz[kVy] = rate.y;
+    if (slides_ != 0.0) {
+      SlidingAcceleration(load, {fx, fy}, mode, t, z, dz);
+    } else {
+      const Vector2<T> rate = HeavyAcceleration(load, {fx, fy}, z);
+      dz[kVx] = rate.x;
+      dz[kVy] = rate.y;
+    }
   }
   if (!lagged_) return;
   dz[kMotorTorque] = T(0.0);
@@ -229,6 +245,10 @@ GuardSpec LeggedBody<T, LegT>::Guard(Mode mode, int i) const {
     case 2:
       return {EventKind::kFallAngle, 1.0, Outcome::kFellAngle};
     case 3:
+      if (foot_has_inertia_) {
+        if (slides_ != 0.0) return {EventKind::kStick, 1.0};
+        return {unloads_ ? EventKind::kSlide : EventKind::kMaxCompression, unloads_ ? weight : 1.0};
+      }
       if (has_foot_friction_) return {EventKind::kLiftoff, 1.0, Outcome::kNoSupport};
       [[fallthrough]];
     default:
@@ -264,7 +284,11 @@ void LeggedBody<T, LegT>::StanceGuards(Mode mode, const LegLoad<T>& load, const 
   g[0] = z[kY] - y_min_;
   g[1] = load.y / load.l - kFallCosine;
   g += 2;
-  if (has_foot_friction_) {  // M64
+  if (foot_has_inertia_) {  // M87
+    *g++ = slides_ != 0.0 ? T(slides_ * z[FootSpeed()])
+           : unloads_     ? ConeMargin(mode, load, t, z)
+                          : T(-load.damping_rate);
+  } else if (has_foot_friction_) {  // M64
     const T slope = load.u / load.y;
     *g++ = 1.0 - p_.law_terms.foot_friction * (Value(slope) < 0.0 ? T(-slope) : slope);
   }
@@ -290,6 +314,10 @@ ResetResult LeggedBody<T, LegT>::Reset(Mode mode, int i, const T& t, T* z) {
 template <class T, class LegT>
 ResetResult LeggedBody<T, LegT>::ResetOwn(Mode mode, int i, const T& t, T* z) {
   const EventKind event = Guard(mode, i).event;
+  if (foot_has_inertia_ && mode != Mode::kFlight && i - leg_->OwnGuardCount(mode) == 3) {
+    ResetFoot(event, mode, t, z);
+    return {mode};
+  }
   switch (event) {
     case EventKind::kTouchdown:
       return Land(SweptAngle(t, z), t, z, T(0.0));
@@ -297,6 +325,7 @@ ResetResult LeggedBody<T, LegT>::ResetOwn(Mode mode, int i, const T& t, T* z) {
       if (has_leg_mass_) LeaveWithLeg(Load(mode, t, z), t, z);
       if (effects_.HasLiftoffVelocity()) ApplyLiftoff(Load(mode, t, z), z);
       z[kContact] = T(0.0);
+      if (foot_has_inertia_) LetFootGo(z);
       inputs_.Seek(Value(t));
       sinks_ = !inputs_.Has(InputKind::kLegAngle) || Value(z[kVy]) <= 0.0;
       return {Mode::kFlight};
@@ -384,11 +413,8 @@ T LeggedBody<T, LegT>::Energy(Mode mode, const T* z) const {
   }
   const LegLoad<T> load = Load(mode, T(0.0), z);
   if (has_leg_mass_) {
-    const LegInertia<T> leg = InertiaOfLeg(load);
-    const T &m_leg = p_.law_terms.leg_mass, &vx = z[kVx], &vy = z[kVy];
-    energy += 0.5 * ((leg.xx.value - m_leg) * vx * vx + (leg.yy.value - m_leg) * vy * vy) +
-              leg.xy.value * vx * vy;
-    weigh(leg);
+    energy += KineticEnergyOfLeg(load, z);
+    weigh(InertiaOfLeg(load));
   }
   if (extended_) return energy + leg_->extended().StrainEnergy(mode, load, Conditions(T(0.0), z));
   return energy + leg_->StrainEnergy(load);
@@ -397,7 +423,7 @@ T LeggedBody<T, LegT>::Energy(Mode mode, const T* z) const {
 template <class T, class LegT>
 double LeggedBody<T, LegT>::DeflectionRatio(Mode mode, const double* values) const {
   if (mode == Mode::kFlight || !leg_->IsExpansion()) return 0.0;
-  T z[kLaggedLegStateSize];
+  T z[kMostLegStates];
   for (int i = 0; i < size(); ++i) z[i] = T(values[i]);
   return leg_->DeflectionRatio(Load(mode, T(0.0), z));
 }
@@ -412,93 +438,23 @@ ResetResult LeggedBody<T, LegT>::Land(const T& theta, const T& t, T* z, const T&
   inputs_.Seek(Value(t));
   if (lagged_) z[kMotorTorque] = CommandedTorque(t, z);
   const Mode settled = extended_ ? leg_->Settle(stance, z, Conditions(t, z)) : stance;
+  slides_ = 0.0;
+  unloads_ = false;
   if (has_leg_mass_) TakeLegAlong(Load(settled, t, z), z);
   return {settled};
 }
 
-// ---- a leg with a mass of its own, M56-M60 -------------------------------------------------
-
-template <class T, class LegT>
-LegInertia<T> LeggedBody<T, LegT>::InertiaOfLeg(const LegLoad<T>& load) const {
-  const T& mass = p_.law_terms.leg_mass;
-  return is_bar_ ? BarInertia(mass, load) : ArcInertia(mass, p_.r, load);
-}
-
-// An unloaded leg on the ground at leg angle `theta`, as it hangs from the hip in flight.
-template <class T, class LegT>
-LegLoad<T> LeggedBody<T, LegT>::Placed(const T& theta) const {
-  LegLoad<T> load{};
-  load.u = Lead(theta);
-  load.y = leg_->TouchdownHeight(theta);
-  using std::sqrt;
-  load.l = sqrt(load.u * load.u + load.y * load.y);
-  load.phi = Value(theta) > 0.0 ? T(std::numbers::pi - theta) : T(std::numbers::pi);
-  return load;
-}
-
-// M58: Lagrange's equations of body and leg under the force on the hip.
-template <class T, class LegT>
-Vector2<T> LeggedBody<T, LegT>::HeavyAcceleration(const LegLoad<T>& load, const Vector2<T>& force,
-                                                  const T* z) const {
-  const LegInertia<T> leg = InertiaOfLeg(load);
-  const T &m_leg = p_.law_terms.leg_mass, &vx = z[kVx], &vy = z[kVy];
-  const T along = inertia_.weight_along / p_.m, down = inertia_.weight_down / p_.m;
-  const T xx = inertia_.mx - m_leg + leg.xx.value, yy = inertia_.my - m_leg + leg.yy.value;
-  const T& xy = leg.xy.value;
-  // What the change of the mass matrix takes, less what its slopes give.
-  const auto change = [&](const Tangent<T>& of) { return T(of.rate[0] * vx + of.rate[1] * vy); };
-  const auto slope = [&](int k) {
-    return T(0.5 * (leg.xx.rate[k] * vx * vx + leg.yy.rate[k] * vy * vy) +
-             leg.xy.rate[k] * vx * vy);
-  };
-  const auto weight = [&](int k) {
-    return T(m_leg * (along * leg.x.rate[k] + down * leg.y.rate[k]));
-  };
-  const T fx = force.x - inertia_.weight_along - weight(0) + slope(0) -
-               (change(leg.xx) * vx + change(leg.xy) * vy);
-  const T fy = force.y - inertia_.weight_down - weight(1) + slope(1) -
-               (change(leg.xy) * vx + change(leg.yy) * vy);
-  if (inertia_.on_guide) return {T(0.0), fy / yy};
-  const T over = 1.0 / (xx * yy - xy * xy);
-  return {over * (yy * fx - xy * fy), over * (xx * fy - xy * fx)};
-}
-
-// M59: body and leg come down as one and go on as the law lets the leg follow the hip.
-template <class T, class LegT>
-void LeggedBody<T, LegT>::TakeLegAlong(const LegLoad<T>& load, T* z) const {
-  const LegInertia<T> leg = InertiaOfLeg(load);
-  const T &m_leg = p_.law_terms.leg_mass, vx = z[kVx], vy = z[kVy];
-  const T xx = inertia_.mx - m_leg + leg.xx.value, yy = inertia_.my - m_leg + leg.yy.value;
-  const T& xy = leg.xy.value;
-  const T px = inertia_.mx * vx + m_leg * (leg.x.rate[0] * vx + leg.y.rate[0] * vy);
-  const T py = inertia_.my * vy + m_leg * (leg.x.rate[1] * vx + leg.y.rate[1] * vy);
-  if (inertia_.on_guide) {
-    z[kVy] = py / yy;
-    return;
-  }
-  const T over = 1.0 / (xx * yy - xy * xy);
-  z[kVx] = over * (yy * px - xy * py);
-  z[kVy] = over * (xx * py - xy * px);
-}
-
-// M60: the leg springs back and swings forward at once; the centre of mass of both goes on.
-template <class T, class LegT>
-void LeggedBody<T, LegT>::LeaveWithLeg(const LegLoad<T>& load, const T& t, T* z) const {
-  const LegInertia<T> leg = InertiaOfLeg(load);
-  const LegInertia<T> placed = InertiaOfLeg(Placed(TouchdownAngle(t, z)));
-  const T share_x = p_.law_terms.leg_mass / inertia_.mx;
-  const T share_y = p_.law_terms.leg_mass / inertia_.my;
-  const T vx = z[kVx], vy = z[kVy];
-  if (!inertia_.on_guide) {
-    z[kX] += share_x * (leg.x.value - placed.x.value);
-    z[kVx] += share_x * (leg.x.rate[0] * vx + leg.x.rate[1] * vy);
-  }
-  z[kY] += share_y * (leg.y.value - placed.y.value);
-  z[kVy] += share_y * (leg.y.rate[0] * vx + leg.y.rate[1] * vy);
-}
-
 template <class T, class LegT>
 LegLoad<T> LeggedBody<T, LegT>::Load(Mode mode, const T& t, const T* z) const {
+  if (slides_ != 0.0) {  // the leg feels the hip move over its foot
+    T over[kMostLegStates];
+    std::copy_n(z, size(), over);
+    over[kVx] -= z[FootSpeed()];
+    LegLoad<T> load =
+        extended_ ? leg_->extended().Load(mode, over, Conditions(t, z)) : leg_->Load(mode, over);
+    load.contact_rate += z[FootSpeed()];
+    return load;
+  }
   if (extended_) return leg_->extended().Load(mode, z, Conditions(t, z));
   return leg_->Load(mode, z);
 }

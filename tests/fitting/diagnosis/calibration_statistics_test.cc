@@ -111,6 +111,11 @@ Cases RunCases() {
     for (const std::size_t out : {0, 1})
       add(RunAll(pairs, [out](const Truth& t) { return std::vector{t.effects[out].name}; }), true);
   }
+  // A real leg has more than two causes, and details that no list holds.
+  const std::vector<Truth> triples = PlantTriples(16.0, 4.0, seeds);
+  add(RunAll(triples), false);
+  const std::vector<Truth> detailed = PlantTriples(16.0, 1.5, 2 * seeds);
+  add(RunAll(detailed, [](const Truth& t) { return std::vector{t.effects.back().name}; }), false);
   return cases;
 }
 
@@ -186,7 +191,8 @@ TEST(DiagnosisStatistics, CasesForTheCalibration) {
   }
   Report report("8-calibration", "Calibration: how often a name told with P is right");
   report.Say(
-      "%d planted cases (one effect at 1.5, 4 and 16 delta80, two at 4 and 16), %d with a "
+      "%d planted cases (one effect at 1.5, 4 and 16 delta80, two at 4 and 16, two at 16 with a "
+      "third at 4, and with a third at 1.5 that is out of the catalogue), %d with a "
       "planted effect out of the catalogue (4 and 16). Cases are weighted as if the cause "
       "were out of the catalogue in %.0f %% of all. Effects fall into two halves by name; "
       "each is told by a table fitted to the other.",

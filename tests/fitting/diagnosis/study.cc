@@ -242,28 +242,43 @@ std::string PairName(int pair) {
   return std::string(a) + " + " + b;
 }
 
-std::optional<Truth> PlantPair(int pair, int seed, double size) {
+namespace {
+
+struct Wanted {
+  const char* name;
+  double size;
+};
+
+// Effects at their sizes under a drawn law that carries them all.
+std::optional<Truth> PlantTogether(const std::vector<Wanted>& wanted, int number, double size) {
   RandomStream random(kSuiteSeed + static_cast<std::uint64_t>(Table::kTwoEffects),
-                      static_cast<std::uint64_t>(1000 * pair + seed));
+                      static_cast<std::uint64_t>(number));
   const auto pick = [&](std::size_t n) {
     return static_cast<std::size_t>(random.Uniform(0.0, 1.0) * static_cast<double>(n));
   };
   for (int attempt = 0; attempt < 50; ++attempt) {
     Truth truth{.law = kAllLaws[pick(kAllLaws.size())], .size = size};
-    for (const char* name : kPairs[static_cast<std::size_t>(pair)]) {
-      const EffectCase* e = CaseOf(truth.law, name);
-      if (!e || e->At(size).empty()) break;
-      const auto directions = e->At(size);
+    for (const Wanted& w : wanted) {
+      const EffectCase* e = CaseOf(truth.law, w.name);
+      if (!e || e->At(w.size).empty()) break;
+      const auto directions = e->At(w.size);
       truth.effects.push_back(
-          {name, directions[pick(directions.size())]->Values(*e->effect, size)});
+          {w.name, directions[pick(directions.size())]->Values(*e->effect, w.size)});
     }
     truth.seed = NoiseSeed(Table::kTwoEffects, static_cast<int>(random.Uniform(0.0, 1e6)));
-    if (truth.effects.size() < 2) continue;
+    if (truth.effects.size() < wanted.size()) continue;
     std::vector<std::string> notes;
     MakeDataset(truth, &notes);
     if (notes.empty()) return truth;
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Truth> PlantPair(int pair, int seed, double size) {
+  const auto& names = kPairs[static_cast<std::size_t>(pair)];
+  return PlantTogether({{names[0], size}, {names[1], size}}, 1000 * pair + seed, size);
 }
 
 std::vector<Truth> PlantPairs(double size, int seeds) {
@@ -272,6 +287,24 @@ std::vector<Truth> PlantPairs(double size, int seeds) {
     if (pair % EveryNth() != 0) continue;
     for (int seed = 0; seed < seeds; ++seed) {
       if (std::optional<Truth> truth = PlantPair(pair, seed, size)) truths.push_back(*truth);
+    }
+  }
+  return truths;
+}
+
+std::vector<Truth> PlantTriples(double size, double third, int seeds) {
+  std::vector<Truth> truths;
+  for (int pair = 0; pair < kPairCount; ++pair) {
+    if (pair % EveryNth() != 0) continue;
+    for (int seed = 0; seed < seeds; ++seed) {
+      const auto& names = kPairs[static_cast<std::size_t>(pair)];
+      // The third comes from another pair with each seed.
+      const auto& other = kPairs[static_cast<std::size_t>((pair + 3 + seed) % kPairCount)];
+      const char* last = other[static_cast<std::size_t>(seed % 2)];
+      if (std::string(last) == names[0] || std::string(last) == names[1]) continue;
+      if (auto truth = PlantTogether({{names[0], size}, {names[1], size}, {last, third}},
+                                     100'000 + 1000 * pair + seed, size))
+        truths.push_back(*truth);
     }
   }
   return truths;

@@ -101,6 +101,9 @@ std::string PairName(int pair);  // "air_drag + touchdown_angle_bias"
 std::optional<Truth> PlantPair(int pair, int seed, double size);
 /// `seeds` cases of each pair.
 std::vector<Truth> PlantPairs(double size, int seeds);
+/// The same with a third effect of `third` delta80, the last of the truth's: a detail of the real
+/// leg that is small beside the pair.
+std::vector<Truth> PlantTriples(double size, double third, int seeds);
 
 /// Share in per cent.
 double PerCent(long part, long whole);

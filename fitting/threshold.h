@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fitting/problem.h"
+
+namespace hoplab {
+
+/// Where searches can begin whose values have a threshold (EffectInfo::has_threshold): below it
+/// they change nothing and have no derivative, so that a search from their null stays there.
+/// `shared` with those values at each of a few sizes about their typical one; empty if none has a
+/// threshold. From several, since beyond it other values that stand in for them have to give way.
+std::vector<Eigen::VectorXd> BeginningsBeyondThresholds(const FitProblem& problem,
+                                                        const Eigen::VectorXd& shared);
+
+}  // namespace hoplab
