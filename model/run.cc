@@ -137,7 +137,8 @@ class RowSink final : public RowReader<T> {
         count_(directions),
         out_(out),
         body_only_(std::all_of(request.channels.begin(), request.channels.end(),
-                               [](Channel c) { return c <= Channel::kBodyVy; })),
+                               [](Channel c) { return c <= Channel::kBodyVy; }) &&
+                   !parameters_.law_terms.leg_mass_active),  // M88
         accelerations_(
             std::any_of(request.channels.begin(), request.channels.end(), IsAcceleration)) {}
 

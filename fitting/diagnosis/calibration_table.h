@@ -13,6 +13,6 @@ struct CalibrationTable {
   std::array<double, NameFeatures::kCount> weights;
 };
 inline constexpr CalibrationTable kCalibration = {
-    337, 4.028, {-0.8983, -0.2759, -0.05788, -0.2917, -0.6748, -2.487, 1.025, -1.739, -0.1489}};
+    367, 4.413, {-1.949, -0.343, -0.01315, -0.3134, -0.7913, -2.486, 1.513, -1.189, -0.107}};
 
 }  // namespace hoplab

@@ -124,9 +124,10 @@ void LeggedBody<T, LegT>::TakeLegAlong(const LegLoad<T>& load, T* z) {
   z[kVy] = wy;
 }
 
-// M60: the leg springs back and swings forward at once; the centre of mass of both goes on.
+// M60: the leg springs back and swings forward; the centre of mass of both goes on. The state is
+// that of a body whose leg has swung.
 template <class T, class LegT>
-void LeggedBody<T, LegT>::LeaveWithLeg(const LegLoad<T>& load, const T& t, T* z) const {
+void LeggedBody<T, LegT>::LeaveWithLeg(const LegLoad<T>& load, const T& t, T* z) {
   const LegInertia<T> leg = InertiaOfLeg(load);
   const LegMomentum<T> momentum = MomentumOfLeg(load);
   const LegInertia<T> placed = InertiaOfLeg(Placed(TouchdownAngle(t, z)));
@@ -135,12 +136,32 @@ void LeggedBody<T, LegT>::LeaveWithLeg(const LegLoad<T>& load, const T& t, T* z)
   const T vx = z[kVx], vy = z[kVy];
   const T foot = slides_ != 0.0 ? z[FootSpeed()] : T(0.0);
   const T wx = vx - foot;
+  swing_begin_ = t;
+  swing_x_ = inertia_.on_guide ? T(0.0) : T(share_x * (placed.x.value - leg.x.value));
+  swing_y_ = share_y * (placed.y.value - leg.y.value);
   if (!inertia_.on_guide) {
     z[kX] += share_x * (leg.x.value - placed.x.value);
     z[kVx] += share_x * (momentum.xx.value * wx + momentum.xy.value * vy - wx);
   }
   z[kY] += share_y * (leg.y.value - placed.y.value);
   z[kVy] += share_y * (momentum.yx.value * wx + momentum.yy.value * vy - vy);
+  swing_time_ = z[kVy] / -inertia_.gravity_y;
+}
+
+// M88: how far the body is from where it were with its leg swung forward. At the apex the leg is.
+template <class T, class LegT>
+void LeggedBody<T, LegT>::AddSwing(const T& t, Observation<T>& seen) const {
+  const T& whole = swing_time_;
+  const T since = t - swing_begin_;
+  if (!(Value(since) < Value(whole))) return;
+  using std::cos;
+  using std::sin;
+  const T turn = std::numbers::pi * since / whole;
+  const T left = 0.5 * (1.0 + cos(turn)), rate = -0.5 * std::numbers::pi / whole * sin(turn);
+  seen[Channel::kBodyX] += swing_x_ * left;
+  seen[Channel::kBodyY] += swing_y_ * left;
+  seen[Channel::kBodyVx] += swing_x_ * rate;
+  seen[Channel::kBodyVy] += swing_y_ * rate;
 }
 
 // ---- a foot that slides, M87 ---------------------------------------------------------------

@@ -173,7 +173,8 @@ class LeggedBody final : public HybridSystem<T> {
   void ResetFoot(EventKind event, Mode mode, const T& t, T* z);
   void LetFootGo(T* z);
   void TakeLegAlong(const LegLoad<T>& load, T* z);
-  void LeaveWithLeg(const LegLoad<T>& load, const T& t, T* z) const;
+  void LeaveWithLeg(const LegLoad<T>& load, const T& t, T* z);
+  void AddSwing(const T& t, Observation<T>& seen) const;
   Vector2<T> HipForce(const LegLoad<T>& load, const T& torque, const T& t) const;
 
   Parameters<T> p_;
@@ -195,7 +196,8 @@ class LeggedBody final : public HybridSystem<T> {
   std::vector<T> angles_;  // of the touch-downs; empty: theta_td, the first at start_angle_
   bool driven_;            // by an input
   int landings_ = 0;
-  bool sinks_ = true;     // in flight, of a leg whose angle an input moves: it has passed its apex
+  bool sinks_ = true;  // in flight, of a leg whose angle an input moves: it has passed its apex
+  T swing_begin_{0.0}, swing_time_{0.0}, swing_x_{0.0}, swing_y_{0.0};  // after lift-off, M88
   double slides_ = 0.0;   // direction in which the foot slides; 0: it holds
   bool unloads_ = false;  // the stance has passed its greatest compression
 };

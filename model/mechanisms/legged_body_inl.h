@@ -87,6 +87,7 @@ template <class T, class LegT>
 Mode LeggedBody<T, LegT>::Begin(Mode mode, T* z) {
   sinks_ = Value(z[kVy]) <= 0.0;
   slides_ = 0.0;
+  swing_time_ = T(0.0);
   if (foot_has_inertia_) z[FootSpeed()] = T(0.0);
   if (mode != Mode::kFlight) {
     controller_.Enter(Value(z[kVx]));
@@ -383,6 +384,7 @@ Observation<T> LeggedBody<T, LegT>::Observe(Mode mode, const T& t, const T* z) c
     for (Channel c :
          {Channel::kGroundForceX, Channel::kGroundForceY, Channel::kHipTorque, Channel::kContact})
       seen[c] = T(0.0);
+    if (has_leg_mass_) AddSwing(t, seen);
     return seen;
   }
   const LegLoad<T> load = Load(mode, t, z);

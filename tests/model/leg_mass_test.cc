@@ -107,6 +107,47 @@ TEST(LegMass, TakesTheCentreOfMassThroughLiftOffUnmoved) {
   EXPECT_GT(std::abs(after.final_state[0] - before.final_state[0]), 1e-3);
 }
 
+// M88: the body is seen where it was as the leg leaves the ground, and without a jump of its
+// velocity beyond that of M60; at the apex and from there on the state is what is seen.
+TEST(LegMass, IsSeenToSwingForwardUntilTheApex) {
+  for (const Law law : {Law::kElastica, Law::kThesis, Law::kStraightLeg}) {
+    SimulationRequest q = ExcitedRequest(law);
+    q.max_hops = 0;
+    const std::array effects = {Setting("leg_mass", 0.08 * q.parameters.m)};
+    q.effects = effects;
+    const Trajectory run = Simulate(q);
+    const Event& up = run.events[1];
+    ASSERT_EQ(up.kind, EventKind::kLiftoff) << NameOf(law);
+    ASSERT_GT(up.vy_after, 0.0) << NameOf(law);
+    const double whole = up.vy_after / q.parameters.g;
+    const std::array channels = {Channel::kBodyX, Channel::kBodyY};
+    const auto seen = [&](double time) {
+      SimulationRequest at = q;
+      const std::vector<double> times = {time};
+      at.row_times = times;
+      at.channels = channels;
+      const Trajectory part = Simulate(at);
+      return std::array{part.samples[0], part.samples[1]};
+    };
+    const auto state = [&](double time) {
+      SimulationRequest at = q;
+      at.horizon = time;
+      const Trajectory part = Simulate(at);
+      return std::array{part.final_state[0], part.final_state[1]};
+    };
+    const auto before = seen(up.time - 1e-9), after = seen(up.time + 1e-9);
+    const auto swung = state(up.time + 1e-9);
+    const double middle = up.time + 0.5 * whole, late = up.time + 1.01 * whole;
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_NEAR(after[k], before[k], 1e-7) << NameOf(law);
+      const double way = after[k] - swung[k];
+      EXPECT_NEAR(seen(middle)[k] - state(middle)[k], 0.5 * way, 1e-9) << NameOf(law);
+      EXPECT_NEAR(seen(late)[k], state(late)[k], 1e-12) << NameOf(law);
+    }
+    EXPECT_GT(std::abs(after[0] - swung[0]), 1e-3) << NameOf(law);
+  }
+}
+
 // A pressed arc of radius 1, E I = 1, that rolls: where its points are, at fractions of its length
 // from the contact to the hip.
 constexpr int kPoints = 400;
