@@ -252,6 +252,10 @@ T LeggedBody<T, LegT>::ConeMargin(Mode mode, const LegLoad<T>& load, const T& t,
 }
 
 template <class T, class LegT>
+bool LeggedBody<T, LegT>::HoldsWithin(Mode mode, const T& t, const T* z) const {
+  return Value(ConeMargin(mode, Load(mode, t, z), t, z)) > 0.0;
+}
+template <class T, class LegT>
 void LeggedBody<T, LegT>::BeginSlide(Mode mode, const T& t, T* z) {
   const Vector2<T> force = GroundForce(mode, Load(mode, t, z), t, z);
   z[FootSpeed()] = T(0.0);
@@ -261,10 +265,10 @@ void LeggedBody<T, LegT>::BeginSlide(Mode mode, const T& t, T* z) {
 // its cone is watched.
 template <class T, class LegT>
 void LeggedBody<T, LegT>::ResetFoot(EventKind event, Mode mode, const T& t, T* z) {
-  if (event == EventKind::kStick) return LetFootGo(z);
-  const bool watched = unloads_;
-  unloads_ = true;
-  if (watched || Value(ConeMargin(mode, Load(mode, t, z), t, z)) <= 0.0) BeginSlide(mode, t, z);
+  if (event == EventKind::kStick) LetFootGo(z);
+  const bool slips = event == EventKind::kSlide;
+  if (event == EventKind::kMaxCompression) unloads_ = true;
+  if (slips || (unloads_ && !HoldsWithin(mode, t, z))) BeginSlide(mode, t, z);
 }
 template <class T, class LegT>
 void LeggedBody<T, LegT>::LetFootGo(T* z) {

@@ -169,6 +169,7 @@ class LeggedBody final : public HybridSystem<T> {
                                 double side, std::array<T, 3> right) const;
   Vector2<T> GroundForce(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const;
   T ConeMargin(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const;
+  bool HoldsWithin(Mode mode, const T& t, const T* z) const;
   void BeginSlide(Mode mode, const T& t, T* z);
   void ResetFoot(EventKind event, Mode mode, const T& t, T* z);
   void LetFootGo(T* z);
@@ -199,7 +200,7 @@ class LeggedBody final : public HybridSystem<T> {
   bool sinks_ = true;  // in flight, of a leg whose angle an input moves: it has passed its apex
   T swing_begin_{0.0}, swing_time_{0.0}, swing_x_{0.0}, swing_y_{0.0};  // after lift-off, M88
   double slides_ = 0.0;   // direction in which the foot slides; 0: it holds
-  bool unloads_ = false;  // the stance has passed its greatest compression
+  bool unloads_ = false;  // the stance has passed its greatest compression, or a torque drives it
 };
 
 }  // namespace hoplab

@@ -443,6 +443,10 @@ ResetResult LeggedBody<T, LegT>::Land(const T& theta, const T& t, T* z, const T&
   slides_ = 0.0;
   unloads_ = false;
   if (has_leg_mass_) TakeLegAlong(Load(settled, t, z), z);
+  if (foot_has_inertia_ && is_driven_) {
+    unloads_ = true;  // a hip torque may push the foot away from the first: its cone is watched
+    if (slides_ == 0.0 && !HoldsWithin(settled, t, z)) BeginSlide(settled, t, z);
+  }
   return {settled};
 }
 
