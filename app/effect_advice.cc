@@ -70,7 +70,7 @@ constexpr std::array kAdvice = {
                  "torque_bias, hip_viscous_friction"},
     EffectAdvice{"hip_viscous_friction",
                  "Turn the joint at several speeds without power: the torque grows with the speed.",
-                 "touchdown_angle_bias, torque_bias, leg_mass, hip_coulomb_friction"},
+                 "leg_mass, touchdown_angle_bias, torque_bias, hip_coulomb_friction"},
     EffectAdvice{"leg_damping_1", "Pluck each leg: this one dies out in fewer periods.", ""},
     EffectAdvice{"leg_damping_2", "Pluck each leg: this one dies out in fewer periods.", ""},
     EffectAdvice{"leg_damping_3", "Pluck each leg: this one dies out in fewer periods.", ""},
