@@ -55,6 +55,11 @@ std::optional<ParameterId> ClockParameter(std::string name) {
 SensitivityDirection GaitDirection(const Hopper& hopper, const std::string& name) {
   if (HasStrides(hopper)) {
     if (const auto clock = ClockParameter(name)) return SensitivityDirection::Parameter(*clock);
+    if (name.starts_with("clock"))
+      throw InputError(
+          {"--along", name, "is no value of a clock",
+           DidYouMean(name, {"clock.period_s", "clock.duty", "clock.sweep_rad", "clock.offset_rad",
+                             "clock.phase_1", "clock.phase_2", "clock.phase_3", "clock.phase_4"})});
     if (name.starts_with("ground_slope"))
       throw InputError({"--along", name, "is not followed: the section turns with the ground",
                         "Give the slope in the scenario."});

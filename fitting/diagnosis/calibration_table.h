@@ -13,6 +13,6 @@ struct CalibrationTable {
   std::array<double, NameFeatures::kCount> weights;
 };
 inline constexpr CalibrationTable kCalibration = {
-    367, 4.413, {-1.949, -0.343, -0.01315, -0.3134, -0.7913, -2.486, 1.513, -1.189, -0.107}};
+    734, 5.177, {-2.222, -0.3372, -0.06836, -0.3411, -0.7567, -3.004, 1.656, -1.187, -0.166}};
 
 }  // namespace hoplab

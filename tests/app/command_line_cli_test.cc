@@ -169,6 +169,9 @@ TEST(SuggestionCli, AMistypedEffectLawKeyParameterOrValueNamesTheOneMeant) {
       {{"optimize", search, "--algorithm", "crs3"}, 64, "crs2"},
       {{"optimize", search, "--over", "theta_dt=0.1:0.5"}, 65, "theta_td"},
       {{"gait", hops, "--along", "theta_dt=0.5:0.9"}, 65, "theta_td"},
+      {{"gait", shipped + "pronking.yaml", "--along", "clock.perod_s=0.2:0.3"},
+       65,
+       "clock.period_s"},
       {{"simulate", hops, "--sensitivities", "v_dse"}, 65, "v_des"},
   };
   for (const std::string command : {"check", "fit", "diagnose", "compare"}) {
