@@ -208,7 +208,7 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
         unneeded.push_back(c.candidate.Name());
       else
         excluded.push_back(&c);
-    } else if (c.candidate.effect->info.has_threshold) {
+    } else if (c.candidate.effect->info.has_threshold && c.status == CandidateStatus::kNotTested) {
       untried.push_back(c.candidate.Name());
     } else if (c.status == CandidateStatus::kNotTested) {
       std::vector<std::string> sizes;
@@ -231,7 +231,8 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
   if (!untried.empty())
     text += Labelled(
         "not tried",
-        Capped(untried) + ": small sizes change nothing, so nothing tells where to look", colours);
+        Capped(untried) + ": small sizes change nothing, and no simulation ran at larger ones",
+        colours);
   return text;
 }
 

@@ -271,8 +271,10 @@ FitResult Fit(const FitProblem& problem, const FitOptions& options) {
   }
   if (fit.best_start >= 0 && !Stopped(options)) {
     int number = searches;
-    for (const Eigen::VectorXd& beyond : BeginningsBeyondThresholds(problem, fit.shared))
+    for (const Eigen::VectorXd& beyond : BeginningsBeyondThresholds(problem, fit.shared)) {
+      if (Stopped(options)) break;
       search(beyond, number++);
+    }
   }
   fit.interrupted = fit.interrupted || Stopped(options);
   fit.ok = fit.best_start >= 0;

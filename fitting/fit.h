@@ -29,7 +29,7 @@ std::optional<Discrepancy> FindDiscrepancy(std::string_view name);
 
 struct FitOptions {
   FitStrategy strategy = FitStrategy::kApexShooting;
-  int starts = 1;  // the nominal one, then scattered ones
+  int starts = 1;  // the nominal one, then scattered ones; thresholds add theirs
   std::uint64_t seed = 1;
   Loss loss;
   int jobs = 1;

@@ -50,7 +50,11 @@ FitRunOptions OptionsOf(const FitSettings& settings) {
 
 std::string StepText(int start, int starts, std::string_view stage, int iteration, double cost) {
   std::string text = "fitting";
-  if (starts > 1) text += ", start " + std::to_string(start + 1) + " of " + std::to_string(starts);
+  if (start >= starts) {
+    text += ", beyond a threshold";
+  } else if (starts > 1) {
+    text += ", start " + std::to_string(start + 1) + " of " + std::to_string(starts);
+  }
   text += ": " + std::string(stage) + ", iteration " + std::to_string(iteration);
   if (std::isfinite(cost)) text += ", cost " + Significant(cost, 5);
   return text;

@@ -133,7 +133,10 @@ void RefitBeyondThresholds(Extension& model, const Extension& base, const RefitS
   constexpr int kLook = 8;
   request.max_iterations = std::min(kLook, settings.max_iterations);
   std::optional<SolveResult> best;
-  for (const Eigen::VectorXd& begun : BeginningsBeyondThresholds(model.problem, null)) {
+  const Eigen::VectorXd& others = model.ok() ? model.shared : null;
+  for (const Eigen::VectorXd& begun :
+       BeginningsBeyondThresholds(model.problem, others, static_cast<int>(base.shared.size()))) {
+    if (settings.stop && *settings.stop) return;
     request.shared = begun;
     const SolveResult found = Solve(request);
     if (IsUsable(found.status) && found.complete && (!best || found.cost < best->cost))

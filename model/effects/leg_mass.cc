@@ -11,7 +11,7 @@ struct LegsOwnMass {
       .name = "leg_mass",
       .kind = EffectKind::kParameter,
       .equation =
-          "(diag(m - m_leg) + M_leg) dv/dt in stance, impact at touch-down, swing (M56-M60)",
+          "(diag(m - m_leg) + M_leg) dv/dt in stance, impact at touch-down, swing (M56-M60, M88)",
       .sentence =
           "part of the weighed mass is the leg's own, spread along it: it lands with a blow, "
           "follows the hip in stance and swings forward in flight",

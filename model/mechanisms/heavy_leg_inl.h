@@ -145,7 +145,7 @@ void LeggedBody<T, LegT>::LeaveWithLeg(const LegLoad<T>& load, const T& t, T* z)
   }
   z[kY] += share_y * (leg.y.value - placed.y.value);
   z[kVy] += share_y * (momentum.yx.value * wx + momentum.yy.value * vy - vy);
-  swing_time_ = z[kVy] / -inertia_.gravity_y;
+  swing_time_ = IsZero(inertia_.gravity_y) ? T(0.0) : T(z[kVy] / -inertia_.gravity_y);
 }
 
 // M88: how far the body is from where it were with its leg swung forward. At the apex the leg is.
@@ -153,7 +153,7 @@ template <class T, class LegT>
 void LeggedBody<T, LegT>::AddSwing(const T& t, Observation<T>& seen) const {
   const T& whole = swing_time_;
   const T since = t - swing_begin_;
-  if (!(Value(since) < Value(whole))) return;
+  if (!(Value(since) >= 0.0 && Value(since) < Value(whole))) return;
   using std::cos;
   using std::sin;
   const T turn = std::numbers::pi * since / whole;
@@ -251,6 +251,11 @@ T LeggedBody<T, LegT>::ConeMargin(Mode mode, const LegLoad<T>& load, const T& t,
   return force.y - p_.law_terms.foot_friction * along;
 }
 
+// Whether a torque acts on the hip.
+template <class T, class LegT>
+bool LeggedBody<T, LegT>::Pushes(Mode mode, const T& t, const T* z) const {
+  return Value(HipTorque(mode, Load(mode, t, z), t, z)) != 0.0;
+}
 template <class T, class LegT>
 bool LeggedBody<T, LegT>::HoldsWithin(Mode mode, const T& t, const T* z) const {
   return Value(ConeMargin(mode, Load(mode, t, z), t, z)) > 0.0;
@@ -261,14 +266,16 @@ void LeggedBody<T, LegT>::BeginSlide(Mode mode, const T& t, T* z) {
   z[FootSpeed()] = T(0.0);
   slides_ = Value(force.x) < 0.0 ? 1.0 : -1.0;
 }
-// The foot comes to hold, loses its hold, or holds while the leg begins to unload: from there on
-// its cone is watched.
+// The foot loses its hold, or comes to hold: but where the ground would have to hold it the other
+// way by more than its cone, it turns round.
 template <class T, class LegT>
 void LeggedBody<T, LegT>::ResetFoot(EventKind event, Mode mode, const T& t, T* z) {
-  if (event == EventKind::kStick) LetFootGo(z);
-  const bool slips = event == EventKind::kSlide;
-  if (event == EventKind::kMaxCompression) unloads_ = true;
-  if (slips || (unloads_ && !HoldsWithin(mode, t, z))) BeginSlide(mode, t, z);
+  if (event == EventKind::kSlide) return BeginSlide(mode, t, z);
+  const double went = slides_;
+  LetFootGo(z);
+  if (HoldsWithin(mode, t, z)) return;
+  BeginSlide(mode, t, z);
+  if (slides_ == went) LetFootGo(z);
 }
 template <class T, class LegT>
 void LeggedBody<T, LegT>::LetFootGo(T* z) {

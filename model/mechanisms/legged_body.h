@@ -39,11 +39,11 @@ class LegHolder<T, Leg<T>> {
   LegStorage<T> leg_;
 };
 
-/// A point mass on one massless leg (sections 3 and 4 of the equation sheet): flight, touch-down,
-/// lift-off, apex, falls, hip torque and body forces. What carries the body in stance is a Leg.
-/// Defined in legged_body_inl.h and compiled with each law.
-/// State: LegState, and of a motor that lags what it gives. Modes: flight and those of the leg. On
-/// a slope everything is in the frame of the ground (GroundFrame).
+/// A point mass on one leg (sections 3 and 4 of the equation sheet), massless but for the effect
+/// leg_mass: flight, touch-down, lift-off, apex, falls, hip torque and body forces. What carries
+/// the body in stance is a Leg. Defined in legged_body_inl.h and compiled with each law. State:
+/// LegState, of a motor that lags what it gives, of a foot that may slide its speed (M87). Modes:
+/// flight and those of the leg. On a slope everything is in the frame of the ground (GroundFrame).
 template <class T, class LegT>
 class LeggedBody final : public HybridSystem<T> {
  public:
@@ -169,6 +169,7 @@ class LeggedBody final : public HybridSystem<T> {
                                 double side, std::array<T, 3> right) const;
   Vector2<T> GroundForce(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const;
   T ConeMargin(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const;
+  bool Pushes(Mode mode, const T& t, const T* z) const;
   bool HoldsWithin(Mode mode, const T& t, const T* z) const;
   void BeginSlide(Mode mode, const T& t, T* z);
   void ResetFoot(EventKind event, Mode mode, const T& t, T* z);
@@ -199,8 +200,7 @@ class LeggedBody final : public HybridSystem<T> {
   int landings_ = 0;
   bool sinks_ = true;  // in flight, of a leg whose angle an input moves: it has passed its apex
   T swing_begin_{0.0}, swing_time_{0.0}, swing_x_{0.0}, swing_y_{0.0};  // after lift-off, M88
-  double slides_ = 0.0;   // direction in which the foot slides; 0: it holds
-  bool unloads_ = false;  // the stance has passed its greatest compression, or a torque drives it
+  double slides_ = 0.0;  // direction in which the foot slides; 0: it holds
 };
 
 }  // namespace hoplab

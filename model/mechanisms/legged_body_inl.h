@@ -67,7 +67,6 @@ void LeggedBody<T, LegT>::SaveDiscreteState(DiscreteState& to) const {
   to.Put(landings_);
   to.Put(sinks_ ? 1.0 : 0.0);
   to.Put(slides_);
-  to.Put(unloads_ ? 1.0 : 0.0);
   if (driven_) inputs_.Save(to);
   effects_.SaveCorners(to);
 }
@@ -78,7 +77,6 @@ void LeggedBody<T, LegT>::LoadDiscreteState(DiscreteState& from) {
   landings_ = static_cast<int>(from.Take());
   sinks_ = from.Take() > 0.5;
   slides_ = from.Take();
-  unloads_ = from.Take() > 0.5;
   if (driven_) inputs_.Load(from);
   effects_.LoadCorners(from);
 }
@@ -93,7 +91,9 @@ Mode LeggedBody<T, LegT>::Begin(Mode mode, T* z) {
     controller_.Enter(Value(z[kVx]));
     if (lagged_) z[kMotorTorque] = CommandedTorque(T(0.0), z);
     mode = PlaceContact(mode, z);
-    unloads_ = Value(Load(mode, T(0.0), z).damping_rate) > 0.0;
+    const bool is_pushed = foot_has_inertia_ && (Pushes(mode, T(0.0), z) ||
+                                                 Value(Load(mode, T(0.0), z).damping_rate) > 0.0);
+    if (is_pushed && !HoldsWithin(mode, T(0.0), z)) BeginSlide(mode, T(0.0), z);
   }
   Seat(mode, T(0.0), z);
   return mode;
@@ -248,7 +248,7 @@ GuardSpec LeggedBody<T, LegT>::Guard(Mode mode, int i) const {
     case 3:
       if (foot_has_inertia_) {
         if (slides_ != 0.0) return {EventKind::kStick, 1.0};
-        return {unloads_ ? EventKind::kSlide : EventKind::kMaxCompression, unloads_ ? weight : 1.0};
+        return {EventKind::kSlide, weight};
       }
       if (has_foot_friction_) return {EventKind::kLiftoff, 1.0, Outcome::kNoSupport};
       [[fallthrough]];
@@ -286,9 +286,7 @@ void LeggedBody<T, LegT>::StanceGuards(Mode mode, const LegLoad<T>& load, const 
   g[1] = load.y / load.l - kFallCosine;
   g += 2;
   if (foot_has_inertia_) {  // M87
-    *g++ = slides_ != 0.0 ? T(slides_ * z[FootSpeed()])
-           : unloads_     ? ConeMargin(mode, load, t, z)
-                          : T(-load.damping_rate);
+    *g++ = slides_ != 0.0 ? T(slides_ * z[FootSpeed()]) : ConeMargin(mode, load, t, z);
   } else if (has_foot_friction_) {  // M64
     const T slope = load.u / load.y;
     *g++ = 1.0 - p_.law_terms.foot_friction * (Value(slope) < 0.0 ? T(-slope) : slope);
@@ -441,12 +439,10 @@ ResetResult LeggedBody<T, LegT>::Land(const T& theta, const T& t, T* z, const T&
   if (lagged_) z[kMotorTorque] = CommandedTorque(t, z);
   const Mode settled = extended_ ? leg_->Settle(stance, z, Conditions(t, z)) : stance;
   slides_ = 0.0;
-  unloads_ = false;
   if (has_leg_mass_) TakeLegAlong(Load(settled, t, z), z);
-  if (foot_has_inertia_ && is_driven_) {
-    unloads_ = true;  // a hip torque may push the foot away from the first: its cone is watched
-    if (slides_ == 0.0 && !HoldsWithin(settled, t, z)) BeginSlide(settled, t, z);
-  }
+  // What the leg itself presses brings an unloaded foot into its cone at once; a torque does not.
+  if (foot_has_inertia_ && slides_ == 0.0 && Pushes(settled, t, z) && !HoldsWithin(settled, t, z))
+    BeginSlide(settled, t, z);
   return {settled};
 }
 

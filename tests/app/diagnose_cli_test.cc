@@ -51,6 +51,32 @@ void ExpectNoTextForANumber(const nlohmann::json& value) {
   }
 }
 
+// What changes nothing while it is small has no slope to follow: it is sought from several sizes.
+TEST_F(DiagnoseCli, FindsASlipperyFloorThatNoSlopeTellsOf) {
+  Generate("slippery", {"leg_mass:m_leg=0.03", "foot_coulomb_friction:inverse_mu=2.2"});
+  const ProcessResult run =
+      Hoplab({"diagnose", "slippery", "--effects", "leg_mass,foot_coulomb_friction,touchdown_loss",
+              "--out", "run", "--quiet"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out.find("not tried"), std::string::npos) << run.out;
+  const auto diagnosis = nlohmann::json::parse(ReadText(temp_.path() / "run/run.json"));
+  std::set<std::string> main;
+  for (const auto& cause : diagnosis.at("causes")) {
+    if (cause.at("main").get<bool>()) main.insert(cause.at("name"));
+  }
+  EXPECT_EQ(main, (std::set<std::string>{"leg_mass", "foot_coulomb_friction"}));
+
+  const ProcessResult fit = Hoplab({"fit", "slippery", "--with", "leg_mass,foot_coulomb_friction",
+                                    "--json", "--quiet", "--out", "fit"});
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  const auto values = nlohmann::json::parse(fit.out).at("parameters");
+  const auto friction = std::find_if(values.begin(), values.end(), [](const auto& p) {
+    return p.at("name") == "foot_coulomb_friction.inverse_mu";
+  });
+  ASSERT_NE(friction, values.end());
+  EXPECT_NEAR(friction->at("value").template get<double>(), 2.2, 0.25);
+}
+
 TEST_F(DiagnoseCli, NamesADragThatTheSimulationLacksWithEveryKeyOfTheContract) {
   GenerateWindy();
   const ProcessResult run =

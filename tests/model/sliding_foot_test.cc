@@ -105,6 +105,7 @@ TYPED_TEST(OnIce, KeepsItsEnergy) {
 
 // Where it lands it slides, comes to hold, and then the stance is that of a foot that holds.
 TEST(SlidingFoot, ComesToHold) {
+  int compared = 0;
   for (const Law law : kLaws) {
     if (law == Law::kStraightLeg) continue;  // this one's blow lies within the cone
     const double mu = 0.4;
@@ -122,6 +123,7 @@ TEST(SlidingFoot, ComesToHold) {
       return Simulate(f.request);
     }();
     if (const Event* sooner = Find(firmer, EventKind::kStick)) {
+      ++compared;
       EXPECT_LT(sooner->time - down->time, stick->time - down->time) << NameOf(law);
     }
     Slippery firm(law, 1e5);
@@ -133,6 +135,46 @@ TEST(SlidingFoot, ComesToHold) {
     for (std::size_t i = 0; i < plain.final_state.size(); ++i)
       EXPECT_NEAR(holds.final_state[i], plain.final_state[i], 1e-7) << NameOf(law) << ' ' << i;
   }
+  EXPECT_GE(compared, 3);
+}
+
+// A cause that is only asked for, at null, does not change the run it is asked of.
+TEST(SlidingFoot, IsTheSameBesideATorqueThatIsNone) {
+  for (const double mu : {0.1, 0.3, 0.5}) {
+    Slippery s(Law::kElastica, mu);
+    const std::array channels = {Channel::kBodyX, Channel::kBodyY};
+    const std::vector<double> times = EvenTimes(Simulate(s.request).end_time - 1e-6, 50);
+    s.request.row_times = times;
+    s.request.channels = channels;
+    const Trajectory alone = Simulate(s.request);
+    const std::array with = {s.effects[0], s.effects[1], Setting("hip_viscous_friction", 0.0),
+                             Setting("torque_bias", 0.0)};
+    s.request.effects = with;
+    const std::array directions = {SensitivityDirection::EffectParameter(2, 0),
+                                   SensitivityDirection::EffectParameter(3, 0)};
+    s.request.directions = directions;
+    const Trajectory beside = Simulate(s.request);
+    EXPECT_EQ(EventNames(beside), EventNames(alone)) << mu;
+    ASSERT_EQ(beside.samples.size(), alone.samples.size());
+    for (std::size_t i = 0; i < alone.samples.size(); ++i)
+      EXPECT_NEAR(beside.samples[i], alone.samples[i], 1e-9) << mu;
+  }
+}
+
+// A run that begins on a foot that its torque pushes out of the cone begins with a slide.
+TEST(SlidingFoot, SlidesFromTheStartWhereATorquePushesIt) {
+  Slippery s(Law::kElastica, 0.3);
+  s.request.initial = {0.0, 0.165, 0.5, 0.1, 0.02};
+  s.request.start_mode = Mode::kStance;
+  s.request.horizon = 0.03;
+  const Trajectory holds = Simulate(s.request);
+  s.request.parameters.kp = 5.0;
+  s.request.parameters.v_des = 3.0;
+  const Trajectory slides = Simulate(s.request);
+  EXPECT_EQ(Find(slides, EventKind::kSlide), nullptr) << "it slides already";
+  ASSERT_FALSE(slides.final_state.empty());
+  ASSERT_FALSE(holds.final_state.empty());
+  EXPECT_GT(std::abs(slides.final_state[kContact] - holds.final_state[kContact]), 1e-3);
 }
 
 // M64 is its limit: the lighter the foot, the sooner it is away once the chord leaves the cone.
@@ -161,6 +203,28 @@ TEST(SlidingFoot, SlipsAwayAtOnceWithoutMass) {
     EXPECT_GT(off, 0.0);
     EXPECT_LT(off, 0.75 * before) << share;  // with the root of the mass
     before = off;
+  }
+}
+
+// A foot that holds, leaves its cone late and slides away.
+TEST(SlidingFoot, DerivativesThroughALateSlideMatchDifferences) {
+  for (const Law law : {Law::kElastica, Law::kConsistent, Law::kNoSlip}) {
+    Slippery s(law, 0.3, 0.016);
+    s.request.parameters.d = 1.0;
+    s.request.parameters.theta_td = Degrees(8.0);
+    s.request.initial = {0.0, 0.25, 1.6, -0.1};
+    const Trajectory run = Simulate(s.request);
+    ASSERT_NE(Find(run, EventKind::kSlide), nullptr) << NameOf(law);
+    const std::vector<double> times = TimesClearOfEvents(run);
+    s.request.row_times = times;
+    s.request.channels = ChannelsOf(law);
+    const std::array directions = {SensitivityDirection::EffectParameter(0, 0),
+                                   SensitivityDirection::EffectParameter(1, 0),
+                                   SensitivityDirection::Parameter(ParameterId::kThetaTd),
+                                   SensitivityDirection::InitialState(2)};
+    s.request.directions = directions;
+    for (const ColumnCheck& check : CheckGradient(s.request))
+      EXPECT_EQ(Complaint(check), "") << NameOf(law);
   }
 }
 
