@@ -8,20 +8,21 @@ namespace {
 struct FootCoulombFriction {
   static constexpr std::array kParameters = {
       EffectParameter{"inverse_mu", "-", 0.0, 0.0, 20.0, 2.0}};
-  static constexpr EffectInfo kInfo = {.name = "foot_coulomb_friction",
-                                       .kind = EffectKind::kGuard,
-                                       .equation =
-                                           "stance ends where |u|/Y > mu, mu = 1/inverse_mu (M64); "
-                                           "with leg_mass the foot slides (M87)",
-                                       .sentence =
-                                           "the ground is slippery: the foot slides where it is "
-                                           "pushed more sideways than friction holds",
-                                       .for_legs = true,
-                                       .for_ball = false,
-                                       .dissipative = true,
-                                       .has_threshold = true,
-                                       .massless_leg_only = true,
-                                       .parameters = kParameters};
+  static constexpr EffectInfo kInfo = {
+      .name = "foot_coulomb_friction",
+      .kind = EffectKind::kGuard,
+      .equation =
+          "stance ends where |u|/Y > mu, mu = 1/inverse_mu (M64); with leg_mass the foot slides "
+          "(M87)",
+      .sentence =
+          "the ground is slippery: the foot slides where it is pushed more sideways than friction "
+          "holds",
+      .for_legs = true,
+      .for_ball = false,
+      .dissipative = true,
+      .has_threshold = true,
+      .massless_leg_only = true,
+      .parameters = kParameters};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
