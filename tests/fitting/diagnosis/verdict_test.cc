@@ -36,9 +36,9 @@ TEST(Diagnose, CleanDataStillTellWhatTheyCouldHaveShown) {
 
 TEST(Diagnose, AClearEffectIsNamed) {
   const Diagnosis d = Diagnose(
-      DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}, .test = 2, .hops = 3}),
+      DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.05)}, .test = 2, .hops = 3}),
       OptionsWith(testing::kSixEffects));
-  EXPECT_EQ(NameOf(d.verdict), "named") << d.reason;
+  EXPECT_EQ(NameOf(d.verdict), "named") << d.reason << ", P " << d.extension->Probability();
   EXPECT_EQ(GroupNames(d.naming), std::vector<std::string>{"touchdown_angle_bias"});
   ASSERT_TRUE(d.Cause());
   EXPECT_EQ(d.naming.candidates[static_cast<std::size_t>(*d.Cause())].candidate.Name(),
@@ -84,7 +84,7 @@ bool Excludes(const Diagnosis& d) {
 
 TEST(Diagnose, ExcludesCausesBesideANameThatIsSureAndBesideNoOther) {
   const Diagnosis named = Diagnose(
-      DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}, .test = 2, .hops = 3}),
+      DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.05)}, .test = 2, .hops = 3}),
       OptionsWith(testing::kSixEffects));
   ASSERT_EQ(named.verdict, Verdict::kNamed);
   EXPECT_TRUE(Excludes(named));
