@@ -52,6 +52,19 @@ void Take(Extension& e, const SolveResult& result) {
   e.complete = result.complete;
 }
 
+// At most so many of the trials, evenly spread, with their starts.
+std::pair<std::vector<TrialProblem>, std::vector<OwnValues>> Spread(
+    const std::vector<TrialProblem>& trials, const std::vector<OwnValues>& starts) {
+  constexpr std::size_t kMost = 12;
+  const std::size_t n = std::min(kMost, trials.size());
+  std::pair<std::vector<TrialProblem>, std::vector<OwnValues>> some;
+  for (std::size_t i = 0; i < n; ++i) {
+    some.first.push_back(trials[i * trials.size() / n]);
+    some.second.push_back(starts[i * trials.size() / n]);
+  }
+  return some;
+}
+
 // Where the search for a model with added candidates begins: their sizes, brought inside the
 // bounds.
 Eigen::VectorXd Beginning(const Extension& e, const Eigen::VectorXd& kept,
@@ -125,26 +138,34 @@ void RefitBeyondThresholds(Extension& model, const Extension& base, const RefitS
       NullValues(std::span(model.members).subspan(base.members.size()));
   Eigen::VectorXd null(base.shared.size() + of_added.size());
   null << base.shared, of_added;
+  const Eigen::VectorXd others = model.ok() ? model.shared : null;
+  const std::vector<Eigen::VectorXd> beginnings =
+      BeginningsBeyondThresholds(model.problem, others, static_cast<int>(base.shared.size()));
+  if (beginnings.empty()) return;
   Extension from = model;
   from.starts = base.starts;
   SolveRequest request = RequestFrom(from, settings);
-  // Where it begins, what stood in for it is still in place, and costs much: the best of a few
-  // short searches goes on.
-  constexpr int kLook = 8;
-  request.max_iterations = std::min(kLook, settings.max_iterations);
-  std::optional<SolveResult> best;
-  const Eigen::VectorXd& others = model.ok() ? model.shared : null;
-  for (const Eigen::VectorXd& begun :
-       BeginningsBeyondThresholds(model.problem, others, static_cast<int>(base.shared.size()))) {
+  // Where it begins, what stood in for it is still in place, and costs much. So short searches on
+  // some of the trials look which beginning comes to something.
+  constexpr int kLook = 10;
+  const auto [some, starts] = Spread(*settings.train, base.starts);
+  request.trials = &some;
+  request.starts = starts;
+  request.max_iterations = kLook;
+  request.shared = others;
+  const SolveResult without = Solve(request);
+  const SolveResult* best = &without;
+  std::vector<SolveResult> looks;
+  looks.reserve(beginnings.size());
+  for (const Eigen::VectorXd& begun : beginnings) {
     if (settings.stop && *settings.stop) return;
     request.shared = begun;
-    const SolveResult found = Solve(request);
-    if (IsUsable(found.status) && found.complete && (!best || found.cost < best->cost))
-      best = found;
+    const SolveResult& found = looks.emplace_back(Solve(request));
+    if (IsUsable(found.status) && found.complete && found.cost < best->cost) best = &found;
   }
-  if (!best) return;
+  if (best == &without) return;
+  request = RequestFrom(from, settings);
   request.shared = best->shared;
-  request.starts = best->starts;
   request.max_iterations = 2 * settings.max_iterations;
   request.give_up_above = model.ok() ? model.cost : settings.give_up_above;
   const SolveResult found = Solve(request);
