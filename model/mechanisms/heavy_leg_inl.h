@@ -2,10 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "model/mechanisms/legged_body.h"
 
-// A leg with a mass of its own, M56-M60, and its foot where it slides, M87.
+// A leg with a mass of its own, M56-M60 and M88, and its foot where it slides, M87.
 
 namespace hoplab {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "tests/support/diagnosed_hops.h"
 #include "tests/support/input_error_of.h"
@@ -38,12 +39,26 @@ TEST(Diagnose, AClearEffectIsNamed) {
   const Diagnosis d = Diagnose(
       DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.05)}, .test = 2, .hops = 3}),
       OptionsWith(testing::kSixEffects));
+  ASSERT_TRUE(d.extension);
   EXPECT_EQ(NameOf(d.verdict), "named") << d.reason << ", P " << d.extension->Probability();
   EXPECT_EQ(GroupNames(d.naming), std::vector<std::string>{"touchdown_angle_bias"});
   ASSERT_TRUE(d.Cause());
   EXPECT_EQ(d.naming.candidates[static_cast<std::size_t>(*d.Cause())].candidate.Name(),
             "touchdown_angle_bias");
+  EXPECT_TRUE(d.extension->gain.IsClaim());
+  EXPECT_GT(d.extension->explained, kExplained);
+}
+
+// One of three fifths of that size is as clear beside all others, and told with a P just below that
+// of a sure name: `named` by the probabilities of before, which were of fewer cases.
+TEST(Diagnose, ASmallerEffectIsNearlySure) {
+  const Diagnosis d = Diagnose(
+      DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}, .test = 2, .hops = 3}),
+      OptionsWith(testing::kSixEffects));
+  EXPECT_EQ(GroupNames(d.naming), std::vector<std::string>{"touchdown_angle_bias"});
   ASSERT_TRUE(d.extension);
+  std::printf("  P %.3f\n", d.extension->Probability());
+  EXPECT_GT(d.extension->Probability(), 0.94);
   EXPECT_TRUE(d.extension->gain.IsClaim());
   EXPECT_GT(d.extension->explained, kExplained);
 }
