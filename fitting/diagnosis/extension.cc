@@ -5,7 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "fitting/apex_segments.h"
 #include "fitting/discrepancy/restricted_likelihood.h"
+#include "fitting/growing_horizon.h"
 #include "fitting/threshold.h"
 
 namespace hoplab {
@@ -13,6 +15,9 @@ namespace {
 
 // Likelihoods are compared to well below a nat; where costs are large, so are their differences.
 constexpr double kCostTolerance = 1e-6;
+
+// Nats a look beyond a threshold must gain to be followed.
+constexpr double kWorthFollowing = 4.0;
 
 // A size whose beginning costs so many times what the base does is not the linear forecast's.
 constexpr double kFarOff = 10.0;
@@ -51,18 +56,45 @@ void Take(Extension& e, const SolveResult& result) {
   e.complete = result.complete;
 }
 
-// At most so many of the trials, evenly spread, with their starts.
-std::pair<std::vector<TrialProblem>, std::vector<OwnValues>> Spread(
-    const std::vector<TrialProblem>& trials, const std::vector<OwnValues>& starts) {
+std::vector<OwnValues> NominalStarts(const std::vector<TrialProblem>& trials) {
+  std::vector<OwnValues> starts;
+  for (const TrialProblem& t : trials) starts.push_back(t.start);
+  return starts;
+}
+
+// What a look is taken at: the hops of some of the trials, each from the apex its data show, so
+// that an early error does not turn the later ones; where no apexes are seen, those trials.
+struct Glance {
+  std::vector<TrialProblem> trials;
+  std::vector<OwnValues> starts;
+  bool of_hops = false;  // whose starts are held as read
+};
+Glance GlanceAt(const FitProblem& problem, const std::vector<TrialProblem>& trials,
+                const std::vector<OwnValues>& starts) {
   constexpr std::size_t kMost = 12;
   const std::size_t n = std::min(kMost, trials.size());
-  std::pair<std::vector<TrialProblem>, std::vector<OwnValues>> some;
+  Glance whole, hops;
   for (std::size_t i = 0; i < n; ++i) {
-    some.first.push_back(trials[i * trials.size() / n]);
-    some.second.push_back(starts[i * trials.size() / n]);
+    const std::size_t k = i * trials.size() / n;
+    whole.trials.push_back(trials[k]);
+    whole.starts.push_back(starts[k]);
+    for (TrialProblem& hop : CutAtApexes(problem, trials[k])) hops.trials.push_back(std::move(hop));
   }
-  return some;
+  if (hops.trials.empty()) return whole;
+  hops.starts = NominalStarts(hops.trials);
+  hops.of_hops = true;
+  return hops;
 }
+
+// Starts that suit values found on hops: those of another model would lead them back to it.
+std::vector<OwnValues> StartsFor(SolveRequest request) {
+  request.starts = NominalStarts(*request.trials);
+  request.hold_shared = true;
+  const SolveResult found = GrowHorizon(request);
+  return IsUsable(found.status) ? found.starts : request.starts;
+}
+
+bool LedOn(const SolveResult& result) { return IsUsable(result.status) && result.complete; }
 
 // Where the search for a model with added candidates begins: their sizes, brought inside the
 // bounds.
@@ -144,12 +176,13 @@ void RefitBeyondThresholds(Extension& model, const Extension& base, const RefitS
   Extension from = model;
   from.starts = base.starts;
   SolveRequest request = RequestFrom(from, settings);
-  // Where it begins, what stood in for it is still in place, and costs much. So short searches on
-  // some of the trials look which beginning comes to something.
-  constexpr int kLook = 10;
-  const auto [some, starts] = Spread(*settings.train, base.starts);
-  request.trials = &some;
-  request.starts = starts;
+  // Where it begins, what stood in for it is still in place, and costs much. So short searches look
+  // which beginning comes to something.
+  constexpr int kLook = 20;
+  const Glance glance = GlanceAt(model.problem, *settings.train, base.starts);
+  request.trials = &glance.trials;
+  request.starts = glance.starts;
+  request.hold_starts = glance.of_hops;
   request.max_iterations = kLook;
   request.shared = others;
   const SolveResult without = Solve(request);
@@ -160,16 +193,17 @@ void RefitBeyondThresholds(Extension& model, const Extension& base, const RefitS
     if (settings.stop && *settings.stop) return;
     request.shared = begun;
     const SolveResult& found = looks.emplace_back(Solve(request));
-    if (IsUsable(found.status) && found.complete && found.cost < best->cost) best = &found;
+    if (LedOn(found) && (found.cost < best->cost || !LedOn(*best))) best = &found;
   }
-  if (best == &without) return;
+  if (best == &without || (LedOn(without) && without.cost - best->cost < kWorthFollowing)) return;
   request = RequestFrom(from, settings);
   request.shared = best->shared;
+  if (glance.of_hops) request.starts = StartsFor(request);
   request.max_iterations = 2 * settings.max_iterations;
   request.give_up_above = model.ok() ? model.cost : settings.give_up_above;
-  const SolveResult found = Solve(request);
-  if (IsUsable(found.status) && found.complete && (!model.ok() || found.cost < model.cost))
-    Take(model, found);
+  SolveResult found = Solve(request);
+  const double least = kCostTolerance * std::abs(model.cost);  // less is rounding
+  if (LedOn(found) && (!model.ok() || model.cost - found.cost > least)) Take(model, found);
 }
 
 Extension RefitWithout(const Extension& base, int i, const FitProblem& null_problem,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "fitting/diagnosis/linearise_at.h"
@@ -46,8 +47,11 @@ class Search {
       Judge({});
       return std::move(naming_);
     }
-    CandidateSet current = refits_.Better({}, Singles(), kSingleWidth, BestScored());
+    const CandidateSet single = refits_.Better({}, Singles(), kSingleWidth, BestScored());
+    CandidateSet current = single;
     current = refits_.Better(current, PairsFromNull(), kPairsSettled);
+    if (!current.empty())
+      current = refits_.Better(current, BeyondThresholds(single), kPairsSettled);
     while (!current.empty() && static_cast<int>(current.size()) < options_.max_effects &&
            !Stopped()) {
       const std::vector<CandidateSet> further = Forward(current);
@@ -155,14 +159,34 @@ class Search {
     for (const CandidateSet& grown : BeyondThresholds(set)) sets.push_back(grown);
     return sets;
   }
+  static bool Holds(const CandidateSet& set, int i) {
+    return std::find(set.begin(), set.end(), i) != set.end();
+  }
+  // The candidate without which candidate i hardly shows.
+  std::optional<int> ShowsBeside(int i) const {
+    const Candidate& candidate = naming_.candidates[static_cast<std::size_t>(i)].candidate;
+    for (std::size_t k = 0; k < naming_.candidates.size(); ++k) {
+      const Candidate& other = naming_.candidates[k].candidate;
+      if (other.effect->info.name == candidate.effect->info.shows_beside &&
+          other.only_recording == candidate.only_recording)
+        return static_cast<int>(k);
+    }
+    return std::nullopt;
+  }
   // No linear model promises what has a threshold: it is tried, and taken as far as it gains.
   std::vector<CandidateSet> BeyondThresholds(const CandidateSet& set) {
-    std::vector<CandidateSet> tried, sets;
+    std::vector<CandidateSet> tried, together, sets;
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
-      const bool in = std::find(set.begin(), set.end(), i) != set.end();
-      if (naming_.candidates[i].has_threshold && !in) tried.push_back(With(set, i));
+      if (!naming_.candidates[i].has_threshold || Holds(set, i)) continue;
+      tried.push_back(With(set, i));
+      const std::optional<int> other = ShowsBeside(i);
+      if (!other || Holds(set, *other)) continue;
+      together.push_back(With(tried.back(), *other));
+      tried.push_back(With(set, *other));
     }
     refits_.Try(tried);
+    refits_.Try(together);  // from the best of their parts
+    tried.insert(tried.end(), together.begin(), together.end());
     for (const CandidateSet& grown : tried) {
       const double gain = refits_.White(set).cost - refits_.White(grown).cost;
       if (refits_.Usable(grown) && gain >= std::max(LeastGain(), kWorthATry)) sets.push_back(grown);

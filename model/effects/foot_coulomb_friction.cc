@@ -21,6 +21,7 @@ struct FootCoulombFriction {
       .for_ball = false,
       .dissipative = true,
       .has_threshold = true,
+      .shows_beside = "leg_mass",
       .massless_leg_only = true,
       .parameters = kParameters};
 

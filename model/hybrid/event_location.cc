@@ -89,14 +89,16 @@ GuardCrossing GuardWatch::Locate(Mode mode, Stepper& stepper, int i, double valu
   const double gb = g(b);
   if (!(gb < 0.0)) return {i, b};  // at zero within the extension's error: Polish decides
   if (ga <= kAtZero) {
-    // The guard opened at the very start of the step: leave that zero behind.
-    double ahead = 1e-3 * (b - a);
+    // The guard opened at the very start of the step: leave that zero behind. One that does not
+    // stay open closes there; the step ends a little later, since it cannot end where it began.
+    const double least = 1e-3 * (b - a);
+    double ahead = least;
     ga = g(a + ahead);
     for (int doubling = 0; doubling < 9 && !(ga > 0.0); ++doubling) {
       ahead *= 2.0;  // up to half the step
       ga = g(a + ahead);
     }
-    if (!(ga > 0.0)) return {i, a};
+    if (!(ga > 0.0)) return {i, a + least};
     a += ahead;
   }
   std::uintmax_t rounds = 60;

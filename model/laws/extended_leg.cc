@@ -141,48 +141,6 @@ Solution Solve(const Question& q, ExtendedRoot& root) {
   return s;
 }
 
-// Arc and contact lead of a leg that stands under torque alone (M30), with the inverse of the
-// matrix of slopes of M10 and of the deflection left for the chord force.
-struct Footing {
-  bool found = false;
-  double phi, u;
-  double inverse[2][2];
-};
-
-// From a guess of both; q.u0 is not used, and phi keeps its value unless q.rolling.
-Footing FindFooting(const Question& q, double phi, double u) {
-  constexpr int kMaxRounds = 30;
-  constexpr double kStepTolerance = 1e-11;
-  using Dual = Tangent<double>;  // directions phi, u
-  Footing f;
-  for (int round = 0; round < kMaxRounds; ++round) {
-    const double l = std::hypot(u, q.y);
-    const Statics<Dual> leg = StaticsAt<Dual, double>(
-        q.p, q.law, q.torque, {Dual(phi, 1.0, 0.0), Dual(l, 0.0, u / l), Dual(q.softer)});
-    const Dual tip =
-        q.rolling ? Dual(u, 0.0, 1.0) / Dual(l, 0.0, u / l) + leg.tip_turn : Dual(0.0, 1.0, 0.0);
-    const Dual& delta = leg.delta;
-    const double determinant = tip.rate[0] * delta.rate[1] - tip.rate[1] * delta.rate[0];
-    f.inverse[0][0] = delta.rate[1] / determinant;
-    f.inverse[0][1] = -tip.rate[1] / determinant;
-    f.inverse[1][0] = -delta.rate[0] / determinant;
-    f.inverse[1][1] = tip.rate[0] / determinant;
-    const double turn = f.inverse[0][0] * tip.value + f.inverse[0][1] * delta.value;
-    const double shift = f.inverse[1][0] * tip.value + f.inverse[1][1] * delta.value;
-    if (!std::isfinite(turn) || !std::isfinite(shift)) return f;
-    phi -= turn;
-    u -= shift;
-    if (!(phi > 0.05 && phi < 2.0 * kPi - 0.05) || std::abs(u) > 2.0 * q.p.r) return f;
-    if (std::abs(turn) < kStepTolerance && std::abs(shift) < kStepTolerance * q.p.r) {
-      f.found = true;
-      f.phi = phi;
-      f.u = u;
-      return f;
-    }
-  }
-  return f;
-}
-
 // dphi/dt = along_u0 du0/dt + rest at an equilibrium, from the slopes of both residuals; along_y is
 // what of `rest` goes with vy.
 template <class T>
@@ -345,39 +303,6 @@ void ExtendedLeg<T>::AddViscousForce(const T& softer, const T* z, const Tangent<
   const T by_arc = unit * (mixed * f_rate + phiphi * phi_rate);
   load.viscous_x = -(by_load * f_x + by_arc * load.arc_x);
   load.viscous_y = -(by_load * f_y + by_arc * load.arc_y);
-}
-
-template <class T>
-Mode ExtendedLeg<T>::Settle(Mode mode, T* z, const LegConditions<T>& at) {
-  if (!p_.law_terms.torque_active) return mode;
-  const T& y = z[kY];
-  const T softer = Softer(p_, at.time);
-  const bool elastic = IsElastic(law_);
-  double phi = root_.phi;
-  double u =
-      mode == Mode::kRolling ? Value(p_.r) * std::sin(phi) : Value(z[kContact]) - Value(z[kX]);
-  Footing footing = FindFooting(
-      {values_, law_, mode == Mode::kRolling, 0.0, Value(y), Value(at.torque), Value(softer)}, phi,
-      u);
-  if (footing.found && footing.phi > kPi) {  // past the toe
-    mode = Mode::kToe;
-    footing = FindFooting({values_, law_, false, 0.0, Value(y), Value(at.torque), Value(softer)},
-                          kPi, -0.5 * Value(p_.r));
-  }
-  if (!footing.found) return mode;
-  T arc(footing.phi), lead(footing.u);
-  if constexpr (kJetWidth < T >> 0) {
-    const T l = Chord<T>({arc, lead, y, softer});
-    const Statics<T> leg = StaticsAt<T, T>(p_, law_, at.torque, {arc, l, softer});
-    const T tip = mode == Mode::kRolling ? T(lead / l + leg.tip_turn) : T(0.0);
-    const auto& m = footing.inverse;
-    arc -= m[0][0] * tip + m[0][1] * leg.delta;
-    lead -= m[1][0] * tip + m[1][1] * leg.delta;
-  }
-  z[kContact] = z[kX] + lead;
-  if (elastic && mode == Mode::kRolling) z[kContact] -= p_.r * arc;
-  StartRootAt(footing.phi);
-  return mode;
 }
 
 template <class T>

@@ -68,11 +68,6 @@ class ExtendedLeg {
   /// What the leg carries. All fields NaN where no equilibrium is found.
   LegLoad<T> Load(Mode mode, const T* z, const LegConditions<T>& at) const;
 
-  /// Moves the contact of a leg that just landed to where it stands under the hip's torque without
-  /// a chord force (M30), and gives the mode of stance there. Where no such place is found the
-  /// contact stays.
-  Mode Settle(Mode mode, T* z, const LegConditions<T>& at);
-
   /// What leg and ground hold at a load that came from here [J]: with F^2 C/2 + 2 F^3 A2/3 of M24
   /// (k delta^2/2 + k beta delta^3/(3 r) where the law is a spring), c_g F_y^2/2 of M28. What the
   /// hip torque's own bending holds is not in it.

@@ -56,9 +56,6 @@ class CLeg final : public Leg<T> {
     return Mode::kRolling;
   }
   /// Touch-down under a hip torque; `mode` as Land gave it.
-  Mode Settle(Mode mode, T* z, const LegConditions<T>& at) override {
-    return extended_.Settle(mode, z, at);
-  }
   LegLoad<T> Load(Mode mode, const T* z) const override {
     return mode == Mode::kRolling ? law_.Rolling(z) : law_.Toe(z);
   }

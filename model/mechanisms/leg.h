@@ -23,8 +23,6 @@ class Leg {
   virtual T ChordAngle(const T& theta) const = 0;
   /// Touch-down at leg angle `theta`: sets the contact coordinate, gives the mode of stance.
   virtual Mode Land(const T& theta, T* z) = 0;
-  /// Moves the contact of a leg just landed that a torque bends; `mode` as Land gave it.
-  virtual Mode Settle(Mode mode, T* z, const LegConditions<T>& at) = 0;
 
   virtual LegLoad<T> Load(Mode mode, const T* z) const = 0;
   /// Chord length at which the leg carries nothing [m].

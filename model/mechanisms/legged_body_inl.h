@@ -437,13 +437,12 @@ ResetResult LeggedBody<T, LegT>::Land(const T& theta, const T& t, T* z, const T&
   ++landings_;
   inputs_.Seek(Value(t));
   if (lagged_) z[kMotorTorque] = CommandedTorque(t, z);
-  const Mode settled = extended_ ? leg_->Settle(stance, z, Conditions(t, z)) : stance;
   slides_ = 0.0;
-  if (has_leg_mass_) TakeLegAlong(Load(settled, t, z), z);
+  if (has_leg_mass_) TakeLegAlong(Load(stance, t, z), z);
   // What the leg itself presses brings an unloaded foot into its cone at once; a torque does not.
-  if (foot_has_inertia_ && slides_ == 0.0 && Pushes(settled, t, z) && !HoldsWithin(settled, t, z))
-    BeginSlide(settled, t, z);
-  return {settled};
+  if (foot_has_inertia_ && slides_ == 0.0 && Pushes(stance, t, z) && !HoldsWithin(stance, t, z))
+    BeginSlide(stance, t, z);
+  return {stance};
 }
 
 template <class T, class LegT>

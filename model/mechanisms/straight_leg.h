@@ -50,7 +50,6 @@ class StraightSpring final : public Leg<T> {
     extended_.StartRootAt(0.0);
     return Mode::kStance;
   }
-  Mode Settle(Mode mode, T*, const LegConditions<T>&) override { return mode; }
   LegLoad<T> Load(Mode, const T* z) const override {
     using std::sqrt;
     LegLoad<T> load;

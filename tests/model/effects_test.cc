@@ -85,6 +85,16 @@ TEST(EffectAtNull, ChangesNothingBitForBit) {
   }
 }
 
+TEST(EffectWithAThreshold, ShowsBesideAnEffectThatIsThere) {
+  int found = 0;
+  for (const Effect* effect : AllEffects()) {
+    if (effect->info.shows_beside.empty()) continue;
+    ++found;
+    EXPECT_NE(FindEffect(effect->info.shows_beside), nullptr) << effect->info.name;
+  }
+  EXPECT_GT(found, 0);
+}
+
 TEST(EffectOffNull, ChangesTheSamples) {
   for (Law law : kAllLaws) {
     SimulationRequest q = ExcitedRequest(law);

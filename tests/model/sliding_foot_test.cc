@@ -4,6 +4,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "model/effects/effect.h"
 #include "model/laws/elastic_arc.h"
@@ -175,6 +176,62 @@ TEST(SlidingFoot, SlidesFromTheStartWhereATorquePushesIt) {
   ASSERT_FALSE(slides.final_state.empty());
   ASSERT_FALSE(holds.final_state.empty());
   EXPECT_GT(std::abs(slides.final_state[kContact] - holds.final_state[kContact]), 1e-3);
+}
+
+// A driven leg of the rig (datasets/rig-controlled). Near lift-off its foot may leave the cone and
+// turn back within a microsecond, while the chord force ends too: it lifts off all the same, and no
+// leg is left standing that pulls on the ground.
+TEST(SlidingFoot, LiftsOffWhereASlideHardlyBegins) {
+  SimulationRequest q;
+  q.law = Law::kElastica;
+  Parameters<double>& p = q.parameters;
+  p.m = 1.01;
+  p.r = 0.09;
+  p.E = 22.59e9;
+  p.G = 4e9;
+  p.I = 0.03 * std::pow(0.003658, 3) / 12.0;
+  p.A = 0.03 * 0.003658;
+  p.d = 1.808;
+  p.theta_td = Degrees(22.0);
+  p.kp = 2.0;
+  p.v_des = 1.8;
+  const std::array effects = {Setting("leg_mass", 0.01262), Setting("torque_bending", 1.107),
+                              Setting("foot_coulomb_friction", 0.4)};
+  q.effects = effects;
+  q.horizon = 1.64;
+  for (int i = -20; i < 20; ++i) {
+    q.initial = {2.9e-5, 0.3001, 1.007 + 0.003 * i, -0.00125};
+    const Trajectory run = Simulate(q);
+    EXPECT_EQ(run.outcome, Outcome::kCompleted) << NameOf(run.outcome) << ' ' << q.initial[2];
+    int down = 0, up = 0;
+    for (const Event& e : run.events) {
+      down += e.kind == EventKind::kTouchdown;
+      up += e.kind == EventKind::kLiftoff;
+    }
+    EXPECT_EQ(down, 5);
+    EXPECT_EQ(up, down);
+  }
+}
+
+// Where a leg lands does not depend on whether its torque bends it.
+TEST(TorqueBending, LeavesTheFootWhereItLands) {
+  SimulationRequest q = ExcitedRequest(Law::kElastica);
+  q.parameters.kp = 5.0;
+  q.parameters.v_des = q.initial[2] + 1.0;
+  q.parameters.theta_td = Degrees(25.0);
+  q.initial = {0.0, 0.3, 1.1, -0.1};
+  const std::array effects = {Setting("torque_bending", 1.0)};
+  q.effects = effects;
+  const Trajectory whole = Simulate(q);
+  const Event* down = Find(whole, EventKind::kTouchdown);
+  ASSERT_TRUE(down);
+  q.horizon = down->time + 1e-9;
+  const Trajectory landed = Simulate(q);
+  const double x = q.initial[0] + q.initial[2] * down->time;
+  const double theta = q.parameters.theta_td, r = q.parameters.r;
+  ASSERT_FALSE(landed.final_state.empty());
+  EXPECT_NEAR(landed.final_state[kContact],
+              x + r * std::sin(theta) - r * (std::numbers::pi - theta), 1e-8);
 }
 
 // M64 is its limit: the lighter the foot, the sooner it is away once the chord leaves the cone.
