@@ -6,6 +6,7 @@
 #include "base/range.h"
 #include "datasets/dataset.h"
 #include "datasets/mechanism_spec.h"
+#include "datasets/read_mechanism.h"
 #include "datasets/yaml_cursor.h"
 
 namespace hoplab {
@@ -13,12 +14,6 @@ namespace hoplab {
 // The blocks that datasets and scenarios share. Each throws InputError for a missing, unknown or
 // misspelt key, a value of the wrong type or outside its range.
 
-/// "c_leg", "straight_leg", "ball".
-const char* MechanismTypeName(MechanismType type);
-/// "zero_force", "rest_length".
-const char* LiftoffName(LiftoffSpec rule);
-
-MechanismSpec ReadMechanism(const YamlCursor& cursor);
 ControllerSpec ReadController(const YamlCursor& cursor);
 /// All four components.
 StateSpec ReadState(const YamlCursor& cursor);
@@ -38,12 +33,6 @@ std::vector<ChannelSpec> ReadChannels(const YamlCursor& cursor);
 TrialRole ReadRole(const YamlCursor& cursor);
 /// Throws unless `format` of `root` is `expected`; says what to do with the other one of the two.
 void CheckFormat(const YamlCursor& root, const std::string& expected);
-
-/// The mechanism of a trial: `base`, read from `base_node`, with the values under `mechanism` of
-/// `item` over it. One way of giving the section replaces the other. Throws if the trial changes
-/// the type.
-MechanismSpec ReadTrialMechanism(const YamlCursor& item, const YamlNode& base_node,
-                                 const MechanismSpec& base);
 
 /// Runs `read` on the value under `key` of `owner`, the value under the same key of `defaults` (may
 /// be null) beneath it; nothing where neither has it or the owner's is null.

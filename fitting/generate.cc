@@ -157,137 +157,188 @@ SimulationRequest RequestOfScenario(const Scenario& scenario,
   return request;
 }
 
-GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions& options) {
-  if (scenario.start_angle_rad)
-    throw InputError({scenario.origin.place, "start_angle_deg",
-                      "cannot go into a dataset, whose trials land at one angle each",
-                      "Leave it out, or look at the run with simulate."});
+namespace {
+
+// What every trial of a dataset shares.
+struct Recording {
+  const Scenario& scenario;
+  const GenerateOptions& options;
+  Law law;
+  std::vector<DrivenInput> inputs;
+  std::vector<EffectSetting> effects;
+  std::vector<ChannelSpec> channels;
+  std::vector<Channel> wanted;
+  std::vector<double> times;
+
+  RandomStream Stream(std::size_t trial, std::size_t purpose) const {
+    return RandomStream(options.seed, 1000 * (trial + 1) + purpose);
+  }
+};
+
+Recording RecordingOf(const Scenario& scenario, const GenerateOptions& options,
+                      const std::vector<GenerateTrial>& trials) {
   const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
-  const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
-  const std::vector<GenerateTrial> trials = TrialsOfScenario(scenario);
+  Recording r{.scenario = scenario,
+              .options = options,
+              .law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place)};
   const bool any_toe_mass = std::any_of(
       trials.begin(), trials.end(),
       [](const GenerateTrial& trial) { return LegMassOfSpec(trial.mechanism) == LegMass::kAtToe; });
-  const std::vector<DrivenInput> inputs = DrivenInputsOf(scenario);
-  const std::vector<EffectSetting> effects =
-      ResolveEffects(scenario.effects, law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone,
-                     KindsOf(inputs), RobotLegsOfSpec(scenario.mechanism));
-  const std::vector<ChannelSpec> channels = ChannelsOf(scenario, options);
+  r.inputs = DrivenInputsOf(scenario);
+  r.effects =
+      ResolveEffects(scenario.effects, r.law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone,
+                     KindsOf(r.inputs), RobotLegsOfSpec(scenario.mechanism));
+  r.channels = ChannelsOf(scenario, options);
+  for (const ChannelSpec& c : r.channels) r.wanted.push_back(ChannelOfSpec(c.id));
   const double horizon = HorizonOf(scenario);
   const double rate =
       scenario.dataset ? scenario.dataset->sample_rate_hz.value_or(kDefaultRate) : kDefaultRate;
+  for (long row = 0; static_cast<double>(row) / rate <= horizon * (1.0 + 1e-12); ++row)
+    r.times.push_back(static_cast<double>(row) / rate);
+  return r;
+}
 
-  GeneratedDataset out;
-  Dataset& dataset = out.dataset;
+// A dataset without trials.
+Dataset HeadOf(const Recording& r) {
+  const Scenario& scenario = r.scenario;
+  Dataset dataset;
   dataset.name =
       scenario.dataset && scenario.dataset->name ? *scenario.dataset->name : scenario.name;
   dataset.title = scenario.dataset && scenario.dataset->title
                       ? *scenario.dataset->title
                       : "Generated from the scenario " + scenario.name;
   dataset.source = {SourceKind::kSimulated, "hoplab generate", "",
-                    "law " + std::string(NameOf(law)) + ", seed " + std::to_string(options.seed) +
-                        ", integrator " + std::string(NameOf(options.integrator.kind))};
+                    "law " + std::string(NameOf(r.law)) + ", seed " +
+                        std::to_string(r.options.seed) + ", integrator " +
+                        std::string(NameOf(r.options.integrator.kind))};
   dataset.mechanism = scenario.mechanism;
   dataset.controller = scenario.controller;
-  dataset.channels = channels;
+  dataset.channels = r.channels;
   dataset.inputs = WrittenInputs(scenario);
+  return dataset;
+}
 
-  std::vector<Channel> wanted;
-  for (const ChannelSpec& c : channels) wanted.push_back(ChannelOfSpec(c.id));
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    const GenerateTrial& plan = trials[i];
-    const StateSpec truth = plan.initial ? *plan.initial : RequireInitial(scenario);
-    std::vector<double> times;
-    for (long row = 0; static_cast<double>(row) / rate <= horizon * (1.0 + 1e-12); ++row)
-      times.push_back(static_cast<double>(row) / rate);
+Trajectory RunOf(const Recording& r, const GenerateTrial& plan, const StateSpec& truth) {
+  SimulationRequest request;
+  request.law = r.law;
+  CheckVariant(plan.mechanism.variant, r.law, r.scenario.origin.place);
+  request.liftoff = LiftoffOfSpec(plan.mechanism);
+  request.parameters = ParametersOfSpec(plan.mechanism, plan.controller, plan.touchdown_angle_rad);
+  request.effects = r.effects;
+  request.initial = InitialOf(truth);
+  request.start_mode = ModeOfSpec(truth.mode, plan.mechanism.type);
+  request.touchdown_angles = plan.touchdown_angles_rad;
+  request.inputs = r.inputs;
+  request.horizon = HorizonOf(r.scenario);
+  request.max_hops = r.scenario.stop.hops.value_or(0);
+  request.row_times = r.times;
+  request.channels = r.wanted;
+  request.integrator = r.options.integrator;
+  Trajectory run = Simulate(request);
+  CheckAngleEach(plan.touchdown_angles_rad, run, r.scenario.origin.place, plan.file);
+  return run;
+}
 
-    SimulationRequest request;
-    request.law = law;
-    CheckVariant(plan.mechanism.variant, law, scenario.origin.place);
-    request.liftoff = LiftoffOfSpec(plan.mechanism);
-    request.parameters =
-        ParametersOfSpec(plan.mechanism, plan.controller, plan.touchdown_angle_rad);
-    request.effects = effects;
-    request.initial = InitialOf(truth);
-    request.start_mode = ModeOfSpec(truth.mode, plan.mechanism.type);
-    request.touchdown_angles = plan.touchdown_angles_rad;
-    request.inputs = inputs;
-    request.horizon = horizon;
-    request.max_hops = scenario.stop.hops.value_or(0);
-    request.row_times = times;
-    request.channels = wanted;
-    request.integrator = options.integrator;
-    const Trajectory run = Simulate(request);
-    CheckAngleEach(plan.touchdown_angles_rad, run, scenario.origin.place, plan.file);
-
-    std::size_t rows = 0;
-    while (rows < times.size() && times[rows] <= run.end_time &&
-           std::isfinite(run.samples[rows * wanted.size()]))
-      ++rows;
-    if (rows < 2) {
-      throw InputError({scenario.origin.place, plan.file,
-                        "cannot be generated: the simulation " +
-                            std::string(SentenceOf(run.outcome)) + " at " +
-                            FormatDouble(run.end_time) + " s",
-                        "Start higher, or check touchdown_angle_deg and the leg's values."});
-    }
-    if (!IsComplete(run.outcome)) {
-      out.notes.push_back(plan.file + ": " + std::string(SentenceOf(run.outcome)) + " at " +
-                          FormatDouble(run.end_time) + " s; " + std::to_string(rows) + " of " +
-                          std::to_string(times.size()) + " rows written");
-    }
-
-    Trial trial;
-    trial.file = plan.file;
-    trial.role = plan.role;
-    trial.touchdown_angle_rad = plan.touchdown_angle_rad;
-    trial.touchdown_angles_rad = plan.touchdown_angles_rad;
-    if (scenario.dataset && scenario.dataset->touchdown_angle_sigma_rad)
-      MisstateAngles(*scenario.dataset->touchdown_angle_sigma_rad, run,
-                     RandomStream(options.seed, 1000 * (i + 1) + 998), trial);
-    trial.inputs = dataset.inputs;
-    trial.mechanism = plan.mechanism;
-    trial.controller = plan.controller;
-    trial.trace.time_s.assign(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(rows));
-    // One stream a trial and channel: leaving one out does not change the others.
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-      RandomStream random(options.seed, 1000 * (i + 1) + c);
-      TraceColumn column{ChannelName(channels[c].id), {}};
-      const bool noisy = !IsContact(channels[c].id);
-      for (std::size_t row = 0; row < rows; ++row) {
-        const double value = run.samples[row * wanted.size() + c];
-        column.values.push_back(noisy ? value + *channels[c].sigma * random.Normal() : value);
-      }
-      trial.trace.columns.push_back(std::move(column));
-    }
-    WriteInputs(scenario, inputs, RandomStream(options.seed, 1000 * (i + 1) + 997), trial);
-    trial.initial = truth;
-    if (scenario.dataset && scenario.dataset->initial_sigma) {
-      RandomStream random(options.seed, 1000 * (i + 1) + 999);
-      Eigen::Vector4d stated = StateOfSpec(truth);
-      const StateSpec& known = *scenario.dataset->initial_sigma;
-      const Eigen::Vector4d sigma = StateOfSpec(known);
-      for (int k = 0; k < 4; ++k) {
-        const double draw = random.Normal();
-        if (std::isfinite(sigma[k])) stated[k] += sigma[k] * draw;
-      }
-      trial.initial = SpecOfState(stated);
-      trial.initial->mode = truth.mode;
-      trial.initial->pitch_rad = truth.pitch_rad;
-      trial.initial->pitch_rate_rad_per_s = truth.pitch_rate_rad_per_s;
-      if (known.pitch_rad)
-        trial.initial->pitch_rad =
-            truth.pitch_rad.value_or(0.0) + *known.pitch_rad * random.Normal();
-      if (known.pitch_rate_rad_per_s)
-        trial.initial->pitch_rate_rad_per_s = truth.pitch_rate_rad_per_s.value_or(0.0) +
-                                              *known.pitch_rate_rad_per_s * random.Normal();
-      trial.initial->contact_x_m = truth.contact_x_m;
-      if (truth.contact_x_m && known.contact_x_m)
-        *trial.initial->contact_x_m += *known.contact_x_m * random.Normal();
-      trial.initial_sigma = scenario.dataset->initial_sigma;
-    }
-    dataset.trials.push_back(std::move(trial));
+// How many rows the run has; a note where it ends before its time.
+std::size_t RowsOf(const Recording& r, const GenerateTrial& plan, const Trajectory& run,
+                   std::vector<std::string>& notes) {
+  std::size_t rows = 0;
+  while (rows < r.times.size() && r.times[rows] <= run.end_time &&
+         std::isfinite(run.samples[rows * r.wanted.size()]))
+    ++rows;
+  const std::string end =
+      std::string(SentenceOf(run.outcome)) + " at " + FormatDouble(run.end_time) + " s";
+  if (rows < 2) {
+    throw InputError({r.scenario.origin.place, plan.file,
+                      "cannot be generated: the simulation " + end,
+                      "Start higher, or check touchdown_angle_deg and the leg's values."});
   }
+  if (!IsComplete(run.outcome))
+    notes.push_back(plan.file + ": " + end + "; " + std::to_string(rows) + " of " +
+                    std::to_string(r.times.size()) + " rows written");
+  return rows;
+}
+
+// One stream a trial and channel: leaving one out does not change the others.
+std::vector<TraceColumn> NoisyColumns(const Recording& r, const Trajectory& run, std::size_t rows,
+                                      std::size_t trial) {
+  std::vector<TraceColumn> columns;
+  for (std::size_t c = 0; c < r.channels.size(); ++c) {
+    RandomStream random = r.Stream(trial, c);
+    TraceColumn column{ChannelName(r.channels[c].id), {}};
+    const bool noisy = !IsContact(r.channels[c].id);
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double value = run.samples[row * r.wanted.size() + c];
+      column.values.push_back(noisy ? value + *r.channels[c].sigma * random.Normal() : value);
+    }
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+// The start as it is stated where it is known within `known`.
+StateSpec StatedStart(const StateSpec& truth, const StateSpec& known, RandomStream random) {
+  Eigen::Vector4d stated = StateOfSpec(truth);
+  const Eigen::Vector4d sigma = StateOfSpec(known);
+  for (int k = 0; k < 4; ++k) {
+    const double draw = random.Normal();
+    if (std::isfinite(sigma[k])) stated[k] += sigma[k] * draw;
+  }
+  StateSpec start = SpecOfState(stated);
+  start.mode = truth.mode;
+  start.pitch_rad = truth.pitch_rad;
+  start.pitch_rate_rad_per_s = truth.pitch_rate_rad_per_s;
+  if (known.pitch_rad)
+    start.pitch_rad = truth.pitch_rad.value_or(0.0) + *known.pitch_rad * random.Normal();
+  if (known.pitch_rate_rad_per_s)
+    start.pitch_rate_rad_per_s =
+        truth.pitch_rate_rad_per_s.value_or(0.0) + *known.pitch_rate_rad_per_s * random.Normal();
+  start.contact_x_m = truth.contact_x_m;
+  if (truth.contact_x_m && known.contact_x_m)
+    *start.contact_x_m += *known.contact_x_m * random.Normal();
+  return start;
+}
+
+Trial RecordTrial(const Recording& r, const GenerateTrial& plan, std::size_t i,
+                  std::vector<std::string>& notes) {
+  const Scenario& scenario = r.scenario;
+  const StateSpec truth = plan.initial ? *plan.initial : RequireInitial(scenario);
+  const Trajectory run = RunOf(r, plan, truth);
+  const std::size_t rows = RowsOf(r, plan, run, notes);
+  Trial trial;
+  trial.file = plan.file;
+  trial.role = plan.role;
+  trial.touchdown_angle_rad = plan.touchdown_angle_rad;
+  trial.touchdown_angles_rad = plan.touchdown_angles_rad;
+  if (scenario.dataset && scenario.dataset->touchdown_angle_sigma_rad)
+    MisstateAngles(*scenario.dataset->touchdown_angle_sigma_rad, run, r.Stream(i, 998), trial);
+  trial.inputs = WrittenInputs(scenario);
+  trial.mechanism = plan.mechanism;
+  trial.controller = plan.controller;
+  trial.trace.time_s.assign(r.times.begin(), r.times.begin() + static_cast<std::ptrdiff_t>(rows));
+  trial.trace.columns = NoisyColumns(r, run, rows, i);
+  WriteInputs(scenario, r.inputs, r.Stream(i, 997), trial);
+  trial.initial = truth;
+  if (scenario.dataset && scenario.dataset->initial_sigma) {
+    trial.initial = StatedStart(truth, *scenario.dataset->initial_sigma, r.Stream(i, 999));
+    trial.initial_sigma = scenario.dataset->initial_sigma;
+  }
+  return trial;
+}
+
+}  // namespace
+
+GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions& options) {
+  if (scenario.start_angle_rad)
+    throw InputError({scenario.origin.place, "start_angle_deg",
+                      "cannot go into a dataset, whose trials land at one angle each",
+                      "Leave it out, or look at the run with simulate."});
+  const std::vector<GenerateTrial> trials = TrialsOfScenario(scenario);
+  const Recording recording = RecordingOf(scenario, options, trials);
+  GeneratedDataset out;
+  out.dataset = HeadOf(recording);
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    out.dataset.trials.push_back(RecordTrial(recording, trials[i], i, out.notes));
   return out;
 }
 

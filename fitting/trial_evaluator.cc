@@ -158,6 +158,19 @@ void TrialEvaluator::Simulate(const EvaluationRequest& request, const Integrator
   hoplab::Simulate(sim, out);
 }
 
+namespace {
+
+// The loss on the first `rows` residuals.
+void ApplyLossTo(int rows, const EvaluationRequest& request, TrialEvaluation& out) {
+  if (request.loss.kind == LossKind::kSquared) return;
+  for (int i = 0; i < rows; ++i) {
+    const double slope = ApplyLoss(request.loss, out.residuals[i]);
+    if (request.want_jacobian) out.jacobian.row(i) *= slope;
+  }
+}
+
+}  // namespace
+
 void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation& out) const {
   Trajectory& trajectory = out.trajectory;
   Simulate(request, problem_->integrator, trajectory);
@@ -212,13 +225,7 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
   out.white_square = out.residuals.head(next).squaredNorm();
   out.half_log_determinant = 0.0;
   if (request.whiten && !problem_->noise.IsWhite()) Whiten(out, request.want_jacobian);
-  if (request.loss.kind != LossKind::kSquared) {
-    for (int i = 0; i < next; ++i) {
-      const double slope = ApplyLoss(request.loss, out.residuals[i]);
-      if (request.want_jacobian) out.jacobian.row(i) *= slope;
-    }
-  }
-
+  ApplyLossTo(next, request, out);
   AddPriors(request, next, out);
   out.complete = out.evaluated && complete;
 }

@@ -71,6 +71,126 @@ bool AtBound(double value, const SharedParameter& s) {
   return value <= s.lower + near || value >= s.upper - near;
 }
 
+// What the trials together know of the values that are not at a bound, the `active` ones.
+struct Known {
+  std::vector<int> active;
+  std::vector<Reduced> reduced;
+  std::vector<EliminatedTrial> parts;  // of those that reach their data
+  long samples = 0, free_own = 0, priors = 0;
+  double chi2 = 0.0;
+};
+
+Known Gather(const FitProblem& problem, const std::vector<TrialProblem>& trials,
+             const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts, const Loss& loss,
+             int jobs) {
+  Known known;
+  std::vector<KeptColumn> columns;
+  for (int k = 0; k < problem.shared_count(); ++k) {
+    if (AtBound(shared[k], problem.shared[k])) continue;
+    known.active.push_back(k);
+    columns.push_back({k, problem.shared[k].scale});
+  }
+  std::vector<Reduced>& reduced = known.reduced;
+  reduced.resize(trials.size());
+  ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
+    reduced[i] = ReduceTrial(problem, trials[i], shared, starts[i], loss, columns);
+  });
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    known.samples += reduced[i].samples;
+    known.chi2 += reduced[i].chi2;
+    if (reduced[i].samples == 0) continue;
+    known.parts.push_back(reduced[i].trial);
+    for (const OwnParameter& o : trials[i].own) {
+      known.free_own += o.free;
+      known.priors += std::isfinite(o.prior_sigma);
+    }
+  }
+  return known;
+}
+
+// Of m values, from the singular values and vectors of what is known of them.
+void FindWeakDirections(const Eigen::VectorXd& sv, const Eigen::MatrixXd& V,
+                        const std::vector<int>& active, int count, Identifiability& id) {
+  const int m = static_cast<int>(active.size());
+  for (int j = 0; j < m; ++j) id.rank += sv[j] > kRankTolerance * sv[0] && sv[j] > 0.0;
+  id.condition_number = id.rank == m ? sv[0] / sv[m - 1] : std::numeric_limits<double>::infinity();
+  for (int j = m - 1; j >= 0; --j) {
+    const bool unseen = j >= id.rank;
+    if (!unseen && 1.0 / sv[j] <= kWeakStdError) break;
+    WeakDirection weak{unseen ? 0.0 : sv[j] * sv[j], std::vector<double>(count, 0.0)};
+    // The sign is arbitrary: the largest loading is positive.
+    Eigen::Index largest = 0;
+    V.col(j).cwiseAbs().maxCoeff(&largest);
+    const double sign = V(largest, j) < 0.0 ? -1.0 : 1.0;
+    for (int k = 0; k < m; ++k) weak.loadings[active[k]] = sign * V(k, j);
+    id.weak_directions.push_back(std::move(weak));
+  }
+}
+
+// Covariances of the active values, over their scales.
+struct Covariances {
+  Eigen::MatrixXd C;       // of white noise, of the determined part
+  Eigen::MatrixXd spread;  // of all noise
+  Eigen::MatrixXd between;
+  Eigen::VectorXd unseen_share;  // of a value, in directions that nothing determines
+};
+
+Covariances CovariancesOf(const Known& known, const Eigen::VectorXd& sv, const Eigen::MatrixXd& V,
+                          int rank) {
+  const int m = static_cast<int>(known.active.size());
+  Covariances out;
+  // Of the determined part; a value with a share in an unseen direction has none.
+  Eigen::MatrixXd& C = out.C = Eigen::MatrixXd::Zero(m, m);
+  for (int j = 0; j < rank; ++j) C += V.col(j) * V.col(j).transpose() / (sv[j] * sv[j]);
+  out.unseen_share = Eigen::VectorXd::Zero(m);
+  for (int j = rank; j < m; ++j) out.unseen_share += V.col(j).cwiseAbs2();
+
+  // The values are those of least squares; a discrepancy of covariance K beside the white noise
+  // spreads them by C S'(I + K) S C instead of C = (S'S)^-1.
+  out.spread = C;
+  for (const Reduced& r : known.reduced) {
+    if (r.smooth.size() > 0) out.spread += C * r.smooth * C;
+  }
+
+  // Between trials: C (sum of trial scores squared) C, the scores being what each trial pulls.
+  Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(m, m);
+  for (const EliminatedTrial& trial : known.parts) {
+    const Eigen::VectorXd score = trial.columns.transpose() * trial.residuals;
+    pull += score * score.transpose();
+  }
+  const double groups = static_cast<double>(known.parts.size());
+  out.between = groups / std::max(groups - 1.0, 1.0) * C * pull * C;
+  return out;
+}
+
+void FillIn(const FitProblem& problem, const Eigen::VectorXd& shared, const Known& known,
+            const Covariances& c, Uncertainty& out) {
+  const std::vector<int>& active = known.active;
+  const int m = static_cast<int>(active.size());
+  const double groups = static_cast<double>(known.parts.size());
+  for (int a = 0; a < m; ++a) {
+    if (c.unseen_share[a] > 1e-10) continue;
+    const SharedParameter& s = problem.shared[active[a]];
+    ParameterUncertainty& p = out.parameters[active[a]];
+    const double value = shared[active[a]];
+    p.std_error = s.scale * std::sqrt(c.spread(a, a));
+    p.inflation = c.spread(a, a) / c.C(a, a);
+    p.ci95 = CutInterval(value, kNormal975 * *p.std_error, s);
+    if (known.parts.size() >= 3) {
+      p.std_error_between_trials = s.scale * std::sqrt(c.between(a, a));
+      const double t = boost::math::quantile(boost::math::students_t(groups - 1.0), 0.975);
+      p.ci95_between_trials = CutInterval(value, t * *p.std_error_between_trials, s);
+    }
+    for (int b = 0; b < m; ++b) {
+      if (c.unseen_share[b] > 1e-10) continue;
+      const double scale = s.scale * problem.shared[active[b]].scale;
+      out.covariance(active[a], active[b]) = c.spread(a, b) * scale;
+      out.correlation(active[a], active[b]) =
+          c.spread(a, b) / std::sqrt(c.spread(a, a) * c.spread(b, b));
+    }
+  }
+}
+
 }  // namespace
 
 Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<TrialProblem>& trials,
@@ -81,41 +201,17 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
   out.parameters.resize(n);
   // Values on a bound are taken as given; what the rest would do if they moved is a question for
   // the profile.
-  std::vector<int> active;
-  std::vector<KeptColumn> columns;
-  for (int k = 0; k < n; ++k) {
-    out.parameters[k].at_bound = AtBound(shared[k], problem.shared[k]);
-    if (out.parameters[k].at_bound) continue;
-    active.push_back(k);
-    columns.push_back({k, problem.shared[k].scale});
-  }
-  const int m = static_cast<int>(active.size());
-
-  std::vector<Reduced> reduced(trials.size());
-  ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
-    reduced[i] = ReduceTrial(problem, trials[i], shared, starts[i], loss, columns);
-  });
-  long samples = 0, free_own = 0, priors = 0, used = 0;
-  double chi2 = 0.0;
-  std::vector<EliminatedTrial> parts;
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    samples += reduced[i].samples;
-    chi2 += reduced[i].chi2;
-    if (reduced[i].samples == 0) continue;
-    ++used;
-    parts.push_back(reduced[i].trial);
-    for (const OwnParameter& o : trials[i].own) {
-      free_own += o.free;
-      priors += std::isfinite(o.prior_sigma);
-    }
-  }
-
-  const double dof = std::max<double>(static_cast<double>(samples + priors - free_own - m), 1.0);
-  out.chi2_per_dof = chi2 / dof;
-  out.chi2_p_value = boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), chi2));
+  for (int k = 0; k < n; ++k) out.parameters[k].at_bound = AtBound(shared[k], problem.shared[k]);
+  const Known known = Gather(problem, trials, shared, starts, loss, jobs);
+  const int m = static_cast<int>(known.active.size());
+  const double dof =
+      std::max<double>(static_cast<double>(known.samples + known.priors - known.free_own - m), 1.0);
+  out.chi2_per_dof = known.chi2 / dof;
+  out.chi2_p_value =
+      boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), known.chi2));
   out.misfit = out.chi2_p_value < 1e-3;
 
-  const EliminatedTrial all = Stacked(parts);
+  const EliminatedTrial all = Stacked(known.parts);
   const Eigen::MatrixXd& S = all.columns;
   out.covariance = Eigen::MatrixXd::Constant(n, n, kNaN);
   out.correlation = Eigen::MatrixXd::Constant(n, n, kNaN);
@@ -124,65 +220,9 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
   const Eigen::MatrixXd R =
       Eigen::HouseholderQR<Eigen::MatrixXd>(S).matrixQR().topRows(m).triangularView<Eigen::Upper>();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(R, Eigen::ComputeFullV);
-  const Eigen::VectorXd& sv = svd.singularValues();
-  const Eigen::MatrixXd& V = svd.matrixV();
-  Identifiability& id = out.identifiability;
-  for (int j = 0; j < m; ++j) id.rank += sv[j] > kRankTolerance * sv[0] && sv[j] > 0.0;
-  id.condition_number = id.rank == m ? sv[0] / sv[m - 1] : std::numeric_limits<double>::infinity();
-  for (int j = m - 1; j >= 0; --j) {
-    const bool unseen = j >= id.rank;
-    if (!unseen && 1.0 / sv[j] <= kWeakStdError) break;
-    WeakDirection weak{unseen ? 0.0 : sv[j] * sv[j], std::vector<double>(n, 0.0)};
-    // The sign is arbitrary: the largest loading is positive.
-    Eigen::Index largest = 0;
-    V.col(j).cwiseAbs().maxCoeff(&largest);
-    const double sign = V(largest, j) < 0.0 ? -1.0 : 1.0;
-    for (int k = 0; k < m; ++k) weak.loadings[active[k]] = sign * V(k, j);
-    id.weak_directions.push_back(std::move(weak));
-  }
-
-  // Covariance of the determined part; a value with a share in an unseen direction has none.
-  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(m, m);
-  for (int j = 0; j < id.rank; ++j) C += V.col(j) * V.col(j).transpose() / (sv[j] * sv[j]);
-  Eigen::VectorXd unseen_share = Eigen::VectorXd::Zero(m);
-  for (int j = id.rank; j < m; ++j) unseen_share += V.col(j).cwiseAbs2();
-
-  // The values are those of least squares; a discrepancy of covariance K beside the white noise
-  // spreads them by C S'(I + K) S C instead of C = (S'S)^-1.
-  Eigen::MatrixXd spread = C;
-  for (const Reduced& r : reduced) {
-    if (r.smooth.size() > 0) spread += C * r.smooth * C;
-  }
-
-  // Between trials: C (sum of trial scores squared) C, the scores being what each trial pulls.
-  Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(m, m);
-  for (const EliminatedTrial& trial : parts) {
-    const Eigen::VectorXd score = trial.columns.transpose() * trial.residuals;
-    pull += score * score.transpose();
-  }
-  const double groups = static_cast<double>(used);
-  const Eigen::MatrixXd between = groups / std::max(groups - 1.0, 1.0) * C * pull * C;
-
-  for (int a = 0; a < m; ++a) {
-    if (unseen_share[a] > 1e-10) continue;
-    const SharedParameter& s = problem.shared[active[a]];
-    ParameterUncertainty& p = out.parameters[active[a]];
-    const double value = shared[active[a]];
-    p.std_error = s.scale * std::sqrt(spread(a, a));
-    p.inflation = spread(a, a) / C(a, a);
-    p.ci95 = CutInterval(value, kNormal975 * *p.std_error, s);
-    if (used >= 3) {
-      p.std_error_between_trials = s.scale * std::sqrt(between(a, a));
-      const double t = boost::math::quantile(boost::math::students_t(groups - 1.0), 0.975);
-      p.ci95_between_trials = CutInterval(value, t * *p.std_error_between_trials, s);
-    }
-    for (int b = 0; b < m; ++b) {
-      if (unseen_share[b] > 1e-10) continue;
-      const double scale = s.scale * problem.shared[active[b]].scale;
-      out.covariance(active[a], active[b]) = spread(a, b) * scale;
-      out.correlation(active[a], active[b]) = spread(a, b) / std::sqrt(spread(a, a) * spread(b, b));
-    }
-  }
+  FindWeakDirections(svd.singularValues(), svd.matrixV(), known.active, n, out.identifiability);
+  FillIn(problem, shared, known,
+         CovariancesOf(known, svd.singularValues(), svd.matrixV(), out.identifiability.rank), out);
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "fitting/diagnosis/null_fit.h"
 #include "fitting/discovery/free_curve.h"
 #include "fitting/discovery/freed.h"
+#include "fitting/discovery/judge.h"
 #include "fitting/discovery/promising.h"
 #include "fitting/discovery/stability.h"
 
@@ -43,7 +44,7 @@ class Search {
     Stage("measuring on held-out trials");
     out_.base.before = MeasureHeldOut(out_.base.null, options_.fit.jobs);
     if (!out_.naming.best.members.empty()) Describe(library);
-    Judge();
+    Judge(out_);
     const ProbeBasis basis = ProbesOf(out_.base.problem.law);
     out_.free_forces =
         Reconstruct(LineariseAt(out_.base.plain, basis.probes, train, options_.fit.jobs), basis,
@@ -286,38 +287,6 @@ class Search {
     found.exponent = exponent;
   }
 
-  // ---- verdict
-
-  void Judge() {
-    out_.verdict = DiscoveryVerdict::kNothingStable;
-    if (out_.found.empty()) {
-      out_.reason = "something is missing, and no formula of the library pays for itself";
-      return;
-    }
-    const FoundTerm& first = out_.found.front();
-    if (first.selected_in && *first.selected_in < kStable) {
-      out_.reason = "the best formula is picked in " +
-                    FormatDouble(std::round(100.0 * *first.selected_in)) +
-                    " % of the resamples of the trials only";
-      return;
-    }
-    if (out_.gain.ci95 && out_.gain.ci95->second < 0.0) {
-      out_.reason = "the best formula makes held-out trials worse";
-      return;
-    }
-    if (!first.selected_in && !out_.gain.IsClaim()) {
-      out_.reason =
-          "with one fitted trial, and held-out ones that do not confirm it, nothing says whether "
-          "another would show the same";
-      return;
-    }
-    out_.verdict = DiscoveryVerdict::kFound;
-    out_.reason = first.selected_in
-                      ? "picked in " + FormatDouble(std::round(100.0 * *first.selected_in)) +
-                            " % of the resamples of the trials"
-                      : "of one fitted trial, and held-out trials confirm it";
-  }
-
   const DiagnosisOptions& options_;
   Discovery& out_;
   const std::vector<TrialProblem>* train_ = nullptr;
@@ -327,18 +296,6 @@ class Search {
 };
 
 }  // namespace
-
-std::string_view NameOf(DiscoveryVerdict verdict) {
-  switch (verdict) {
-    case DiscoveryVerdict::kFound:
-      return "found";
-    case DiscoveryVerdict::kNothingStable:
-      return "nothing_stable";
-    case DiscoveryVerdict::kNotNeeded:
-      return "not_needed";
-  }
-  return "";
-}
 
 Discovery DiscoverFrom(const Diagnosis& base, const DiagnosisOptions& options) {
   const auto stopped = [&] { return options.fit.stop && *options.fit.stop; };

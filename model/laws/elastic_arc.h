@@ -146,11 +146,55 @@ class ElasticArc {
 
  private:
   struct Equilibrium {
-    double phi, sin, cos;   // the arc; sine and cosine of its half
-    ShapeValue b, a, s, g;  // shape functions there
-    double F, F_phi;        // elastic force and its slope at fixed (u0, y)
-    double R, R_phi;        // residual of M10 and its slope
+    double phi, sin, cos;       // the arc; sine and cosine of its half
+    ShapeValue b, a, s, g;      // shape functions there
+    double F, F_phi;            // elastic force and its slope at fixed (u0, y)
+    double R, R_phi;            // residual of M10 and its slope
+    double slope_F, dF_ddelta;  // dR/dF, dF/d(delta)
   };
+  // The contact from the hip at an arc, the chord between them and the lead over it.
+  struct Chord {
+    double u, l, lead;
+  };
+
+  // Fills in all of `e` at the arc e.phi.
+  void At(const Chord& c, double y, Equilibrium& e) const {
+    const double r = Value(r_);
+    const HalfAngle h(e.phi);
+    e.sin = h.sin;
+    e.cos = h.cos;
+    e.b = BendingShape(h);
+    e.a = AxialShape(h);
+    e.s = ShearShape(h);
+    const double l = c.l, lead = c.lead;
+    const double delta = 2.0 * r * h.sin - l;
+    const double delta_phi = r * (h.cos - lead);
+    const double C = Value(compliance_.bending) * e.b.value + Value(compliance_.axial) * e.a.value +
+                     Value(compliance_.shear) * e.s.value;
+    const double C1 = Value(compliance_.bending) * e.b.d1 + Value(compliance_.axial) * e.a.d1 +
+                      Value(compliance_.shear) * e.s.d1;
+    const double C2nd = Value(compliance_.bending) * e.b.d2 + Value(compliance_.axial) * e.a.d2 +
+                        Value(compliance_.shear) * e.s.d2;
+    if constexpr (kSecondOrder) {
+      e.g = SecondOrderShape(h);
+      const double c2 = Value(compliance_.second_order);
+      const double root = std::sqrt(C * C + 4.0 * c2 * e.g.value * delta);
+      e.F = 2.0 * delta / (C + root);
+      e.dF_ddelta = 1.0 / root;
+      e.F_phi = (delta_phi - e.F * C1 - e.F * e.F * c2 * e.g.d1) / root;
+      e.R = lead - h.cos + e.F * (0.5 * C1 + e.F * c2 * e.g.d1 / 3.0) / r;
+      e.slope_F = (0.5 * C1 + 2.0 / 3.0 * e.F * c2 * e.g.d1) / r;
+      e.R_phi = r * y * y / (l * l * l) + 0.5 * h.sin + e.slope_F * e.F_phi +
+                e.F * (0.5 * C2nd + e.F * c2 * e.g.d2 / 3.0) / r;
+    } else {
+      e.F = delta / C;
+      e.dF_ddelta = 1.0 / C;
+      e.F_phi = (delta_phi - e.F * C1) / C;
+      e.R = lead - h.cos + 0.5 * e.F * C1 / r;
+      e.slope_F = 0.5 * C1 / r;
+      e.R_phi = r * y * y / (l * l * l) + 0.5 * h.sin + e.slope_F * e.F_phi + 0.5 * e.F * C2nd / r;
+    }
+  }
 
   // Newton on M10 for phi, F eliminated by M9. R is close to linear in phi with slope about
   // sin(phi/2), so it needs two or three rounds from a first-order prediction.
@@ -165,53 +209,19 @@ class ElasticArc {
     if (root_.u0 == root_.u0) phi += root_.d_u0 * (u0 - root_.u0) + root_.d_y * (y - root_.y);
     phi = std::fmin(std::fmax(phi, 0.05), 2.0 * std::numbers::pi - 0.05);
     for (int round = 0; round < kMaxRounds; ++round) {
-      const HalfAngle h(phi);
       e.phi = phi;
-      e.sin = h.sin;
-      e.cos = h.cos;
-      e.b = BendingShape(h);
-      e.a = AxialShape(h);
-      e.s = ShearShape(h);
       const double u = u0 + r * phi;
       const double l = std::sqrt(u * u + y * y);
-      const double lead = u / l;
-      const double delta = 2.0 * r * h.sin - l;
-      const double delta_phi = r * (h.cos - lead);
-      const double C = Value(compliance_.bending) * e.b.value +
-                       Value(compliance_.axial) * e.a.value + Value(compliance_.shear) * e.s.value;
-      const double C1 = Value(compliance_.bending) * e.b.d1 + Value(compliance_.axial) * e.a.d1 +
-                        Value(compliance_.shear) * e.s.d1;
-      const double C2nd = Value(compliance_.bending) * e.b.d2 + Value(compliance_.axial) * e.a.d2 +
-                          Value(compliance_.shear) * e.s.d2;
-      double slope_F;  // dR/dF
-      double dF_ddelta;
-      if constexpr (kSecondOrder) {
-        e.g = SecondOrderShape(h);
-        const double c2 = Value(compliance_.second_order);
-        const double root = std::sqrt(C * C + 4.0 * c2 * e.g.value * delta);
-        e.F = 2.0 * delta / (C + root);
-        dF_ddelta = 1.0 / root;
-        e.F_phi = (delta_phi - e.F * C1 - e.F * e.F * c2 * e.g.d1) / root;
-        e.R = lead - h.cos + e.F * (0.5 * C1 + e.F * c2 * e.g.d1 / 3.0) / r;
-        slope_F = (0.5 * C1 + 2.0 / 3.0 * e.F * c2 * e.g.d1) / r;
-        e.R_phi = r * y * y / (l * l * l) + 0.5 * h.sin + slope_F * e.F_phi +
-                  e.F * (0.5 * C2nd + e.F * c2 * e.g.d2 / 3.0) / r;
-      } else {
-        e.F = delta / C;
-        dF_ddelta = 1.0 / C;
-        e.F_phi = (delta_phi - e.F * C1) / C;
-        e.R = lead - h.cos + 0.5 * e.F * C1 / r;
-        slope_F = 0.5 * C1 / r;
-        e.R_phi = r * y * y / (l * l * l) + 0.5 * h.sin + slope_F * e.F_phi + 0.5 * e.F * C2nd / r;
-      }
+      const Chord chord{u, l, u / l};
+      At(chord, y, e);
       double step = -e.R / e.R_phi;
       if (std::abs(step) < kStepTolerance) {
         const double cube = 1.0 / (l * l * l);
         root_.phi = phi + step;
         root_.u0 = u0;
         root_.y = y;
-        root_.d_u0 = -(y * y * cube - slope_F * dF_ddelta * lead) / e.R_phi;
-        root_.d_y = (u * y * cube + slope_F * dF_ddelta * y / l) / e.R_phi;
+        root_.d_u0 = -(y * y * cube - e.slope_F * e.dF_ddelta * chord.lead) / e.R_phi;
+        root_.d_y = (u * y * cube + e.slope_F * e.dF_ddelta * y / l) / e.R_phi;
         return e;
       }
       if (!(std::abs(step) < 0.5)) step = std::copysign(0.5, step);  // also catches NaN

@@ -10,6 +10,14 @@
 
 namespace hoplab {
 
+// Of extended_search.h and extended_statics.h.
+namespace extended {
+template <class T>
+struct Place;
+}
+template <class S>
+struct Statics;
+
 /// The force along the chord at an arc and a chord, with its slopes: where the search for it begins
 /// near by. F is NaN where none is known.
 struct NearForce {
@@ -86,6 +94,8 @@ class ExtendedLeg {
   bool DampsAlongArc() const {
     return law_ == Law::kElastica && p_.law_terms.material_damping_active;
   }
+  void TurnContact(const T* z, const LegConditions<T>& at, const extended::Place<T>& there,
+                   const Statics<Tangent<T>>& along, LegLoad<T>& load) const;
   void AddViscousForce(const T& softer, const T* z, const Tangent<T>& F, LegLoad<T>& load) const;
 
   Parameters<T> p_;

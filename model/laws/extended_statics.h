@@ -149,138 +149,177 @@ struct Statics {
 };
 
 // P: scalar of the parameters, S of the unknowns.
+
 template <class S, class P>
-[[gnu::flatten]] Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque,
-                                      const Situation<S>& at) {
-  using std::sqrt;
-  const LawTerms<P>& terms = p.law_terms;
-  const S &phi = at.phi, &l = at.l;
-  Statics<S> out{.sin = S(P(0.0)),
-                 .cos = S(P(0.0)),
-                 .delta = S(P(0.0)),
-                 .C = S(P(0.0)),
-                 .A2 = S(P(0.0)),
-                 .F = S(P(0.0)),
-                 .soft_F = S(P(0.0)),
-                 .tip_turn = S(P(0.0)),
-                 .beyond = S(P(0.0))};
-  if (law == Law::kStraightLeg) {
-    out.delta = p.l0 - l;
-    out.C = at.softer / p.k;
-    out.soft_F = out.delta / out.C;
-    out.F = out.soft_F * (P(1.0) + terms.hardening / p.l0 * out.delta);
-    return out;
-  }
-  const ArcShapes shapes(Value(phi));
-  const auto lift = [&](const auto& shape, int k) { return Lift(phi, shape.data(), k); };
-  out.sin = lift(shapes.sin, 0);
-  out.cos = lift(shapes.cos, 0);
-  const P flex = 1.0 / (2.0 * p.E * p.I);  // M2: r^3 flex f + r stretch a + r slide s
-  const P stretch = 1.0 / (2.0 * p.E * p.A);
-  const P slide = p.kappa / (2.0 * p.G * p.A);
-  const P& r = p.r;
+void SetStraight(const Parameters<P>& p, const Situation<S>& at, Statics<S>& out) {
+  out.delta = p.l0 - at.l;
+  out.C = at.softer / p.k;
+  out.soft_F = out.delta / out.C;
+  out.F = out.soft_F * (P(1.0) + p.law_terms.hardening / p.l0 * out.delta);
+}
+
+// What the statics of an arc are made of.
+template <class S, class P>
+struct ArcParts {
+  const Parameters<P>& p;
+  const Situation<S>& at;
+  ArcShapes shapes;
+  P flex, stretch, slide;  // M2: r^3 flex f + r stretch a + r slide s
+  S bending1, Cs;          // slopes of the chord's compliance
+  S N, turn;               // M24, M25: the normal force N bends the leg and turns its tip
+  bool is_exact, second_order;
+  P unit;  // M2b, by the law or by the share an effect brings in
+  S softer2, C2s;
+
+  S Lifted(const auto& shape, int k) const { return Lift(at.phi, shape.data(), k); }
   // Chord compliance of an arc of another radius, and its derivative dC/ds at the rest radius.
-  const auto chord = [&](const S& radius, const ArcShapes& of, const S& arc) {
+  S ChordOf(const S& radius, const ArcShapes& of, const S& arc) const {
     const auto shape = [&](const auto& derivatives) { return Lift(arc, derivatives.data(), 0); };
     return at.softer * (radius * radius * radius * (flex * shape(of.bending)) +
                         radius * (stretch * shape(of.axial))) +
            radius * (slide * shape(of.shear));
-  };
-  const S bending1 = at.softer * (r * r * flex * lift(shapes.bending, 1));
-  S Cs = bending1 + at.softer * (stretch * lift(shapes.axial, 1)) + slide * lift(shapes.shear, 1);
-  // M24, M25: the normal force N bends the leg and turns its tip.
-  const S N = terms.torque_bending * torque / l;
-  S turn = N * (at.softer * (0.5 * r * r * flex * lift(shapes.bending, 2)));
-  out.delta = 2.0 * (r * out.sin) - l - r * (N * bending1);
-  // M2b and its slope at the rest radius, by the law or by the share an effect brings in.
-  const bool is_exact = law == Law::kElastica, has_M2b = is_exact || law == Law::kLargeDeflection;
-  const bool second_order = has_M2b || terms.second_order_active;
-  const P share = has_M2b ? P(1.0) : terms.second_order;
-  const P unit = share * (4.0 * r * r * r * r * flex * flex);
-  const S softer2 = at.softer * at.softer;
-  const S C2s = softer2 * (unit * lift(shapes.second_order, 1));
-  if (IsElastic(law)) {
-    out.C = chord(S(r), shapes, phi);
-    // M26: hardening takes from C2.
-    const P hardening = terms.hardening / r;
-    out.A2 = P(-hardening) * (out.C * out.C);
-    S A2s = -2.0 * (hardening * (out.C * Cs));
-    if (second_order) {
-      out.A2 = out.A2 + softer2 * (r * unit * lift(shapes.second_order, 0));
-      A2s = A2s + C2s;
-    }
-    S C = out.C;
-    if (terms.torque_active && second_order) {
-      const SecondOrderAcross<S> next = SecondOrderAcrossAt(phi, out.sin, out.cos);
-      const S of_N = softer2 * (unit * N);
-      out.delta = out.delta + r * (of_N * N * next.chord_NN);
-      C = C - r * (of_N * next.chord_FN);
-      Cs = Cs - 2.0 * (of_N * next.lead_FN);
-      turn = turn - of_N * N * next.lead_NN;
-    }
-    out.F = 2.0 * out.delta / (C + sqrt(C * C + 4.0 * (out.A2 * out.delta)));
-    out.tip_turn = out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + turn - out.cos;
-    if (is_exact || terms.higher_order_active) {
-      // M65: F from the chord, by Newton in values; two rounds more, their slope held, bring the
-      // directions in. Newton's error is squared at each round, so a small step is the last.
-      const P blend = is_exact ? P(1.0 + terms.higher_order) : terms.higher_order;
-      const S unit_f = at.softer * (2.0 * r * r * flex);  // f over F
-      const double phi_now = Value(phi), per_N = Value(unit_f), now = Value(blend) * Value(r);
-      const double least = elastica::kLoadBegin / elastica::LoadScale(phi_now) / per_N;
-      const double most = elastica::kLoadEnd / elastica::LoadScale(phi_now) / per_N;
-      constexpr double kLastStep = 1e-8;  // over the greatest force
-      double F = std::isnan(at.F_near) ? Value(out.F) : at.F_near, slope = 1.0, f = 0.0;
-      elastica::Derivatives<2> G{};
-      for (int round = 0; round < 30; ++round) {
-        F = F < most ? (F > least ? F : least) : most;  // NaN is most
-        f = per_N * F;
-        G = elastica::EnergyTo2(phi_now, f);
-        const double C0 = Value(C) - 0.5 * now * per_N * shapes.bending[0];
-        const double A0 = Value(out.A2) - now * per_N * per_N * shapes.second_order[0];
-        const double miss =
-            F * (C0 + A0 * F) + now * f * (2.0 * G[0][0] + f * G[0][1]) - Value(out.delta);
-        slope =
-            C0 + 2.0 * A0 * F + now * per_N * (2.0 * G[0][0] + f * (4.0 * G[0][1] + f * G[0][2]));
-        const double step = miss / slope;
-        F -= step;
-        if (!(std::abs(step) > kLastStep * most)) break;
-      }
-      if (!elastica::InDomain(phi_now, per_N * F)) F = std::numeric_limits<double>::quiet_NaN();
-      out.F = S(P(F));
-      const auto table = EnergyNear<S>(phi_now, per_N * F, f, G);
-      const auto at_load = [&](const S& load) {
-        return BeyondM2bAt<S>(phi, unit_f * load, table, shapes.bending, shapes.second_order);
-      };
-      BeyondM2b<S> more = at_load(out.F);
-      for (int round = 0; round < 2; ++round) {
-        const S miss = out.F * (C + out.A2 * out.F) + (blend * r) * more.chord - out.delta;
-        out.F = out.F - P(1.0 / slope) * miss;
-        more = at_load(out.F);
-      }
-      out.tip_turn =
-          out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + blend * more.turn + turn - out.cos;
-      out.beyond = (blend / (2.0 * r * flex)) * (more.energy / at.softer);
-    }
-  } else {
-    // M5, M6 with the share `tip` of M10.
-    const ThesisVariant variant = law == Law::kThesis ? p.variant : ThesisVariant();
-    const bool at_rest = variant.stiffness_radius == ThesisVariant::StiffnessRadius::kRest;  // M35
-    const S radius = at_rest ? S(r) : S((1.0 - terms.tip) * (0.5 * l / out.sin) + terms.tip * r);
-    const bool at_theta = variant.stiffness_angle == ThesisVariant::StiffnessAngle::kTheta;  // M36
-    const S arc = at_theta ? phi : S(0.5 * (phi + S(P(std::numbers::pi))));
-    const ArcShapes bent = at_theta ? shapes : ArcShapes(Value(arc));
-    out.C = chord(radius, bent, arc);
-    out.soft_F = out.delta / out.C;
-    if (second_order) {
-      const S grown = radius / r, grown2 = grown * grown;
-      out.A2 =
-          grown * grown2 * grown2 * softer2 * (r * unit * Lift(arc, bent.second_order.data(), 0));
-      out.soft_F = 2.0 * out.delta / (out.C + sqrt(out.C * out.C + 4.0 * (out.A2 * out.delta)));
-    }
-    out.F = out.soft_F + terms.hardening / r * (out.delta * out.delta / out.C);
-    const S turned = 0.5 * (out.F * Cs) + (1.0 / 3.0) * (out.F * out.F * C2s);
-    out.tip_turn = terms.tip * (turned + turn) - out.cos;
   }
+
+  ArcParts(const Parameters<P>& parameters, Law law, const P& torque, const Situation<S>& given)
+      : p(parameters),
+        at(given),
+        shapes(Value(given.phi)),
+        flex(1.0 / (2.0 * p.E * p.I)),
+        stretch(1.0 / (2.0 * p.E * p.A)),
+        slide(p.kappa / (2.0 * p.G * p.A)),
+        bending1(at.softer * (p.r * p.r * flex * Lifted(shapes.bending, 1))),
+        Cs(bending1 + at.softer * (stretch * Lifted(shapes.axial, 1)) +
+           slide * Lifted(shapes.shear, 1)),
+        N(p.law_terms.torque_bending * torque / at.l),
+        turn(N * (at.softer * (0.5 * p.r * p.r * flex * Lifted(shapes.bending, 2)))),
+        is_exact(law == Law::kElastica),
+        second_order(is_exact || law == Law::kLargeDeflection || p.law_terms.second_order_active),
+        unit((is_exact || law == Law::kLargeDeflection ? P(1.0) : p.law_terms.second_order) *
+             (4.0 * p.r * p.r * p.r * p.r * flex * flex)),
+        softer2(at.softer * at.softer),
+        C2s(softer2 * (unit * Lifted(shapes.second_order, 1))) {}
+};
+
+// M65: F from the chord, by Newton in values; two rounds more, their slope held, bring the
+// directions in. Newton's error is squared at each round, so a small step is the last.
+template <class S, class P>
+void AddBeyondM2b(const ArcParts<S, P>& arc, const S& C, const S& Cs, const S& A2s, const S& turn,
+                  Statics<S>& out) {
+  const Situation<S>& at = arc.at;
+  const P& r = arc.p.r;
+  const LawTerms<P>& terms = arc.p.law_terms;
+  const P blend = arc.is_exact ? P(1.0 + terms.higher_order) : terms.higher_order;
+  const S unit_f = at.softer * (2.0 * r * r * arc.flex);  // f over F
+  const double phi_now = Value(at.phi), per_N = Value(unit_f), now = Value(blend) * Value(r);
+  const double least = elastica::kLoadBegin / elastica::LoadScale(phi_now) / per_N;
+  const double most = elastica::kLoadEnd / elastica::LoadScale(phi_now) / per_N;
+  constexpr double kLastStep = 1e-8;  // over the greatest force
+  double F = std::isnan(at.F_near) ? Value(out.F) : at.F_near, slope = 1.0, f = 0.0;
+  elastica::Derivatives<2> G{};
+  for (int round = 0; round < 30; ++round) {
+    F = F < most ? (F > least ? F : least) : most;  // NaN is most
+    f = per_N * F;
+    G = elastica::EnergyTo2(phi_now, f);
+    const double C0 = Value(C) - 0.5 * now * per_N * arc.shapes.bending[0];
+    const double A0 = Value(out.A2) - now * per_N * per_N * arc.shapes.second_order[0];
+    const double miss =
+        F * (C0 + A0 * F) + now * f * (2.0 * G[0][0] + f * G[0][1]) - Value(out.delta);
+    slope = C0 + 2.0 * A0 * F + now * per_N * (2.0 * G[0][0] + f * (4.0 * G[0][1] + f * G[0][2]));
+    const double step = miss / slope;
+    F -= step;
+    if (!(std::abs(step) > kLastStep * most)) break;
+  }
+  if (!elastica::InDomain(phi_now, per_N * F)) F = std::numeric_limits<double>::quiet_NaN();
+  out.F = S(P(F));
+  const auto table = EnergyNear<S>(phi_now, per_N * F, f, G);
+  const auto at_load = [&](const S& load) {
+    return BeyondM2bAt<S>(at.phi, unit_f * load, table, arc.shapes.bending,
+                          arc.shapes.second_order);
+  };
+  BeyondM2b<S> more = at_load(out.F);
+  for (int round = 0; round < 2; ++round) {
+    const S miss = out.F * (C + out.A2 * out.F) + (blend * r) * more.chord - out.delta;
+    out.F = out.F - P(1.0 / slope) * miss;
+    more = at_load(out.F);
+  }
+  out.tip_turn =
+      out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + blend * more.turn + turn - out.cos;
+  out.beyond = (blend / (2.0 * r * arc.flex)) * (more.energy / at.softer);
+}
+
+// A law of static equilibrium.
+template <class S, class P>
+void SetElastic(const ArcParts<S, P>& arc, Statics<S>& out) {
+  using std::sqrt;
+  const P& r = arc.p.r;
+  const LawTerms<P>& terms = arc.p.law_terms;
+  out.C = arc.ChordOf(S(r), arc.shapes, arc.at.phi);
+  // M26: hardening takes from C2.
+  const P hardening = terms.hardening / r;
+  out.A2 = P(-hardening) * (out.C * out.C);
+  S Cs = arc.Cs, turn = arc.turn;
+  S A2s = -2.0 * (hardening * (out.C * Cs));
+  if (arc.second_order) {
+    out.A2 = out.A2 + arc.softer2 * (r * arc.unit * arc.Lifted(arc.shapes.second_order, 0));
+    A2s = A2s + arc.C2s;
+  }
+  S C = out.C;
+  if (terms.torque_active && arc.second_order) {
+    const SecondOrderAcross<S> next = SecondOrderAcrossAt(arc.at.phi, out.sin, out.cos);
+    const S of_N = arc.softer2 * (arc.unit * arc.N);
+    out.delta = out.delta + r * (of_N * arc.N * next.chord_NN);
+    C = C - r * (of_N * next.chord_FN);
+    Cs = Cs - 2.0 * (of_N * next.lead_FN);
+    turn = turn - of_N * arc.N * next.lead_NN;
+  }
+  out.F = 2.0 * out.delta / (C + sqrt(C * C + 4.0 * (out.A2 * out.delta)));
+  out.tip_turn = out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + turn - out.cos;
+  if (arc.is_exact || terms.higher_order_active) AddBeyondM2b(arc, C, Cs, A2s, turn, out);
+}
+
+// M5, M6 with the share `tip` of M10.
+template <class S, class P>
+void SetSpring(const ArcParts<S, P>& arc, const ThesisVariant& variant, Statics<S>& out) {
+  using std::sqrt;
+  const P& r = arc.p.r;
+  const LawTerms<P>& terms = arc.p.law_terms;
+  const S& phi = arc.at.phi;
+  const bool at_rest = variant.stiffness_radius == ThesisVariant::StiffnessRadius::kRest;  // M35
+  const S radius =
+      at_rest ? S(r) : S((1.0 - terms.tip) * (0.5 * arc.at.l / out.sin) + terms.tip * r);
+  const bool at_theta = variant.stiffness_angle == ThesisVariant::StiffnessAngle::kTheta;  // M36
+  const S bent_arc = at_theta ? phi : S(0.5 * (phi + S(P(std::numbers::pi))));
+  const ArcShapes bent = at_theta ? arc.shapes : ArcShapes(Value(bent_arc));
+  out.C = arc.ChordOf(radius, bent, bent_arc);
+  out.soft_F = out.delta / out.C;
+  if (arc.second_order) {
+    const S grown = radius / r, grown2 = grown * grown;
+    out.A2 = grown * grown2 * grown2 * arc.softer2 *
+             (r * arc.unit * Lift(bent_arc, bent.second_order.data(), 0));
+    out.soft_F = 2.0 * out.delta / (out.C + sqrt(out.C * out.C + 4.0 * (out.A2 * out.delta)));
+  }
+  out.F = out.soft_F + terms.hardening / r * (out.delta * out.delta / out.C);
+  const S turned = 0.5 * (out.F * arc.Cs) + (1.0 / 3.0) * (out.F * out.F * arc.C2s);
+  out.tip_turn = terms.tip * (turned + arc.turn) - out.cos;
+}
+
+template <class S, class P>
+[[gnu::flatten]] Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque,
+                                      const Situation<S>& at) {
+  const S zero(P(0.0));
+  Statics<S> out{zero, zero, zero, zero, zero, zero, zero, zero, zero};
+  if (law == Law::kStraightLeg) {
+    SetStraight(p, at, out);
+    return out;
+  }
+  const ArcParts<S, P> arc(p, law, torque, at);
+  out.sin = arc.Lifted(arc.shapes.sin, 0);
+  out.cos = arc.Lifted(arc.shapes.cos, 0);
+  out.delta = 2.0 * (p.r * out.sin) - at.l - p.r * (arc.N * arc.bending1);
+  if (IsElastic(law))
+    SetElastic(arc, out);
+  else
+    SetSpring(arc, law == Law::kThesis ? p.variant : ThesisVariant(), out);
   return out;
 }
 

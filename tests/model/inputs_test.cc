@@ -1,6 +1,5 @@
 // What a log drives (M50 to M55): derivatives against Richardson differences through held and
-// linear inputs, by every parameter, delay and scale; closed forms; what a corner, a jump and a
-// start in stance do.
+// linear inputs, by every parameter, delay and scale; closed forms; what a corner and a jump do.
 
 #include "model/inputs.h"
 
@@ -8,11 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "tests/support/effect_requests.h"
 #include "tests/support/gradient_check.h"
+#include "tests/support/row_gradient.h"
 
 namespace hoplab {
 namespace {
@@ -44,46 +43,6 @@ Column Swing(double mean, double size) {
 }
 Column Gust(double size) {
   return {0.011, 2.0, [=](double t) { return size * std::cos(13.0 * t); }};
-}
-
-std::vector<D> Directions(const SimulationRequest& q) {
-  std::vector<D> directions;
-  for (ParameterId id : ParametersOf(MechanismOf(q.law))) {
-    const bool unused =
-        id == ParameterId::kThetaTd || id == ParameterId::kKp || id == ParameterId::kVDes;
-    if (!unused) directions.push_back(D::Parameter(id));
-  }
-  for (std::size_t i = 0; i < q.initial.size(); ++i)
-    directions.push_back(D::InitialState(static_cast<int>(i)));
-  for (std::size_t i = 0; i < q.inputs.size(); ++i) {
-    directions.push_back(D::InputDelay(static_cast<int>(i)));
-    directions.push_back(D::InputScale(static_cast<int>(i)));
-  }
-  return directions;
-}
-
-void ExpectExact(SimulationRequest q, const std::vector<D>& directions) {
-  q.horizon = 0.9;
-  if (q.law != Law::kBall) q.max_hops = 2;
-  const double end = Simulate(q).end_time - 0.01;  // changed a little it still lasts so long
-  std::vector<double> rows;
-  for (double t = 0.0031; t < end; t += 0.0173) rows.push_back(t);
-  const std::vector<Channel> channels = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx,
-                                         Channel::kBodyVy};
-  q.row_times = rows;
-  q.channels = channels;
-  q.directions = directions;
-  const std::vector<ColumnCheck> checks = CheckGradient(q);
-  ASSERT_FALSE(checks.empty());
-  double worst = 0.0, oracle = 0.0;
-  for (const ColumnCheck& check : checks) {
-    EXPECT_EQ(Complaint(check), "");
-    if (check.nothing_to_see) continue;
-    worst = std::max(worst, check.error);
-    oracle = std::max(oracle, check.oracle_error);
-  }
-  std::printf("%zu columns: off by %.1e at most, the differences themselves by %.1e\n",
-              checks.size(), worst, oracle);
 }
 
 struct Driven {
@@ -301,173 +260,6 @@ TEST(DrivenAngle, ThatJumpsIntoTheGroundLandsWhereItMeetsIt) {
   const double t = landing.time;
   EXPECT_NEAR(landing.y, q.initial[1] - 0.4 * t - 0.5 * 9.81 * t * t, 1e-9);
   for (const ColumnCheck& check : CheckGradient(q, run)) EXPECT_EQ(Complaint(check), "");
-}
-
-// ---- starts in stance
-
-TEST(StanceStart, GoesOnAsTheRunItWasTakenFrom) {
-  for (Law law : kCLegLaws) {
-    SimulationRequest q = ThickLegRequest(law);
-    q.max_hops = 0;
-    q.horizon = 0.6;
-    std::vector<double> rows;
-    for (int i = 0; i <= 600; ++i) rows.push_back(1e-3 * i);
-    const std::vector<Channel> channels = {Channel::kBodyX,  Channel::kBodyY,    Channel::kBodyVx,
-                                           Channel::kBodyVy, Channel::kContactX, Channel::kContact};
-    q.row_times = rows;
-    q.channels = channels;
-    const Trajectory whole = Simulate(q);
-    ASSERT_TRUE(IsComplete(whole.outcome)) << NameOf(law);
-    std::size_t row = 0;
-    while (whole.samples[6 * row + 5] == 0.0) ++row;
-    row += 5;  // well in stance
-    ASSERT_EQ(whole.samples[6 * row + 5], 1.0);
-    SimulationRequest from = q;
-    from.start_mode = Mode::kStance;
-    from.initial = {&whole.samples[6 * row], &whole.samples[6 * row + 5]};
-    std::vector<double> later(rows.begin() + static_cast<long>(row), rows.end());
-    for (double& t : later) t -= rows[row];
-    from.row_times = later;
-    from.horizon = later.back();
-    const Trajectory part = Simulate(from);
-    ASSERT_TRUE(IsComplete(part.outcome)) << NameOf(law);
-    for (std::size_t i = 0; i < later.size(); i += 20)
-      for (std::size_t c = 0; c < 4; ++c)
-        EXPECT_NEAR(part.samples[6 * i + c], whole.samples[6 * (row + i) + c], 1e-7)
-            << NameOf(law) << " row " << i << " channel " << c;
-  }
-}
-
-TEST(StanceStart, IsDifferentiatedByItsContactToo) {
-  for (Law law : {Law::kLargeDeflection, Law::kConsistent, Law::kThesis}) {
-    SCOPED_TRACE(NameOf(law));
-    SimulationRequest q = ThickLegRequest(law);
-    q.integrator.relative_tolerance = kOracleRelative;
-    q.integrator.absolute_tolerance = kOracleAbsolute;
-    q.start_mode = Mode::kRolling;
-    const double theta = Degrees(20.0), r = q.parameters.r;
-    q.initial = {0.0, r * (1 + std::cos(theta)) - 0.004, 0.9, -0.5, r * std::sin(theta)};
-    ExpectExact(q, Directions(q));
-  }
-  SimulationRequest q = SteadyStraightLeg();
-  q.start_mode = Mode::kStance;
-  q.parameters.d = 60.0;
-  q.integrator.relative_tolerance = kOracleRelative;
-  q.integrator.absolute_tolerance = kOracleAbsolute;
-  q.initial = {0.0, 0.9 * q.parameters.l0, 0.5, -0.3, 0.05 * q.parameters.l0};
-  ExpectExact(q, Directions(q));
-}
-
-TEST(StanceStart, OfALegThatWouldPullLiftsOffAtOnce) {
-  SimulationRequest q = SteadyStraightLeg();
-  q.start_mode = Mode::kStance;
-  q.initial = {0.0, 1.02 * q.parameters.l0, 0.2, 0.3, 0.0};
-  const Trajectory run = Simulate(q);
-  ASSERT_FALSE(run.events.empty());
-  EXPECT_EQ(run.events.front().kind, EventKind::kLiftoff);
-  EXPECT_EQ(run.events.front().time, 0.0);
-}
-
-// ---- channels and clocks
-
-TEST(Accelerations, AreTheRateOfTheVelocityAndTheImuReadsThemWithoutGravity) {
-  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-  q.max_hops = 0;
-  q.horizon = 0.5;
-  std::vector<double> rows;
-  for (int i = 0; i <= 5000; ++i) rows.push_back(1e-4 * i);
-  const std::vector<Channel> channels = {Channel::kBodyVx, Channel::kBodyVy, Channel::kBodyAx,
-                                         Channel::kBodyAy, Channel::kImuAx,  Channel::kImuAy,
-                                         Channel::kContact};
-  q.row_times = rows;
-  q.channels = channels;
-  const Trajectory run = Simulate(q);
-  const auto at = [&](std::size_t row, std::size_t c) { return run.samples[7 * row + c]; };
-  int in_stance = 0;
-  for (std::size_t i = 1; i + 1 < rows.size(); i += 7) {
-    if (at(i - 1, 6) != at(i + 1, 6)) continue;
-    for (std::size_t c = 0; c < 2; ++c) {
-      const double slope = (at(i + 1, c) - at(i - 1, c)) / 2e-4;
-      EXPECT_NEAR(at(i, 2 + c), slope, 2e-3 * std::max(1.0, std::abs(slope))) << rows[i];
-    }
-    EXPECT_NEAR(at(i, 5), at(i, 3) + q.parameters.g, 1e-12);
-    EXPECT_EQ(at(i, 4), at(i, 2));
-    if (at(i, 6) == 0.0) {
-      EXPECT_NEAR(at(i, 5), 0.0, 1e-12);  // nothing but gravity in flight
-    }
-    in_stance += at(i, 6) > 0.5 ? 1 : 0;
-  }
-  EXPECT_GT(in_stance, 20);
-}
-
-TEST(ContactPlace, IsWhereTheLegLandsAndStaysUnderIt) {
-  SimulationRequest q = SteadyStraightLeg();
-  q.initial[3] = -0.1;
-  q.max_hops = 0;
-  q.horizon = 0.4;
-  std::vector<double> rows;
-  for (int i = 0; i <= 400; ++i) rows.push_back(1e-3 * i);
-  const std::vector<Channel> channels = {Channel::kBodyX, Channel::kContactX, Channel::kContact};
-  q.row_times = rows;
-  q.channels = channels;
-  const Trajectory run = Simulate(q);
-  double place = std::nan("");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double x = run.samples[3 * i], contact = run.samples[3 * i + 1];
-    if (run.samples[3 * i + 2] == 0.0) {
-      EXPECT_NEAR(contact - x, q.parameters.l0 * std::sin(q.parameters.theta_td), 1e-12);
-      place = std::nan("");
-    } else {
-      if (std::isnan(place)) place = contact;
-      EXPECT_NEAR(contact, place, 1e-12);  // a foot that holds
-    }
-  }
-}
-
-TEST(Clocks, ShiftTheChannelsTheyStampAndAreDifferentiated) {
-  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-  q.max_hops = 0;
-  q.horizon = 0.5;
-  const std::vector<double> rows = {0.01, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3};
-  const std::vector<Channel> channels = {Channel::kBodyX, Channel::kBodyY};
-  q.row_times = rows;
-  q.channels = channels;
-  const std::vector<double> offsets = {0.02};
-  const std::vector<int> of_channels = {-1, 0};
-  q.clock_offsets = offsets;
-  q.channel_clocks = of_channels;
-  const std::vector<D> directions = {D::ClockOffset(0), D::Parameter(ParameterId::kE)};
-  q.directions = directions;
-  q.integrator.relative_tolerance = kOracleRelative;
-  q.integrator.absolute_tolerance = kOracleAbsolute;
-  const Trajectory run = Simulate(q);
-  EXPECT_EQ(run.rows_in_run, 7);
-  SimulationRequest plain = q;
-  plain.clock_offsets = {};
-  plain.channel_clocks = {};
-  plain.directions = {};
-  const Trajectory now = Simulate(plain);
-  std::vector<double> later = rows;
-  for (double& t : later) t += 0.02;
-  plain.row_times = later;
-  const Trajectory then = Simulate(plain);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    EXPECT_NEAR(run.samples[2 * i], now.samples[2 * i], 1e-11);
-    EXPECT_NEAR(run.samples[2 * i + 1], then.samples[2 * i + 1], 1e-11);
-  }
-  for (const ColumnCheck& check : CheckGradient(q, run)) EXPECT_EQ(Complaint(check), "");
-}
-
-TEST(VerticalGuide, HoldsTheBodyAlongTheGround) {
-  SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-  q.parameters.on_guide = true;
-  q.initial = {0.3, 0.25, 0.0, 0.0};
-  q.max_hops = 0;
-  q.horizon = 0.6;
-  const Trajectory run = Simulate(q);
-  EXPECT_GT(run.hops, 0);
-  EXPECT_EQ(run.final_state[0], 0.3);
-  EXPECT_EQ(run.final_state[2], 0.0);
 }
 
 }  // namespace

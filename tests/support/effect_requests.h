@@ -66,4 +66,14 @@ inline EffectSetting Setting(std::string_view effect, double value) {
   return setting;
 }
 
+/// The first event of a kind.
+inline const Event& First(const Trajectory& run, EventKind kind) {
+  return *std::find_if(run.events.begin(), run.events.end(),
+                       [&](const Event& e) { return e.kind == kind; });
+}
+/// Of the state that a run leaves [J].
+inline double EnergyAtEnd(const SimulationRequest& q, const Trajectory& run) {
+  return Energy(q, run.final_mode, run.final_state);
+}
+
 }  // namespace hoplab::testing

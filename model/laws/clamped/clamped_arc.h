@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "model/hybrid/discrete_state.h"
+#include "model/laws/clamped/equilibrium.h"
 #include "model/laws/clamped/integrals.h"
 
 namespace hoplab {
@@ -12,13 +13,6 @@ namespace hoplab {
 /// A sliding foot that yields to a press less than this, over what it would without friction, snaps
 /// away: at 0 its load would turn back at an infinite rate (M70).
 inline constexpr double kLeastYield = 0.02;
-
-/// How a foot stands on the ground: on its arc, which rolls, or on its toe; held, or sliding in the
-/// direction `slides` (1 forward, -1 backward).
-struct Footing {
-  bool rolling = true;
-  double slides = 0.0;
-};
 
 /// Where a clamped leg is and how it moves. Ground frame: x forward along it, y up.
 template <class T>
@@ -67,7 +61,7 @@ class ClampedArc {
 
   /// Where the search for a load starts: the leg as it lands, unloaded.
   void StartAt(double tip) {
-    root_ = Root{};
+    root_ = clamped::Root{};
     root_.tip = tip;
   }
   /// The same foot goes on in another way, under the load it has.
@@ -86,7 +80,7 @@ class ClampedArc {
     using std::sin;
     using std::sqrt;
     const T a = place.lead / r_, b = place.height / r_;
-    const Solution e = Solve(foot, Value(a), Value(b), Value(place.base));
+    const clamped::Solution e = Solve(foot, Value(a), Value(b), Value(place.base));
     const T mu_d = mu_ - Value(mu_), base_d = place.base - e.at.base;
     T miss_x = foot.slides != 0.0 ? T(0.0) : T(e.miss_x + (a - Value(a)) + e.h1 * base_d);
     T miss_y = e.miss_y - (b - Value(b)) + e.h2 * base_d;
@@ -152,7 +146,7 @@ class ClampedArc {
   /// Whether a foot that holds at the edge of its cone goes on sliding forward, its load growing
   /// with the press; else it snaps away (M70).
   bool CanSlideForward(const Footing& foot, const ClampedPlace<T>& place) const {
-    const Solution e =
+    const clamped::Solution e =
         Solve(foot, Value(place.lead / r_), Value(place.height / r_), Value(place.base));
     return e.c22 - Value(mu_) * e.c12 > kLeastYield * e.c22;
   }
@@ -175,150 +169,14 @@ class ClampedArc {
   }
 
  private:
-  // The last solution and how it changes with the place.
-  struct Root {
-    double fx = 0.0, fy = 0.0, tip = 0.0;
-    double a = std::numeric_limits<double>::quiet_NaN(), b = 0.0, base = 0.0;
-    double i11 = 0.0, i12 = 0.0, i22 = 0.0, h1 = 0.0, h2 = 0.0;
-    double turn_x = 0.0, turn_y = 0.0, turn_base = 0.0;
-
-    template <class Do>
-    void Each(const Do& act) {
-      for (double* v : {&fx, &fy, &tip, &a, &b, &base, &i11, &i12, &i22, &h1, &h2, &turn_x, &turn_y,
-                        &turn_base})
-        act(*v);
-    }
-    template <class Do>
-    void Each(const Do& act) const {
-      const_cast<Root*>(this)->Each(act);
-    }
-  };
-  // A root of M81 but for the last correction, and the answer of the leg there.
-  struct Solution {
-    clamped::Tangents at;
-    double fx, fy;
-    clamped::Integrals sum;
-    double kx, ky, c11, c12, c22, h1, h2;  // M68, M69
-    double i11, i12, i22;                  // inverse of the compliance
-    double turn_x = 0.0, turn_y = 0.0, turn_base = 0.0, tip_miss = 0.0, by_tip = 0.0;
-    double miss_x, miss_y, x, kappa;
-  };
-
-  static constexpr int kMaxRounds = 30;
   // A double's values are corrected once more by the caller, which squares the error; the
   // derivatives of a Jet are not, so they need the root itself.
   static constexpr double kStepTolerance = kJetWidth<T> == 0 ? 3e-7 : 1e-9;
-  static constexpr double kMostStep = 0.2;
 
-  static Solution Lost() {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    Solution e;
-    e.at.tip = e.at.base = e.fx = e.fy = e.sum.one = kNaN;
-    e.c11 = e.c12 = e.c22 = e.h1 = e.h2 = e.i11 = e.i12 = e.i22 = e.kx = e.ky = kNaN;
-    e.miss_x = e.miss_y = e.x = e.kappa = kNaN;
-    return e;
-  }
-
-  // Newton for the force, and on the toe for the turn of the tip, at the lead a (unless it slides)
-  // and the height b of the hip over r.
-  Solution Solve(const Footing& foot, double a, double b, double base) const {
-    Solution e;
-    double fx = root_.fx, fy = root_.fy, tip = root_.tip;
-    const double lean = -foot.slides * Value(mu_);
-    if (root_.a == root_.a) {
-      const double dp = base - root_.base;
-      const double x = a - root_.a + root_.h1 * dp, y = root_.b - b + root_.h2 * dp;
-      const double dy = foot.slides != 0.0 ? y * root_.i22 : root_.i12 * x + root_.i22 * y;
-      const double dx = foot.slides != 0.0 ? lean * dy : root_.i11 * x + root_.i12 * y;
-      fx += dx;
-      fy += dy;
-      tip += root_.turn_x * dx + root_.turn_y * dy + root_.turn_base * dp;
-    }
-    if (foot.rolling) tip = 0.0;
-    if (foot.slides != 0.0) fx = lean * fy;
-    double halving = 1.0;
-    for (int round = 0; round < kMaxRounds; ++round) {
-      if (round == 0 || !foot.rolling) e.at = clamped::Tangents(tip, base);
-      e.fx = fx;
-      e.fy = fy;
-      const double c0 = e.at.cos_tip, s0 = e.at.sin_tip;
-      e.sum = clamped::IntegralsOf(e.at, fx, fy);
-      if (!(e.sum.one == e.sum.one)) {
-        // Beyond the domain: come back towards the unloaded leg.
-        halving *= 0.5;
-        if (!(halving > 1e-3)) return Lost();
-        fx *= 0.5;
-        fy *= 0.5;
-        continue;
-      }
-      const auto& k = e.sum;
-      const double kappa2 = 1.0 + 2.0 * (fx * (c0 - e.at.cos_base) + fy * (e.at.sin_base - s0));
-      if (!(kappa2 > clamped::kLeastCurvature2)) return Lost();
-      e.kappa = std::sqrt(kappa2);
-      e.kx = c0 * k.k1 - k.kc;
-      e.ky = k.ks - s0 * k.k1;
-      e.c11 = c0 * (c0 * k.k1 - 2.0 * k.kc) + k.kcc;
-      e.c12 = c0 * (k.ks - s0 * k.k1) - k.kcs + s0 * k.kc;
-      e.c22 = k.kss - s0 * (2.0 * k.ks - s0 * k.k1);
-      e.h1 = (c0 - e.at.cos_base) / e.kappa;
-      e.h2 = (e.at.sin_base - s0) / e.kappa;
-      if (foot.rolling) {
-        e.x = k.c - k.one;
-        e.miss_x = a - e.x;
-        e.miss_y = k.s - b;
-      } else {
-        // The tip's turn follows from the length (M68).
-        const double q = fx * s0 + fy * c0;
-        const double by_tip = 1.0 / (q * k.k1 - 1.0), over = k.one - Value(length_);
-        e.by_tip = by_tip;
-        e.turn_x = e.kx * by_tip;
-        e.turn_y = e.ky * by_tip;
-        e.turn_base = -by_tip / e.kappa;
-        e.tip_miss = -by_tip * over;
-        e.c11 -= q * e.kx * e.turn_x;
-        e.c12 -= q * e.kx * e.turn_y;
-        e.c22 -= q * e.ky * e.turn_y;
-        e.h1 += q * e.kx * e.turn_base;
-        e.h2 += q * e.ky * e.turn_base;
-        e.x = k.c - c0 * over - q * e.kx * e.tip_miss;
-        e.miss_x = a - e.x;
-        e.miss_y = k.s - s0 * over - b + q * e.ky * e.tip_miss;
-      }
-      const double det = 1.0 / (e.c11 * e.c22 - e.c12 * e.c12);
-      e.i11 = e.c22 * det;
-      e.i12 = -e.c12 * det;
-      e.i22 = e.c11 * det;
-      double dx = e.i11 * e.miss_x + e.i12 * e.miss_y;
-      double dy = e.i12 * e.miss_x + e.i22 * e.miss_y;
-      if (foot.slides != 0.0) {
-        dy = e.miss_y / (e.c22 + lean * e.c12);
-        dx = lean * dy;
-      }
-      const double size = std::fmax(std::abs(dx), std::abs(dy));
-      if (size < kStepTolerance && std::abs(e.tip_miss) < kStepTolerance) {
-        root_ = {fx + dx,
-                 fy + dy,
-                 foot.rolling ? 0.0 : tip + e.tip_miss + e.turn_x * dx + e.turn_y * dy,
-                 foot.slides != 0.0 ? 0.0 : a,
-                 b,
-                 base,
-                 e.i11,
-                 e.i12,
-                 foot.slides != 0.0 ? 1.0 / (e.c22 + lean * e.c12) : e.i22,
-                 e.h1,
-                 e.h2,
-                 e.turn_x,
-                 e.turn_y,
-                 e.turn_base};
-        return e;
-      }
-      if (!std::isfinite(size)) return Lost();
-      const double part = size > kMostStep ? kMostStep / size : 1.0;
-      fx += part * dx;
-      fy += part * dy;
-      if (!foot.rolling) tip += part * (e.tip_miss + e.turn_x * dx + e.turn_y * dy);
-    }
-    return Lost();
+  // At the lead a (unless it slides) and the height b of the hip over r.
+  clamped::Solution Solve(const Footing& foot, double a, double b, double base) const {
+    return clamped::SolveStand({foot, a, b, base, Value(mu_), Value(length_)}, kStepTolerance,
+                               root_);
   }
 
   // A number that depends on (tip, base, fx, fy), known with its slopes at their values.
@@ -385,7 +243,7 @@ class ClampedArc {
 
   T r_{1.0}, unit_{1.0}, tau_{0.0}, mu_{0.0}, length_{std::numbers::pi};
   bool damped_ = false;
-  mutable Root root_;
+  mutable clamped::Root root_;
 };
 
 }  // namespace hoplab

@@ -257,8 +257,11 @@ std::vector<std::vector<Real>> Collocation(int cells) {
   return A;
 }
 
-int Main() {
-  const std::vector<Real> phis = Ties(kPhiCells), loads = Ties(kLoadCells);
+using Grid = std::vector<std::vector<Real>>;
+
+// All tables' values on the ties, from the least load outward, each the guess of the next.
+std::vector<std::vector<Values>> ValuesOnTies(const std::vector<Real>& phis,
+                                              const std::vector<Real>& loads) {
   std::vector<std::vector<Values>> values(phis.size(), std::vector<Values>(loads.size()));
   for (std::size_t i = 0; i < phis.size(); ++i) {
     const Real phi = kPhiBegin + (static_cast<Real>(kPhiEnd) - kPhiBegin) * phis[i] / kPhiCells;
@@ -266,7 +269,6 @@ int Main() {
       return (kLoadBegin + (static_cast<Real>(kLoadEnd) - kLoadBegin) * tie / kLoadCells) /
              LoadScale<Real>(phi);
     };
-    // From the least load outward, each the guess of the next.
     std::size_t least = 0;
     while (load_at(loads[least]) < 0.0L) ++least;
     const Shape rest{0.0L, 0.0L, 0.5L * phi, 0.5L * phi};
@@ -276,53 +278,63 @@ int Main() {
     guess = rest;
     for (std::size_t j = least; j-- > 0;) values[i][j] = ValuesAt(phi, load_at(loads[j]), guess);
   }
+  return values;
+}
+
+void PrintCoefficients(const Grid& c) {
+  std::printf("{");
+  for (const std::vector<Real>& row : c) {
+    for (std::size_t j = 0; j < row.size(); ++j)
+      std::printf("%.17Lg,%s", row[j], j % 6 == 5 ? "\n" : "");
+  }
+  std::printf("},\n");
+}
+
+// The polynomial of one cell.
+void PrintCell(const Grid& c, int i, int j) {
+  std::printf("{");
+  for (int k = 0; k < kSpan; ++k) {
+    for (int m = 0; m < kSpan; ++m) {
+      Real sum = 0.0L;
+      for (int a = 0; a < kSpan; ++a) {
+        for (int b = 0; b < kSpan; ++b) {
+          sum += static_cast<Real>(kPolynomials.of[0][k][a]) * kPolynomials.of[0][m][b] *
+                 c[i + a][j + b];
+        }
+      }
+      std::printf("%.17Lg,", sum);
+    }
+    std::printf("\n");
+  }
+  std::printf("},\n");
+}
+
+int Main() {
+  const std::vector<Real> phis = Ties(kPhiCells), loads = Ties(kLoadCells);
+  const std::vector<std::vector<Values>> values = ValuesOnTies(phis, loads);
   const auto by_phi = Collocation(kPhiCells), by_load = Collocation(kLoadCells);
-  std::printf("// Written by make_tables.cc; do not edit.\n");
-  std::printf("#include \"model/laws/elastica/tables.h\"\n\nnamespace hoplab::elastica {\n");
   const auto splines_of = [&](int table) {
-    std::vector<std::vector<Real>> c(loads.size(), std::vector<Real>(phis.size()));
+    Grid c(loads.size(), std::vector<Real>(phis.size()));
     for (std::size_t i = 0; i < phis.size(); ++i) {
       for (std::size_t j = 0; j < loads.size(); ++j) c[j][i] = values[i][j][table];
     }
     SolveDense(by_load, c);
-    std::vector<std::vector<Real>> turned(phis.size(), std::vector<Real>(loads.size()));
+    Grid turned(phis.size(), std::vector<Real>(loads.size()));
     for (std::size_t i = 0; i < phis.size(); ++i) {
       for (std::size_t j = 0; j < loads.size(); ++j) turned[i][j] = c[j][i];
     }
     SolveDense(by_phi, turned);
     return turned;
   };
+  std::printf("// Written by make_tables.cc; do not edit.\n");
+  std::printf("#include \"model/laws/elastica/tables.h\"\n\nnamespace hoplab::elastica {\n");
   std::printf("const double kCoefficients[kTableCount][kPhiCount * kLoadCount] = {\n");
-  for (int table = 0; table < kTableCount; ++table) {
-    const auto c = splines_of(table);
-    std::printf("{");
-    for (std::size_t i = 0; i < phis.size(); ++i) {
-      for (std::size_t j = 0; j < loads.size(); ++j)
-        std::printf("%.17Lg,%s", c[i][j], j % 6 == 5 ? "\n" : "");
-    }
-    std::printf("},\n");
-  }
+  for (int table = 0; table < kTableCount; ++table) PrintCoefficients(splines_of(table));
   std::printf("};\n");
   std::printf("const double kCells[kPhiCells * kLoadCells][(kDegree + 1) * (kDegree + 1)] = {\n");
-  const auto c = splines_of(kEnergy);
+  const Grid c = splines_of(kEnergy);
   for (int i = 0; i < kPhiCells; ++i) {
-    for (int j = 0; j < kLoadCells; ++j) {
-      std::printf("{");
-      for (int k = 0; k < kSpan; ++k) {
-        for (int m = 0; m < kSpan; ++m) {
-          Real sum = 0.0L;
-          for (int a = 0; a < kSpan; ++a) {
-            for (int b = 0; b < kSpan; ++b) {
-              sum += static_cast<Real>(kPolynomials.of[0][k][a]) * kPolynomials.of[0][m][b] *
-                     c[i + a][j + b];
-            }
-          }
-          std::printf("%.17Lg,", sum);
-        }
-        std::printf("\n");
-      }
-      std::printf("},\n");
-    }
+    for (int j = 0; j < kLoadCells; ++j) PrintCell(c, i, j);
   }
   std::printf("};\n}  // namespace hoplab::elastica\n");
   return 0;

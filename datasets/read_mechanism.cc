@@ -1,0 +1,245 @@
+#include "datasets/read_mechanism.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/check.h"
+#include "base/text.h"
+#include "datasets/key_advice.h"
+#include "datasets/read_robot.h"
+
+namespace hoplab {
+namespace {
+
+using Names = std::vector<std::string>;
+
+const Names kSectionByStrip = {"width_m", "thickness_m"};
+const Names kSectionByMoments = {"second_moment_m4", "area_m2"};
+
+constexpr Range kLength = Positive(100, "m");
+constexpr Range kModulus = Positive(1e13, "Pa");
+constexpr Range kDamping = NonNegative(1e6, "N s/m");
+constexpr Range kFraction = NonNegative(1, "");
+
+bool Has(const YamlCursor& cursor, const Names& keys) {
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const std::string& key) { return cursor.Optional(key).has_value(); });
+}
+
+const Names& LegKeys(MechanismType type) {
+  static const Names kCLeg = {
+      "rest_radius_m",    "E_Pa",    "G_Pa",         "width_m",           "thickness_m",
+      "second_moment_m4", "area_m2", "shear_factor", "damping_N_s_per_m", "variant"};
+  static const Names kStraight = {"rest_length_m", "stiffness_N_per_m", "damping_N_s_per_m",
+                                  "variant"};
+  static const Names kBall = {"radius_m", "restitution", "tangential_loss"};
+  return type == MechanismType::kCLeg ? kCLeg : type == MechanismType::kBall ? kBall : kStraight;
+}
+
+// Says so when an unknown key of a leg or ball block is one of another mechanism.
+void AllowKeysOf(MechanismType type, const YamlCursor& cursor) {
+  for (const auto& [key, value] : cursor.Entries(0)) {
+    const Names& own = LegKeys(type);
+    if (std::find(own.begin(), own.end(), key) != own.end()) continue;
+    for (const MechanismType other :
+         {MechanismType::kCLeg, MechanismType::kStraightLeg, MechanismType::kBall}) {
+      const Names& names = LegKeys(other);
+      if (std::find(names.begin(), names.end(), key) != names.end())
+        value.FailAtKey(std::string("unknown key: it belongs to a ") + MechanismTypeName(other) +
+                            " and this mechanism is a " + MechanismTypeName(type),
+                        "Known: " + Join(own) + ".");
+    }
+  }
+  cursor.AllowOnly(LegKeys(type));
+}
+
+void ReadSection(const YamlCursor& cursor, CLegSpec* leg) {
+  const bool by_strip = Has(cursor, kSectionByStrip);
+  const bool by_moments = Has(cursor, kSectionByMoments);
+  const std::string rule =
+      "the section is given by width_m and thickness_m or by second_moment_m4 and area_m2";
+  if (by_strip && by_moments)
+    cursor.FailAtKey(rule + ", not by both", "Remove one of the two pairs.");
+  if (!by_strip && !by_moments)
+    cursor.FailAtKey(rule + ", and neither stands here", "Add one of the two pairs.");
+  if (by_strip) {
+    const double width = cursor.RequiredNumber("width_m", Positive(10, "m"));
+    const double thickness = cursor.RequiredNumber("thickness_m", Positive(10, "m"));
+    leg->width_m = width;
+    leg->thickness_m = thickness;
+    leg->second_moment_m4 = width * thickness * thickness * thickness / 12;
+    leg->area_m2 = width * thickness;
+    const Range moment = Positive(1e3, "m^4");
+    if (!moment.Contains(leg->second_moment_m4))
+      cursor.FailAtKey("width_m thickness_m^3 / 12 must be in " + moment.Text(),
+                       "Check the unit: m is meant.");
+  } else {
+    leg->second_moment_m4 = cursor.RequiredNumber("second_moment_m4", Positive(1e3, "m^4"));
+    leg->area_m2 = cursor.RequiredNumber("area_m2", Positive(100, "m^2"));
+  }
+}
+
+CLegSpec ReadCLeg(const YamlCursor& cursor) {
+  CLegSpec leg;
+  leg.rest_radius_m = cursor.RequiredNumber("rest_radius_m", kLength);
+  leg.E_Pa = cursor.RequiredNumber("E_Pa", kModulus);
+  leg.G_Pa = cursor.RequiredNumber("G_Pa", kModulus);
+  ReadSection(cursor, &leg);
+  leg.shear_factor =
+      cursor.OptionalNumber("shear_factor", Positive(10, "")).value_or(leg.shear_factor);
+  leg.damping_N_s_per_m = cursor.RequiredNumber("damping_N_s_per_m", kDamping);
+  return leg;
+}
+
+StraightLegSpec ReadStraightLeg(const YamlCursor& cursor) {
+  StraightLegSpec leg;
+  leg.rest_length_m = cursor.RequiredNumber("rest_length_m", kLength);
+  leg.stiffness_N_per_m = cursor.RequiredNumber("stiffness_N_per_m", Positive(1e9, "N/m"));
+  leg.damping_N_s_per_m = cursor.RequiredNumber("damping_N_s_per_m", kDamping);
+  return leg;
+}
+
+BallSpec ReadBall(const YamlCursor& cursor) {
+  BallSpec ball;
+  ball.radius_m = cursor.RequiredNumber("radius_m", kLength);
+  ball.restitution = cursor.RequiredNumber("restitution", kFraction);
+  ball.tangential_loss = cursor.RequiredNumber("tangential_loss", kFraction);
+  return ball;
+}
+
+// The readings of the published law under `variant` of a leg's block.
+ThesisVariant ReadVariant(const YamlCursor& leg, MechanismType type) {
+  ThesisVariant variant;
+  const std::optional<YamlCursor> block = leg.Optional("variant");
+  if (!block) return variant;
+  Names known;
+  for (const VariantKey& key : VariantKeys()) known.emplace_back(key.key);
+  block->AllowOnly(known);
+  for (const VariantKey& key : VariantKeys()) {
+    const std::optional<YamlCursor> value = block->Optional(key.key);
+    if (!value) continue;
+    if (type == MechanismType::kStraightLeg && key.key != "torque_sign")
+      value->FailAtKey("a straight leg neither rolls nor bends: it has no such variant",
+                       "Remove it; a straight leg knows torque_sign alone.");
+    key.set(variant, static_cast<int>(value->Choice({key.words.begin(), key.words.end()})));
+  }
+  return variant;
+}
+
+void ReadLegOptions(const YamlCursor& cursor, MechanismSpec* mechanism) {
+  if (const auto liftoff = cursor.Optional("liftoff"))
+    mechanism->liftoff = static_cast<LiftoffSpec>(liftoff->Choice({"zero_force", "rest_length"}));
+  mechanism->fall_height_m = cursor.OptionalNumber("fall_height_m", NonNegative(100, "m"));
+  mechanism->toe_mass_kg = cursor.OptionalNumber("toe_mass_kg", NonNegative(1e6, "kg"));
+  if (mechanism->toe_mass_kg.value_or(0) > 0 && mechanism->liftoff == LiftoffSpec::kRestLength)
+    cursor.Required("liftoff", "")
+        .Fail(
+            "is a rule for massless legs: a toe with a mass leaves the ground when the leg lifts "
+            "it",
+            "Remove liftoff or toe_mass_kg.");
+  const std::optional<YamlCursor> placement = cursor.Optional("placement");
+  if (!placement) return;
+  if (!mechanism->toe_mass_kg)
+    placement->FailAtKey("only a leg with a toe mass is placed by a torque",
+                         "Add toe_mass_kg or remove this block.");
+  placement->AllowOnly({"kp_N_m_per_rad", "kd_N_m_s_per_rad"});
+  mechanism->placement =
+      PlacementSpec{placement->RequiredNumber("kp_N_m_per_rad", NonNegative(1e6, "N m/rad")),
+                    placement->RequiredNumber("kd_N_m_s_per_rad", NonNegative(1e6, "N m s/rad"))};
+}
+
+YamlNode MergeMechanism(const YamlNode& base, const YamlNode& overlay) {
+  YamlNode merged_base = base;
+  const YamlNode* leg = overlay.Find("leg");
+  YamlNode* base_leg = merged_base.Find("leg");
+  if (leg != nullptr && base_leg != nullptr) {
+    const YamlCursor cursor(*leg, "");
+    const bool is_block = leg->kind == YamlNode::Kind::kMap;
+    if (is_block && Has(cursor, kSectionByMoments))
+      for (const std::string& key : kSectionByStrip) base_leg->Erase(key);
+    if (is_block && Has(cursor, kSectionByStrip))
+      for (const std::string& key : kSectionByMoments) base_leg->Erase(key);
+  }
+  return MergeYaml(std::move(merged_base), overlay);
+}
+
+}  // namespace
+
+const char* MechanismTypeName(MechanismType type) {
+  static const char* const kNames[] = {"c_leg", "straight_leg", "ball", "robot"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+const char* LiftoffName(LiftoffSpec rule) {
+  return rule == LiftoffSpec::kZeroForce ? "zero_force" : "rest_length";
+}
+
+namespace {
+
+MechanismSpec ReadRobotMechanism(const YamlCursor& cursor) {
+  Names known = {"type", "body_mass_kg", "gravity_m_per_s2"};
+  known.insert(known.end(), RobotKeys().begin(), RobotKeys().end());
+  cursor.AllowOnly(known);
+  MechanismSpec mechanism;
+  mechanism.type = MechanismType::kRobot;
+  mechanism.body_mass_kg = cursor.RequiredNumber("body_mass_kg", Positive(1e6, "kg"));
+  mechanism.gravity_m_per_s2 = cursor.RequiredNumber("gravity_m_per_s2", Positive(1e3, "m/s^2"));
+  mechanism.fall_height_m = cursor.OptionalNumber("fall_height_m", NonNegative(100, "m"));
+  mechanism.robot = ReadRobot(cursor);
+  return mechanism;
+}
+
+}  // namespace
+
+MechanismSpec ReadMechanism(const YamlCursor& cursor) {
+  MechanismSpec mechanism;
+  mechanism.type =
+      static_cast<MechanismType>(cursor.Required("type", "c_leg, straight_leg, ball or robot")
+                                     .Choice({"c_leg", "straight_leg", "ball", "robot"}));
+  if (mechanism.type == MechanismType::kRobot) return ReadRobotMechanism(cursor);
+  const bool is_ball = mechanism.type == MechanismType::kBall;
+  const std::string block_key = is_ball ? "ball" : "leg";
+  Names known = {"type", "body_mass_kg", "gravity_m_per_s2", "guide", block_key};
+  if (!is_ball) known.insert(known.end(), {"liftoff", "fall_height_m", "toe_mass_kg", "placement"});
+  cursor.AllowOnly(known);
+  mechanism.body_mass_kg = cursor.RequiredNumber("body_mass_kg", Positive(1e6, "kg"));
+  mechanism.gravity_m_per_s2 = cursor.RequiredNumber("gravity_m_per_s2", Positive(1e3, "m/s^2"));
+  if (const auto guide = cursor.Optional("guide"))
+    mechanism.on_guide = guide->Choice({"none", "vertical"}) == 1;
+  const YamlCursor block =
+      cursor.Required(block_key, "a block with " + Join(LegKeys(mechanism.type)));
+  AllowKeysOf(mechanism.type, block);
+  switch (mechanism.type) {
+    case MechanismType::kCLeg:
+      mechanism.c_leg = ReadCLeg(block);
+      break;
+    case MechanismType::kStraightLeg:
+      mechanism.straight_leg = ReadStraightLeg(block);
+      break;
+    case MechanismType::kBall:
+      mechanism.ball = ReadBall(block);
+      break;
+    case MechanismType::kRobot:
+      break;  // read above
+  }
+  if (!is_ball) {
+    mechanism.variant = ReadVariant(block, mechanism.type);
+    ReadLegOptions(cursor, &mechanism);
+  }
+  return mechanism;
+}
+
+MechanismSpec ReadTrialMechanism(const YamlCursor& item, const YamlNode& base_node,
+                                 const MechanismSpec& base) {
+  const std::optional<YamlCursor> own = item.Optional("mechanism");
+  if (!own) return base;
+  const YamlNode merged = MergeMechanism(base_node, own->node());
+  const MechanismSpec mechanism = ReadMechanism(YamlCursor(merged, own->key_path()));
+  if (mechanism.type != base.type)
+    own->Required("type", "")
+        .Fail("all trials must have the same type of mechanism",
+              "Make a dataset of its own for it.");
+  return mechanism;
+}
+
+}  // namespace hoplab

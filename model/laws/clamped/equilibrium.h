@@ -1,0 +1,63 @@
+#pragma once
+
+#include <limits>
+
+#include "model/laws/clamped/integrals.h"
+
+namespace hoplab {
+
+/// How a foot stands on the ground: on its arc, which rolls, or on its toe; held, or sliding in the
+/// direction `slides` (1 forward, -1 backward).
+struct Footing {
+  bool rolling = true;
+  double slides = 0.0;
+};
+
+namespace clamped {
+
+/// The last solution of a search and how it changes with the place: where the next one starts.
+struct Root {
+  double fx = 0.0, fy = 0.0, tip = 0.0;
+  double a = std::numeric_limits<double>::quiet_NaN(), b = 0.0, base = 0.0;
+  double i11 = 0.0, i12 = 0.0, i22 = 0.0, h1 = 0.0, h2 = 0.0;
+  double turn_x = 0.0, turn_y = 0.0, turn_base = 0.0;
+
+  template <class Do>
+  void Each(const Do& act) {
+    for (double* v :
+         {&fx, &fy, &tip, &a, &b, &base, &i11, &i12, &i22, &h1, &h2, &turn_x, &turn_y, &turn_base})
+      act(*v);
+  }
+  template <class Do>
+  void Each(const Do& act) const {
+    const_cast<Root*>(this)->Each(act);
+  }
+};
+
+/// A root of M81 but for the last correction, and the answer of the leg there. All NaN beyond the
+/// leg's domain.
+struct Solution {
+  Tangents at;
+  double fx, fy;
+  Integrals sum;
+  double kx, ky, c11, c12, c22, h1, h2;  // M68, M69
+  double i11, i12, i22;                  // inverse of the compliance
+  double turn_x = 0.0, turn_y = 0.0, turn_base = 0.0, tip_miss = 0.0, by_tip = 0.0;
+  double miss_x, miss_y, x, kappa;
+};
+
+/// Where a leg stands, lengths over r.
+struct Stand {
+  Footing foot;
+  double a, b;    // lead (unless it slides) and height of the hip
+  double base;    // Psi [rad]
+  double mu;      // friction under the foot
+  double length;  // of what bends
+};
+
+/// Newton for the force, and on the toe for the turn of the tip, from `root` on, which becomes the
+/// root that is found. Steps below `tolerance` end it.
+Solution SolveStand(const Stand& stand, double tolerance, Root& root);
+
+}  // namespace clamped
+}  // namespace hoplab
