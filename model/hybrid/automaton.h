@@ -109,6 +109,6 @@ inline constexpr double kAtZero = 1e-11;
 /// Four legs of a robot that roll and slide, their motors limited, have 29.
 inline constexpr int kMaxGuards = 29;
 /// Most states of a mechanism, and of what a stepper integrates: with eight sensitivities of each.
-inline constexpr int kMaxStates = 22;
+inline constexpr int kMaxStates = 26;
 
 }  // namespace hoplab

@@ -9,6 +9,7 @@
 #include "model/mechanisms/inertia.h"
 #include "model/mechanisms/robot_dynamics_inl.h"
 #include "model/mechanisms/robot_events_inl.h"
+#include "model/mechanisms/robot_legs_inl.h"
 
 namespace hoplab {
 
@@ -27,11 +28,8 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
   const Inertia<T> weight(p_);
   gravity_x_ = weight.gravity_x;
   gravity_y_ = weight.gravity_y;
-  const auto is_plain = [](const T& x) { return IsZero(T(x - Value(x))); };
-  masses_are_plain_ = is_plain(p_.m) && is_plain(p_.r) && is_plain(robot_.leg_mass) &&
-                      is_plain(robot_.pitch_inertia) && is_plain(robot_.rotor_inertia) &&
-                      is_plain(gravity_x_) && is_plain(gravity_y_);
-  centred_ = IsZero(robot_.com_x) && IsZero(robot_.com_y);
+  follows_feet_ = Value(robot_.leg_mass) >= robot_detail::kLightestLeg * Value(p_.m);
+  foot_has_inertia_ = follows_feet_ && HasCone();
   fall_height_ =
       p_.fall_height == p_.fall_height ? p_.fall_height : robot_detail::kLowestHip * Value(p_.r);
   using std::cos;
@@ -84,7 +82,7 @@ ClampedPlace<T> Robot<T>::PlaceAt(const Leg& leg, int i, const Hip& hip, const T
   return {z[Contact(i)] - z[kX] - hip.x,
           z[kY] + hip.y,
           robot_detail::kPi - hip.angle + 2.0 * robot_detail::kPi * leg.turns,
-          hip.vx,
+          FootMoves(i) ? T(hip.vx - z[FootSpeed(i)]) : hip.vx,
           hip.vy,
           -hip.rate};
 }
@@ -155,6 +153,7 @@ Mode Robot<T>::Begin(Mode, T* z) {
     leg.slides = 0.0;
     leg.turns = 0;
     leg.piece = leg.clock.PieceAt(0.0);
+    if (foot_has_inertia_) z[FootSpeed(i)] = T(0.0);
   }
   FindLimits(0.0, z);
   for (int i = 0; i < legs_; ++i) {
@@ -254,6 +253,7 @@ std::optional<T> Robot<T>::PassKnot(Mode mode, double t, T* z) {
   const double command = Value(Command(due, T(t), z));
   leg.limit = std::abs(command) > robot_.torque_limit ? (command > 0.0 ? 1 : -1) : 0;
   if (lags_shortly_) MissJump(due, Torque(due, T(t), z) - before, z);
+  AskCones(/*except=*/-1, T(t), z);
   ListGuards(mode);
   return instant;
 }

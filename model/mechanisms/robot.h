@@ -6,20 +6,27 @@
 #include "model/laws/clamped/clamped_arc.h"
 #include "model/mechanisms/mechanism_setup.h"
 #include "model/mechanisms/motor_clock.h"
+#include "model/mechanisms/robot_leg_shape.h"
 
 namespace hoplab {
+
+/// Motion of a leg: of its hip along and up, its base's rate, its foot's speed over the ground.
+template <class T>
+using LegMotion = std::array<T, 4>;
 
 /// A rigid body with pitch on up to four clamped arcs, each turned by a motor at its hip (section 8
 /// of the equation sheet). State: x, y, vx, vy of the body's reference point, pitch and its rate,
 /// the motors' angles, their rates, of each leg the contact coordinate (X0 while it rolls, x_c
-/// on its toe), and where motors lag what each is giving. Flight is when no leg is on the ground;
+/// on its toe), where motors lag what each is giving, and where its feet have inertia their speed
+/// over the ground. Flight is when no leg is on the ground;
 /// which ones are and how is a discrete state.
 template <class T>
 class Robot final : public HybridSystem<T> {
  public:
   explicit Robot(const MechanismSetup<T>& setup);
 
-  int size() const override { return 6 + (lags_ ? 4 : 3) * legs_; }
+  int size() const override { return FootSpeed(foot_has_inertia_ ? legs_ : 0); }
+  int ReportedSize() const override { return FootSpeed(0); }
   void Derivative(Mode mode, const T& t, const T* z, T* dz) const override;
   int GuardCount(Mode mode) const override;
   GuardSpec Guard(Mode mode, int i) const override;
@@ -73,9 +80,14 @@ class Robot final : public HybridSystem<T> {
   int Rate(int leg) const { return 6 + legs_ + leg; }
   int Contact(int leg) const { return 6 + 2 * legs_ + leg; }
   int Given(int leg) const { return 6 + 3 * legs_ + leg; }
+  int FootSpeed(int leg) const { return 6 + (lags_ ? 4 : 3) * legs_ + leg; }
   bool HasCone() const { return Value(robot_.friction) < std::numeric_limits<double>::infinity(); }
   bool IsDown(const Leg& leg) const { return leg.stance != Stance::kFlight; }
-  static Footing FootOf(const Leg& leg) { return {leg.stance == Stance::kRolling, leg.slides}; }
+  /// Whether a foot slides with a speed of its own (M89).
+  bool FootMoves(int leg) const { return foot_has_inertia_ && leg_[leg].slides != 0.0; }
+  Footing FootOf(const Leg& leg) const {
+    return {leg.stance == Stance::kRolling, foot_has_inertia_ ? 0.0 : leg.slides};
+  }
 
   /// The same of the end of the clamp, where the leg begins to bend.
   Hip ClampOf(const Hip& hip) const;
@@ -89,11 +101,34 @@ class Robot final : public HybridSystem<T> {
   void AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z, T* dz) const;
   void LagShortly(const Frame& frame, Push& push, const T* z, T* dz) const;
   void MissJump(int leg, const T& jump, T* z) const;
-  template <class P>
-  struct Masses;  // masses and inertias as numbers of type P
-  template <class P>
-  void AccelerateWith(const Masses<P>& k, const Frame& frame, const Push& push, const T* z,
-                      T* dz) const;
+  struct LegInertia;  // the mass of a leg in the way it is now
+  struct Sides;       // forces or momenta of all motions
+  LegInertia InertiaOf(int leg, const LegPlace& at) const;
+  LegInertia RigidLeg(const LegPlace& at) const;
+  LegInertia StandingLeg(int leg, const LegPlace& at) const;
+  void LetFootMove(const LegPlace& at, double slides, LegInertia& leg) const;
+  Vector2<T> BornBy(const LegPlace& at, const LegInertia& leg, const LegMotion<T>& u) const;
+  LegMotion<T> MotionUnder(int leg, const Hip& hip, const T* rates) const;
+  Vector2<T> GroundForce(const Frame& frame, int leg, const Push& push, const T* z,
+                         const T* dz) const;
+  void AddLegMomentum(int leg, const LegPlace& at, const LegInertia& inertia, const LegMotion<T>& u,
+                      Sides& sides) const;
+  void GroundForces(const Frame& frame, const T& t, const T* z,
+                    std::array<ClampedLoad<T>, kMaxLegs>& loads,
+                    std::array<Vector2<T>, kMaxLegs>& ground) const;
+  void SlideOutsideCone(int leg, double went, const T& t, const T* z);
+  void TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& told, const T& t, T* z);
+  void AskCones(int except, const T& t, const T* z);
+  LegMotion<T> MotionOf(int leg, const Hip& hip, const T* z) const;
+  Vector2<T> PressOf(int leg, const LegPlace& at, const T* z) const;
+  LegMotion<T> LoadOf(int leg, const LegPlace& at, const LegInertia& inertia, const T* z) const;
+  void SolveMotion(const Vector2<T>& com, const std::array<LegPlace, kMaxLegs>& at,
+                   const std::array<LegInertia, kMaxLegs>& legs, const Sides& sides, T* dz) const;
+  void AddMomentum(const Vector2<T>& com, const T* z, Sides& sides) const;
+  void PutRates(const T* rates, T* z) const;
+  void Blow(int leg, T* z);
+  void SpringOff(int leg, T* z);
+  void ChangeStance(int leg, Stance to, T* z);
   ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const;
   /// The same from the end of the clamp.
   ClampedPlace<T> PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const;
@@ -104,7 +139,8 @@ class Robot final : public HybridSystem<T> {
   void FindLimits(double t, const T* z);
   void ListGuards(Mode mode);
   Mode ModeNow() const;
-  std::optional<Outcome> Land(int i, T* z);
+  std::optional<Outcome> Land(int i, const T& t, T* z, bool comes_down = true);
+  void Stick(int i, const T& t, T* z);
   void BeginOnFoot(int i, T* z);
   void LiftOff(int i, T* z);
 
@@ -117,8 +153,8 @@ class Robot final : public HybridSystem<T> {
   bool has_body_force_;
   bool has_leg_mass_;
   bool lags_, lags_shortly_;  // motors: with a state of their own, or to first order (M86)
-  bool masses_are_plain_;     // the run is not differentiated by them
-  bool centred_;              // the centre of mass is the reference point
+  bool follows_feet_;         // legs have enough mass for their shape on the ground to matter (M89)
+  bool foot_has_inertia_;     // and feet that may slide
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;
   std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]

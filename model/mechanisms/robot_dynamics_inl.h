@@ -12,9 +12,10 @@ namespace hoplab {
 
 template <class T>
 struct Robot<T>::Push {
-  T force_x{0.0}, force_y{0.0};      // on the body [N]
-  T moment{0.0};                     // on the body about its centre of mass [N m]
-  std::array<T, kMaxLegs> on_motor;  // on each motor's angle [N m]
+  T force_x{0.0}, force_y{0.0};               // on the body [N]
+  T moment{0.0};                              // on the body about its centre of mass [N m]
+  std::array<T, kMaxLegs> on_motor;           // on each motor's angle [N m]
+  std::array<ClampedLoad<T>, kMaxLegs> load;  // of each leg that is down
 };
 
 // M82: the leg as a rigid half ring that turns with its motor.
@@ -44,7 +45,7 @@ typename Robot<T>::Push Robot<T>::PushOf(const Frame& frame, const T& t, const T
     if (IsDown(leg)) {
       const Hip hip = HipOf(frame, i, z);
       const Hip end = ClampOf(hip);
-      const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceAt(leg, i, end, z));
+      const ClampedLoad<T>& load = push.load[i] = leg.arc.At(FootOf(leg), PlaceAt(leg, i, end, z));
       const T fx = load.fx + load.damped_x, fy = load.fy + load.damped_y;
       on_hip = load.moment + load.damped_moment + (end.x - hip.x) * fy - (end.y - hip.y) * fx;
       push.force_x += fx;
@@ -76,6 +77,7 @@ void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
   for (int i = 0; i < legs_; ++i) {
     dz[Angle(i)] = locked ? T(0.0) : z[Rate(i)];
     dz[Contact(i)] = T(0.0);
+    if (FootMoves(i)) dz[Contact(i)] = z[FootSpeed(i)];
     if (lags_) dz[Given(i)] = (Torque(i, t, z) - z[Given(i)]) / robot_.motor_lag;
   }
   Accelerate(frame, push, z, dz);
@@ -118,7 +120,9 @@ void Robot<T>::MissJump(int leg, const T& jump, T* z) const {
   const Frame frame(z[Pitch()] - p_.slope);
   Push none, unit;
   none.on_motor.fill(T(0.0));
+  none.load.fill(ClampedLoad<T>{});
   unit.on_motor = none.on_motor;
+  unit.load = none.load;
   unit.on_motor[leg] = T(1.0);
   T without[kMaxStates], with[kMaxStates];
   Accelerate(frame, none, z, without);
@@ -128,137 +132,10 @@ void Robot<T>::MissJump(int leg, const T& jump, T* z) const {
   add(kVx);
   add(kVy);
   add(Pitch() + 1);
-  for (int i = 0; i < legs_; ++i) add(Rate(i));
-}
-
-// M83, with masses and sizes as plain numbers where the run is not differentiated by them.
-template <class T>
-void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z,
-                                     T* dz) const {
-  if constexpr (kJetWidth<T> != 0) {
-    if (masses_are_plain_) return AccelerateWith(Masses<double>(*this), frame, push, z, dz);
-  }
-  AccelerateWith(Masses<T>(*this), frame, push, z, dz);
-}
-
-template <class T>
-template <class P>
-struct Robot<T>::Masses {
-  P body, leg, pitch, rotor, about_hip;
-  P gravity_x, gravity_y;
-
-  explicit Masses(const Robot& r)
-      : body(Plain(r.p_.m)),
-        leg(Plain(r.robot_.leg_mass)),
-        pitch(Plain(r.robot_.pitch_inertia)),
-        rotor(Plain(r.robot_.rotor_inertia)),
-        about_hip(Plain(2.0 * r.robot_.leg_mass * r.p_.r * r.p_.r)),
-        gravity_x(Plain(r.gravity_x_)),
-        gravity_y(Plain(r.gravity_y_)) {}
-  static P Plain(const T& value) {
-    if constexpr (kJetWidth<P> == 0)
-      return Value(value);
-    else
-      return value;
-  }
-};
-
-// The motors are eliminated, each from its own row; then three equations are left, of the reference
-// point and the pitch.
-template <class T>
-template <class P>
-void Robot<T>::AccelerateWith(const Masses<P>& k, const Frame& frame, const Push& push, const T* z,
-                              T* dz) const {
-  const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
-  const P& m = k.leg;
-  const T& turn = z[Pitch() + 1];
-  const T turn2 = turn * turn;
-  const P weight_x = k.body * k.gravity_x, weight_y = k.body * k.gravity_y;
-  // Symmetric matrix and right side of (x, y, pitch).
-  T xx(k.body), xy(0.0), yy(k.body), xt(0.0), yt(0.0), tt(k.pitch);
-  T qx = push.force_x + weight_x, qy = push.force_y + weight_y, qt = push.moment;
-  if (!centred_) {
-    xt = -k.body * com.y;
-    yt = k.body * com.x;
-    tt += k.body * (com.x * com.x + com.y * com.y);
-    qt += com.x * qy - com.y * qx;
-    qx += k.body * turn2 * com.x;
-    qy += k.body * turn2 * com.y;
-  }
-  // Of each motor: what couples it with (x, y, pitch), its inertia, its right side.
-  std::array<T, kMaxLegs> bx, by, bt, own;
-  const bool locked = robot_.control == MotorControl::kLocked;
-  const P over = 1.0 / (k.rotor + k.about_hip);
   for (int i = 0; i < legs_; ++i) {
-    const LegPlace leg = LegOf(frame, i, z);
-    const Hip& p = leg.hip;
-    const T rate2 = p.rate * p.rate, along = m * (p.x * leg.x + p.y * leg.y),
-            across = m * (leg.x * p.y - leg.y * p.x),
-            falls = m * (leg.x * k.gravity_y - leg.y * k.gravity_x);
-    xx += m;
-    yy += m;
-    xt -= m * (p.y + leg.y);
-    yt += m * (p.x + leg.x);
-    tt += m * (p.x * p.x + p.y * p.y) + 2.0 * along + k.about_hip;
-    qx += m * (k.gravity_x + turn2 * p.x + rate2 * leg.x);
-    qy += m * (k.gravity_y + turn2 * p.y + rate2 * leg.y);
-    qt += falls + m * (p.x * k.gravity_y - p.y * k.gravity_x) + across * (turn2 - rate2);
-    if (locked) continue;
-    bx[i] = -m * leg.y;
-    by[i] = m * leg.x;
-    bt[i] = along + k.about_hip;
-    own[i] = push.on_motor[i] + falls + across * turn2;
-    const T sx = bx[i] * over, sy = by[i] * over, st = bt[i] * over;
-    xx -= sx * bx[i];
-    xy -= sx * by[i];
-    yy -= sy * by[i];
-    xt -= sx * bt[i];
-    yt -= sy * bt[i];
-    tt -= st * bt[i];
-    qx -= sx * own[i];
-    qy -= sy * own[i];
-    qt -= st * own[i];
+    add(Rate(i));
+    if (foot_has_inertia_) add(FootSpeed(i));
   }
-  // Cholesky without roots: x, y, then the pitch.
-  const T over_xx = 1.0 / xx, l = xy * over_xx, u = xt * over_xx;
-  const T over_dy = 1.0 / (yy - l * xy), v = (yt - l * xt) * over_dy;
-  const T ry = qy - l * qx;
-  const T spin = (qt - u * qx - v * ry) / (tt - u * xt - v * (yt - l * xt));
-  const T ay = ry * over_dy - v * spin, ax = (qx - xy * ay - xt * spin) * over_xx;
-  dz[kVx] = ax;
-  dz[kVy] = ay;
-  dz[Pitch() + 1] = spin;
-  for (int i = 0; i < legs_; ++i)
-    dz[Rate(i)] = locked ? T(0.0) : T((own[i] - bx[i] * ax - by[i] * ay - bt[i] * spin) * over);
-}
-
-template <class T>
-T Robot<T>::Energy(Mode, const T* z) const {
-  const Frame frame(z[Pitch()] - p_.slope);
-  const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
-  const T& turn = z[Pitch() + 1];
-  const T centre[4] = {z[kX] + com.x, z[kY] + com.y, z[kVx] - turn * com.y, z[kVy] + turn * com.x};
-  T energy = Inertia<T>(p_).Energy(centre) + 0.5 * robot_.pitch_inertia * turn * turn;
-  for (int i = 0; i < legs_; ++i) {
-    const Leg& leg = leg_[i];
-    if (IsDown(leg))
-      energy += leg.arc.StrainEnergy(FootOf(leg), PlaceOf(leg, i, HipOf(frame, i, z), z));
-    if (has_leg_mass_) {
-      const LegPlace at = LegOf(frame, i, z);
-      const T vx = at.hip.vx - at.hip.rate * at.y, vy = at.hip.vy + at.hip.rate * at.x;
-      const T about_centre = 2.0 * p_.r * p_.r - at.x * at.x - at.y * at.y;
-      energy += robot_.leg_mass *
-                (0.5 * (vx * vx + vy * vy + about_centre * at.hip.rate * at.hip.rate) -
-                 gravity_x_ * (z[kX] + at.hip.x + at.x) - gravity_y_ * (z[kY] + at.hip.y + at.y));
-    }
-    if (robot_.control == MotorControl::kLocked) continue;
-    energy += 0.5 * robot_.rotor_inertia * z[Rate(i)] * z[Rate(i)];
-    if (robot_.control == MotorControl::kHeld) {
-      const T off = robot_.angle[i] - z[Angle(i)];
-      energy += 0.5 * robot_.motor_kp * off * off;
-    }
-  }
-  return energy;
 }
 
 }  // namespace hoplab

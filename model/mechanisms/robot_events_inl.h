@@ -19,6 +19,8 @@ inline constexpr double kLeastArc = 0.2;
 inline constexpr double kDeepest = 0.4;
 // A shorter lag of the motors is taken to its first order [s].
 inline constexpr double kShortestLag = 1e-5;
+// Lighter legs than this, over the body, are rigid on the ground, too.
+inline constexpr double kLightestLeg = 1e-4;
 // Lowest hip, in rest radii, where nothing else is said.
 inline constexpr double kLowestHip = 0.3;
 }  // namespace robot_detail
@@ -52,7 +54,8 @@ void Robot<T>::ListGuards(Mode mode) {
       add({EventKind::kLiftoff, i, weight});
       if (Value(robot_.friction) > 0.0) {
         add({EventKind::kStick, i, 1.0});
-        add({EventKind::kLiftoff, i, 1.0, /*side=*/leg.slides});  // it snaps away
+        if (!foot_has_inertia_)
+          add({EventKind::kLiftoff, i, 1.0, /*side=*/leg.slides});  // it snaps away
       }
     } else if (HasCone()) {
       add({EventKind::kSlide, i, weight, 1});
@@ -93,17 +96,21 @@ GuardSpec Robot<T>::Guard(Mode, int i) const {
 }
 
 template <class T>
-void Robot<T>::Guards(Mode, const T& t, const T* z, T* g) const {
+void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
   using std::cos;
   const Frame frame(z[Pitch()] - p_.slope);
   std::array<Hip, kMaxLegs> hips;
   std::array<ClampedLoad<T>, kMaxLegs> loads;
+  std::array<Vector2<T>, kMaxLegs> ground;
+  const bool with_inertia = follows_feet_ && mode != Mode::kFlight;
+  if (with_inertia) GroundForces(frame, t, z, loads, ground);
   for (int i = 0; i < legs_; ++i) {
     const Leg& leg = leg_[i];
     hips[i] = HipOf(frame, i, z);
-    if (IsDown(leg))
-      loads[i] = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hips[i], z), false,
-                            /*with_slip=*/leg.slides != 0.0);
+    if (!IsDown(leg) || with_inertia) continue;
+    loads[i] = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hips[i], z), false,
+                          /*with_slip=*/leg.slides != 0.0);
+    ground[i] = {loads[i].fx, loads[i].fy};
   }
   for (int k = 0; k < guard_count_; ++k) {
     const GuardRef& guard = guards_[k];
@@ -115,13 +122,13 @@ void Robot<T>::Guards(Mode, const T& t, const T* z, T* g) const {
         g[k] = z[kY] + hip.y - Reach(hip.angle);
         break;
       case EventKind::kLiftoff:
-        g[k] = guard.side != 0.0 ? T(load.yield - kLeastYield) : load.fy;
+        g[k] = guard.side != 0.0 ? T(load.yield - kLeastYield) : ground[i].y;
         break;
       case EventKind::kSlide:
-        g[k] = robot_.friction * load.fy + guard.side * load.fx;
+        g[k] = robot_.friction * ground[i].y + guard.side * ground[i].x;
         break;
       case EventKind::kStick:
-        g[k] = leg_[i].slides * load.slip;
+        g[k] = leg_[i].slides * (foot_has_inertia_ ? z[FootSpeed(i)] : load.slip);
         break;
       case EventKind::kRollingToToe:
         g[k] = leg_[i].arc.length() - load.arc;
@@ -155,7 +162,7 @@ void Robot<T>::Guards(Mode, const T& t, const T* z, T* g) const {
 
 // M74: the leg lands with the part of its arc that is lowest, or on its toe.
 template <class T>
-std::optional<Outcome> Robot<T>::Land(int i, T* z) {
+std::optional<Outcome> Robot<T>::Land(int i, const T& t, T* z, bool comes_down) {
   using std::cos;
   using std::sin;
   const Frame frame(z[Pitch()] - p_.slope);
@@ -170,9 +177,16 @@ std::optional<Outcome> Robot<T>::Land(int i, T* z) {
   leg.stance = rolling ? Stance::kRolling : Stance::kToe;
   const double tip = rolling ? 0.0 : -Value(angle);
   leg.arc.StartAt(tip);
+  leg.slides = 0.0;
+  if (comes_down && follows_feet_) Blow(i, z);
+  if (foot_has_inertia_) {
+    if (comes_down && leg.slides == 0.0) SlideOutsideCone(i, 0.0, t, z);
+    return std::nullopt;
+  }
   // The point of contact moves with the leg, that bends only from here on.
-  const double u = Value(lead), height = Value(Reach(hip.angle)), spin = Value(hip.rate);
-  const double vx = Value(hip.vx) + spin * height, vy = Value(hip.vy) + spin * u;
+  const Hip after = HipOf(frame, i, z);
+  const double u = Value(lead), height = Value(Reach(hip.angle)), spin = Value(after.rate);
+  const double vx = Value(after.vx) + spin * height, vy = Value(after.vy) + spin * u;
   const double base = Value(leg.arc.length() - angle);
   leg.slides = leg.arc.SlidesAtLanding(tip, base, vx, vy);
   if (leg.slides == 0.0 && !leg.arc.PressesAtLanding(tip, base, vx, vy)) return Outcome::kNoSupport;
@@ -188,7 +202,7 @@ void Robot<T>::BeginOnFoot(int i, T* z) {
   const double depth = Value(Reach(hip.angle)) - Value(z[kY] + hip.y);
   const double r = Value(p_.r);
   if (!(depth > kAtZero * r) || depth > robot_detail::kDeepest * r) return;
-  Land(i, z);
+  Land(i, T(0.0), z, /*comes_down=*/false);
   leg.slides = 0.0;
   const double mu = Value(robot_.friction);
   ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
@@ -200,11 +214,63 @@ void Robot<T>::BeginOnFoot(int i, T* z) {
   if (!(Value(load.fy) > 0.0)) LiftOff(i, z);
 }
 
+// A foot that comes to rest holds, but where it would be drawn the other way by more than its cone.
+template <class T>
+void Robot<T>::Stick(int i, const T& t, T* z) {
+  const double went = leg_[i].slides;
+  leg_[i].slides = 0.0;
+  z[FootSpeed(i)] = T(0.0);
+  SlideOutsideCone(i, went, t, z);
+}
+
+// A foot that begins to hold where it cannot slides, but not the way it just came.
+template <class T>
+void Robot<T>::SlideOutsideCone(int i, double went, const T& t, const T* z) {
+  std::array<ClampedLoad<T>, kMaxLegs> loads;
+  std::array<Vector2<T>, kMaxLegs> ground;
+  GroundForces(Frame(z[Pitch()] - p_.slope), t, z, loads, ground);
+  const double along = Value(ground[i].x), up = Value(ground[i].y);
+  if (!(up > 0.0) || std::abs(along) <= Value(robot_.friction) * up) return;
+  const double way = along > 0.0 ? -1.0 : 1.0;
+  if (way != went) leg_[i].slides = way;
+}
+
+// Where accelerations jump, so do the forces on the other feet: one that holds may be beyond its
+// cone.
+template <class T>
+void Robot<T>::AskCones(int except, const T& t, const T* z) {
+  if (!foot_has_inertia_) return;
+  for (int i = 0; i < legs_; ++i)
+    if (i != except && IsDown(leg_[i]) && leg_[i].slides == 0.0) SlideOutsideCone(i, 0.0, t, z);
+}
+
 template <class T>
 void Robot<T>::LiftOff(int i, T* z) {
   leg_[i].stance = Stance::kFlight;
   leg_[i].slides = 0.0;
   z[Contact(i)] = T(0.0);
+  if (foot_has_inertia_) z[FootSpeed(i)] = T(0.0);
+}
+
+// Where rates jump, so does what the motors are told: on which side of its limit each is then is
+// part of the event, and a short lag misses the jump (M86).
+template <class T>
+void Robot<T>::TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& told, const T& t,
+                        T* z) {
+  switch (guard.event) {
+    case EventKind::kTouchdown:
+    case EventKind::kLiftoff:
+    case EventKind::kRollingToToe:
+    case EventKind::kToeToRolling:
+      FindLimits(Value(t), z);
+      for (int i = 0; i < legs_ && lags_shortly_; ++i) MissJump(i, Torque(i, t, z) - told[i], z);
+      break;
+    case EventKind::kStick:
+      break;
+    default:
+      return;
+  }
+  AskCones(guard.leg, t, z);
 }
 
 template <class T>
@@ -212,35 +278,45 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
   const GuardRef guard = guards_[i];
   Leg& leg = leg_[guard.leg];
   std::optional<Outcome> end;
+  std::array<T, kMaxLegs> told;
+  for (int k = 0; k < legs_; ++k) told[k] = Torque(k, t, z);
   switch (guard.event) {
     case EventKind::kTouchdown:
-      end = Land(guard.leg, z);
+      end = Land(guard.leg, t, z);
       break;
     case EventKind::kLiftoff:
+      if (follows_feet_) SpringOff(guard.leg, z);
       LiftOff(guard.leg, z);
       break;
     case EventKind::kRollingToToe:
+      if (follows_feet_) ChangeStance(guard.leg, Stance::kToe, z);
       leg.stance = Stance::kToe;
-      if (leg.slides == 0.0) z[Contact(guard.leg)] += p_.r * leg.arc.length();
+      if (foot_has_inertia_ || leg.slides == 0.0) z[Contact(guard.leg)] += p_.r * leg.arc.length();
       leg.arc.Restart();
       break;
     case EventKind::kToeToRolling:
+      if (follows_feet_) ChangeStance(guard.leg, Stance::kRolling, z);
       leg.stance = Stance::kRolling;
-      if (leg.slides == 0.0) z[Contact(guard.leg)] -= p_.r * leg.arc.length();
+      if (foot_has_inertia_ || leg.slides == 0.0) z[Contact(guard.leg)] -= p_.r * leg.arc.length();
       leg.arc.Restart();
       break;
     case EventKind::kSlide: {
       const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), guard.leg, z);
-      if (guard.side > 0 &&
+      if (guard.side > 0 && !foot_has_inertia_ &&
           !leg.arc.CanSlideForward(FootOf(leg), PlaceOf(leg, guard.leg, hip, z))) {
         LiftOff(guard.leg, z);
         break;
       }
       leg.slides = guard.side;
+      if (foot_has_inertia_) break;
       leg.arc.Restart();
       break;
     }
     case EventKind::kStick: {
+      if (foot_has_inertia_) {
+        Stick(guard.leg, t, z);
+        break;
+      }
       const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), guard.leg, z);
       const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, guard.leg, hip, z), false);
       z[Contact(guard.leg)] = z[kX] + ClampOf(hip).x + load.lead;
@@ -263,6 +339,7 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
     default:
       break;  // apex
   }
+  if (follows_feet_ && !end) TakeJump(guard, told, t, z);
   const Mode mode = ModeNow();
   ListGuards(mode);
   return {mode, end};
