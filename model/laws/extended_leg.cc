@@ -1,6 +1,7 @@
 #include "model/laws/extended_leg.h"
 
 #include <cmath>
+#include <limits>
 
 #include "model/effects/effect.h"
 #include "model/laws/extended_search.h"
