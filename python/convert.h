@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/run_record.h"
+#include "app/records/run_record.h"
 #include "datasets/dataset.h"
 #include "fitting/fit_dataset.h"
 

@@ -1,6 +1,6 @@
 #include <pybind11/stl.h>
 
-#include "app/diagnosis_record.h"
+#include "app/records/diagnosis_record.h"
 #include "base/input_error.h"
 #include "python/bindings.h"
 #include "python/convert.h"

@@ -1,6 +1,6 @@
 #include <pybind11/stl.h>
 
-#include "app/fit_record.h"
+#include "app/records/fit_record.h"
 #include "python/bindings.h"
 #include "python/convert.h"
 #include "python/long_work.h"

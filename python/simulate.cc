@@ -4,7 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "app/simulation_record.h"
+#include "app/records/simulation_record.h"
+#include "app/runs/sensitivity_direction.h"
 #include "base/input_error.h"
 #include "base/range.h"
 #include "base/text.h"

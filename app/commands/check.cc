@@ -1,5 +1,3 @@
-#include "app/commands/check.h"
-
 #include <fmt/format.h>
 
 #include <chrono>
@@ -7,16 +5,17 @@
 #include <limits>
 #include <ostream>
 
-#include "app/fit_report.h"
-#include "app/problem_settings.h"
-#include "app/progress.h"
-#include "app/quantity.h"
-#include "app/record_parts.h"
-#include "app/report_text.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
-#include "app/text_table.h"
-#include "app/warnings.h"
+#include "app/records/fit_words.h"
+#include "app/records/record_parts.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/problem_settings.h"
+#include "app/runs/run_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/quantity.h"
+#include "app/terminal/report_text.h"
+#include "app/terminal/text_table.h"
+#include "app/terminal/warnings.h"
 #include "base/text.h"
 #include "datasets/read_dataset.h"
 #include "fitting/noise.h"
@@ -166,19 +165,24 @@ ExitCode RunCheck(const CheckSettings& settings, Console& console) {
   return ExitCode::kDone;
 }
 
-}  // namespace
-
-void AddCheckCommand(CLI::App& app, Invocation& invocation) {
+void AddCheck(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<CheckSettings>();
-  CLI::App& sub = *app.add_subcommand(
-      "check", "Data quality, identifiability and gradients of a dataset, before any fit");
   AddProblemOptions(sub, settings->problem);
   AddRunFolderOptions(sub, *settings, "Write a run folder here (default: nothing is written)");
-  sub.footer(
-      "Examples:\n"
-      "  hoplab check datasets/rig-drops\n"
-      "  hoplab check my-hops --free E,d,m --law consistent --json");
   OnParsed(sub, invocation, settings, RunCheck);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command check = {
+    .place = 20,
+    .name = "check",
+    .what = "Data quality, identifiability and gradients of a dataset, before any fit",
+    .footer =
+        "Examples:\n"
+        "  hoplab check datasets/rig-drops\n"
+        "  hoplab check my-hops --free E,d,m --law consistent --json",
+    .add = AddCheck};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,16 +1,15 @@
-#include "app/commands/compare.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <ostream>
 
-#include "app/problem_settings.h"
-#include "app/progress.h"
-#include "app/quantity.h"
-#include "app/run_record.h"
-#include "app/text_table.h"
-#include "app/usage_error.h"
+#include "app/records/run_record.h"
+#include "app/runs/problem_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/quantity.h"
+#include "app/terminal/text_table.h"
+#include "app/terminal/usage_error.h"
 #include "base/text.h"
 #include "datasets/read_dataset.h"
 #include "experiments/law_comparison.h"
@@ -150,11 +149,8 @@ ExitCode RunCompare(const CompareSettings& settings, Console& console) {
   return ExitCode::kDone;
 }
 
-}  // namespace
-
-void AddCompareCommand(CLI::App& app, Invocation& invocation) {
+void AddCompare(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<CompareSettings>();
-  CLI::App& sub = *app.add_subcommand("compare", "Fit the same hops with every law of the leg");
   AddProblemOptions(sub, settings->problem);
   // A variant says both.
   for (const char* name : {"--law", "--with"}) sub.remove_option(sub.get_option(name));
@@ -166,12 +162,21 @@ void AddCompareCommand(CLI::App& app, Invocation& invocation) {
       ->delimiter(',')
       ->option_text("NAME=VALUE")
       ->allow_extra_args(false);
-  sub.footer(
-      "Examples:\n"
-      "  hoplab compare datasets/rig-drops --true E=21.991e9\n"
-      "  hoplab compare my-hops --variant consistent\n"
-      "  hoplab compare my-hops --variant large_deflection+leg_material_damping");
   OnParsed(sub, invocation, settings, RunCompare);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command compare = {
+    .place = 70,
+    .name = "compare",
+    .what = "Fit the same hops with every law of the leg",
+    .footer =
+        "Examples:\n"
+        "  hoplab compare datasets/rig-drops --true E=21.991e9\n"
+        "  hoplab compare my-hops --variant consistent\n"
+        "  hoplab compare my-hops --variant large_deflection+leg_material_damping",
+    .add = AddCompare};
+}  // namespace commands
 }  // namespace hoplab

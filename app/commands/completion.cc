@@ -1,10 +1,11 @@
-#include "app/commands/completion.h"
+#include "app/terminal/completion.h"
 
 #include <ostream>
 
-#include "app/completion.h"
-#include "app/help_text.h"
-#include "app/run_record.h"
+#include "app/records/run_record.h"
+#include "app/reports/argument_values.h"
+#include "app/terminal/command.h"
+#include "app/terminal/help_text.h"
 
 namespace hoplab {
 namespace {
@@ -14,35 +15,41 @@ struct CompletionSettings {
   bool json = false;
 };
 
-}  // namespace
-
-void AddCompletionCommand(CLI::App& app, Invocation& invocation) {
+void AddCompletion(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<CompletionSettings>();
-  CLI::App& sub =
-      *app.add_subcommand("completion", "Print what makes a shell complete this command line");
   sub.add_option("SHELL", settings->shell, "bash, zsh or fish")
       ->required()
       ->check(OneOf({std::begin(kShells), std::end(kShells)}));
-  sub.footer(
-      "Commands, options, laws, effects, parameters, files. An installed hoplab has it.\n"
-      "Examples:\n"
-      "  hoplab completion bash > ~/.local/share/bash-completion/completions/hoplab\n"
-      "  hoplab completion zsh > ~/.zfunc/_hoplab\n"
-      "  hoplab completion fish > ~/.config/fish/completions/hoplab.fish");
-  OnParsed(sub, invocation, settings, [&app](const CompletionSettings& s, Console& console) {
-    const std::string script = CompletionScript(app, s.shell);
-    if (!s.json) {
-      console.out << script;
-      return ExitCode::kDone;
-    }
-    RecordHeader header;
-    header.command = "completion";
-    Json record = NewRecord(header);
-    record["shell"] = s.shell;
-    record["script"] = script;
-    console.out << TextOf(record);
-    return ExitCode::kDone;
-  });
+  OnParsed(sub, invocation, settings,
+           [&app = *sub.get_parent()](const CompletionSettings& s, Console& console) {
+             const std::string script = CompletionScript(app, s.shell, ValuesOf);
+             if (!s.json) {
+               console.out << script;
+               return ExitCode::kDone;
+             }
+             RecordHeader header;
+             header.command = "completion";
+             Json record = NewRecord(header);
+             record["shell"] = s.shell;
+             record["script"] = script;
+             console.out << TextOf(record);
+             return ExitCode::kDone;
+           });
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command completion = {
+    .place = 200,
+    .name = "completion",
+    .what = "Print what makes a shell complete this command line",
+    .footer =
+        "Commands, options, laws, effects, parameters, files. An installed hoplab has it.\n"
+        "Examples:\n"
+        "  hoplab completion bash > ~/.local/share/bash-completion/completions/hoplab\n"
+        "  hoplab completion zsh > ~/.zfunc/_hoplab\n"
+        "  hoplab completion fish > ~/.config/fish/completions/hoplab.fish",
+    .add = AddCompletion};
+}  // namespace commands
 }  // namespace hoplab

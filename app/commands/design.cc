@@ -1,17 +1,16 @@
-#include "app/commands/design.h"
-
 #include <chrono>
 #include <cmath>
 #include <ostream>
 
-#include "app/design_record.h"
-#include "app/help_text.h"
-#include "app/interrupt.h"
-#include "app/problem_settings.h"
-#include "app/progress.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
-#include "app/usage_error.h"
+#include "app/records/design_record.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/problem_settings.h"
+#include "app/runs/run_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/help_text.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/usage_error.h"
 #include "base/input_error.h"
 #include "base/text.h"
 #include "datasets/read_dataset.h"
@@ -109,11 +108,8 @@ ExitCode RunDesignCommand(const DesignSettings& settings, Console& console) {
   return ExitCode::kNoResult;
 }
 
-}  // namespace
-
-void AddDesignCommand(CLI::App& app, Invocation& invocation) {
+void AddDesign(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<DesignSettings>();
-  CLI::App& sub = *app.add_subcommand("design", "Propose the trial to record next");
   AddProblemOptions(sub, settings->problem);
   CLI::Option* cause =
       sub.add_option("--cause", settings->cause,
@@ -142,12 +138,21 @@ void AddDesignCommand(CLI::App& app, Invocation& invocation) {
   AddDiscrepancyOption(sub, settings->discrepancy);
   AddSeedOption(sub, settings->seed, "Of the search");
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-design-NNN)");
-  sub.footer(
-      "Examples:\n"
-      "  hoplab design datasets/rig-drops --sharpen E\n"
-      "  hoplab design my-hops --cause air_drag,guide_viscous_friction\n"
-      "  hoplab design my-hops --space angle=15:40,height=0.2:0.5,mass=0,throw=0");
   OnParsed(sub, invocation, settings, RunDesignCommand);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command design = {
+    .place = 60,
+    .name = "design",
+    .what = "Propose the trial to record next",
+    .footer =
+        "Examples:\n"
+        "  hoplab design datasets/rig-drops --sharpen E\n"
+        "  hoplab design my-hops --cause air_drag,guide_viscous_friction\n"
+        "  hoplab design my-hops --space angle=15:40,height=0.2:0.5,mass=0,throw=0",
+    .add = AddDesign};
+}  // namespace commands
 }  // namespace hoplab

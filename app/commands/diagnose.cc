@@ -1,20 +1,19 @@
-#include "app/commands/diagnose.h"
-
 #include <chrono>
 #include <cmath>
 #include <ostream>
 
-#include "app/diagnosis_record.h"
-#include "app/diagnosis_report.h"
-#include "app/diagnosis_tables.h"
-#include "app/discovery_record.h"
-#include "app/help_text.h"
-#include "app/interrupt.h"
-#include "app/problem_settings.h"
-#include "app/progress.h"
-#include "app/quantity.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
+#include "app/records/diagnosis_record.h"
+#include "app/records/diagnosis_tables.h"
+#include "app/records/discovery_record.h"
+#include "app/reports/diagnosis_report.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/problem_settings.h"
+#include "app/runs/run_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/help_text.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/quantity.h"
 #include "datasets/read_dataset.h"
 
 namespace hoplab {
@@ -115,12 +114,8 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
   return CodeOf(run);
 }
 
-}  // namespace
-
-void AddDiagnoseCommand(CLI::App& app, Invocation& invocation) {
+void AddDiagnose(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<DiagnoseSettings>();
-  CLI::App& sub = *app.add_subcommand(
-      "diagnose", "Name what the simulation lacks, extend it and measure what that brings");
   AddProblemOptions(sub, settings->problem);
   CLI::Option* only = sub.add_option("--effects", settings->effects,
                                      "Effects to try (default: all that apply); see hoplab effects")
@@ -153,12 +148,21 @@ void AddDiagnoseCommand(CLI::App& app, Invocation& invocation) {
   sub.add_flag("--discover", settings->discover,
                "Look for a formula where the catalogue falls short");
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-diagnose-NNN)");
-  sub.footer(
-      "Examples:\n"
-      "  hoplab diagnose datasets/rig-drops --effects touchdown_loss,air_drag\n"
-      "  hoplab diagnose my-hops --without sensor_delay,clock_scale --jobs 4\n"
-      "  hoplab diagnose my-hops --with air_drag --effects ground_slope,foot_slip");
   OnParsed(sub, invocation, settings, RunDiagnose);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command diagnose = {
+    .place = 40,
+    .name = "diagnose",
+    .what = "Name what the simulation lacks, extend it and measure what that brings",
+    .footer =
+        "Examples:\n"
+        "  hoplab diagnose datasets/rig-drops --effects touchdown_loss,air_drag\n"
+        "  hoplab diagnose my-hops --without sensor_delay,clock_scale --jobs 4\n"
+        "  hoplab diagnose my-hops --with air_drag --effects ground_slope,foot_slip",
+    .add = AddDiagnose};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,16 +1,16 @@
-#include "app/commands/discover.h"
-
 #include <chrono>
 #include <ostream>
 
-#include "app/discovery_record.h"
-#include "app/help_text.h"
-#include "app/interrupt.h"
-#include "app/problem_settings.h"
-#include "app/progress.h"
-#include "app/report_text.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
+#include "app/export/discovered_code.h"
+#include "app/records/discovery_record.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/problem_settings.h"
+#include "app/runs/run_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/help_text.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/report_text.h"
 #include "base/text.h"
 #include "datasets/read_dataset.h"
 
@@ -74,12 +74,8 @@ ExitCode RunDiscover(const DiscoverSettings& settings, Console& console) {
   return failure.empty() ? ExitCode::kDone : ExitCode::kNoResult;
 }
 
-}  // namespace
-
-void AddDiscoverCommand(CLI::App& app, Invocation& invocation) {
+void AddDiscover(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<DiscoverSettings>();
-  CLI::App& sub = *app.add_subcommand(
-      "discover", "Look for a formula of what the simulation lacks and no listed cause explains");
   AddProblemOptions(sub, settings->problem);
   AddDiscrepancyOption(sub, settings->discrepancy);
   AddSeedOption(sub, settings->seed, "Of noise draws, resamples and bootstraps");
@@ -89,12 +85,21 @@ void AddDiscoverCommand(CLI::App& app, Invocation& invocation) {
       ->option_text("NAME");
   sub.add_flag("--code", settings->code, "Also write what is found as a C++ effect");
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-discover-NNN)");
-  sub.footer(
-      "Examples:\n"
-      "  hoplab discover datasets/rig-drops --law large_deflection\n"
-      "  hoplab discover my-hops --with air_drag --jobs 4\n"
-      "  hoplab fit my-hops --with runs/my-hops-discover-001/discovered.yaml");
   OnParsed(sub, invocation, settings, RunDiscover);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command discover = {
+    .place = 50,
+    .name = "discover",
+    .what = "Look for a formula of what the simulation lacks and no listed cause explains",
+    .footer =
+        "Examples:\n"
+        "  hoplab discover datasets/rig-drops --law large_deflection\n"
+        "  hoplab discover my-hops --with air_drag --jobs 4\n"
+        "  hoplab fit my-hops --with runs/my-hops-discover-001/discovered.yaml",
+    .add = AddDiscover};
+}  // namespace commands
 }  // namespace hoplab

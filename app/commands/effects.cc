@@ -1,17 +1,16 @@
-#include "app/commands/effects.h"
-
 #include <algorithm>
 #include <ostream>
 
-#include "app/effect_catalogue.h"
-#include "app/effect_words.h"
 #include "app/export/effect_code.h"
-#include "app/formula_words.h"
-#include "app/quantity.h"
-#include "app/record_parts.h"
-#include "app/report_text.h"
-#include "app/run_record.h"
-#include "app/text_table.h"
+#include "app/records/formula_words.h"
+#include "app/records/record_parts.h"
+#include "app/records/run_record.h"
+#include "app/reports/effect_catalogue.h"
+#include "app/reports/effect_words.h"
+#include "app/terminal/command.h"
+#include "app/terminal/quantity.h"
+#include "app/terminal/report_text.h"
+#include "app/terminal/text_table.h"
 #include "base/input_error.h"
 #include "base/text.h"
 #include "fitting/model_of_spec.h"
@@ -170,23 +169,29 @@ ExitCode RunEffects(const EffectsSettings& settings, Console& console) {
   return ExitCode::kDone;
 }
 
-}  // namespace
-
-void AddEffectsCommand(CLI::App& app, Invocation& invocation) {
+void AddEffects(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<EffectsSettings>();
-  CLI::App& sub = *app.add_subcommand("effects", "Physical effects that can be added to a model");
   sub.add_option("EFFECT", settings->name, "One effect in full, or a file with a formula: checked");
   sub.add_option("--law", settings->law, "Only those that go with this law")->option_text("LAW");
   sub.add_flag("--markdown", settings->markdown, "As a page of documentation (docs/effects.md)");
   sub.add_flag("--code", settings->code, "The formula of a file as a C++ effect");
-  sub.footer(
-      "Examples:\n"
-      "  hoplab effects --law consistent\n"
-      "  hoplab effects air_drag\n"
-      "  hoplab effects umbilical.yaml\n"
-      "  hoplab effects umbilical.yaml --code > model/effects/umbilical.cc\n"
-      "  hoplab effects --json");
   OnParsed(sub, invocation, settings, RunEffects);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command effects = {
+    .place = 180,
+    .name = "effects",
+    .what = "Physical effects that can be added to a model",
+    .footer =
+        "Examples:\n"
+        "  hoplab effects --law consistent\n"
+        "  hoplab effects air_drag\n"
+        "  hoplab effects umbilical.yaml\n"
+        "  hoplab effects umbilical.yaml --code > model/effects/umbilical.cc\n"
+        "  hoplab effects --json",
+    .add = AddEffects};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,9 +1,9 @@
-#include "app/commands/explain.h"
+#include "app/reports/explain.h"
 
 #include <ostream>
 
-#include "app/explain.h"
-#include "app/report_text.h"
+#include "app/terminal/command.h"
+#include "app/terminal/report_text.h"
 #include "base/input_error.h"
 #include "base/text.h"
 
@@ -78,19 +78,24 @@ ExitCode RunExplain(const ExplainSettings& settings, Console& console) {
   return ExitCode::kDone;
 }
 
-}  // namespace
-
-void AddExplainCommand(CLI::App& app, Invocation& invocation) {
+void AddExplain(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<ExplainSettings>();
-  CLI::App& sub = *app.add_subcommand(
-      "explain", "Two paragraphs on an effect, a law, or a word of the reports");
   sub.add_option("WORD", settings->words, "As air_drag, consistent, weak direction; none: a list");
-  sub.footer(
-      "Examples:\n"
-      "  hoplab explain\n"
-      "  hoplab explain spectral radius\n"
-      "  hoplab explain touchdown_loss");
   OnParsed(sub, invocation, settings, RunExplain);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command explain = {
+    .place = 190,
+    .name = "explain",
+    .what = "Two paragraphs on an effect, a law, or a word of the reports",
+    .footer =
+        "Examples:\n"
+        "  hoplab explain\n"
+        "  hoplab explain spectral radius\n"
+        "  hoplab explain touchdown_loss",
+    .add = AddExplain};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,21 +1,20 @@
-#include "app/commands/fit.h"
-
 #include <chrono>
 #include <cmath>
 #include <ostream>
 
-#include "app/fit_record.h"
-#include "app/fit_report.h"
-#include "app/fit_run.h"
-#include "app/fit_tables.h"
-#include "app/help_text.h"
-#include "app/interrupt.h"
-#include "app/problem_settings.h"
-#include "app/progress.h"
-#include "app/quantity.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
-#include "app/warnings.h"
+#include "app/records/fit_record.h"
+#include "app/records/fit_tables.h"
+#include "app/reports/fit_report.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/fit_run.h"
+#include "app/runs/problem_settings.h"
+#include "app/runs/run_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/help_text.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/quantity.h"
+#include "app/terminal/warnings.h"
 #include "datasets/read_dataset.h"
 
 namespace hoplab {
@@ -106,11 +105,8 @@ ExitCode RunFitCommand(const FitSettings& settings, Console& console) {
   return CodeOf(run);
 }
 
-}  // namespace
-
-void AddFitCommand(CLI::App& app, Invocation& invocation) {
+void AddFit(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<FitSettings>();
-  CLI::App& sub = *app.add_subcommand("fit", "Fit parameters to recorded hops, with intervals");
   AddProblemOptions(sub, settings->problem);
   sub.add_option("--starts", settings->starts,
                  "Searches: one from the nominal values, then scattered")
@@ -138,12 +134,21 @@ void AddFitCommand(CLI::App& app, Invocation& invocation) {
       ->option_text("NAME,...")
       ->allow_extra_args(false);
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-fit-NNN)");
-  sub.footer(
-      "Examples:\n"
-      "  hoplab fit datasets/rig-drops\n"
-      "  hoplab fit datasets/rig-drops --law consistent --free E,d,G --starts 8\n"
-      "  hoplab fit my-hops --with air_drag --fix g=9.80665 --profile E");
   OnParsed(sub, invocation, settings, RunFitCommand);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command fit = {
+    .place = 30,
+    .name = "fit",
+    .what = "Fit parameters to recorded hops, with intervals",
+    .footer =
+        "Examples:\n"
+        "  hoplab fit datasets/rig-drops\n"
+        "  hoplab fit datasets/rig-drops --law consistent --free E,d,G --starts 8\n"
+        "  hoplab fit my-hops --with air_drag --fix g=9.80665 --profile E",
+    .add = AddFit};
+}  // namespace commands
 }  // namespace hoplab

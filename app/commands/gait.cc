@@ -1,15 +1,15 @@
-#include "app/commands/gait.h"
-
 #include <chrono>
 #include <ostream>
 
-#include "app/gait_record.h"
-#include "app/interrupt.h"
-#include "app/problem_settings.h"
-#include "app/progress.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
-#include "app/scenario_settings.h"
+#include "app/records/gait_record.h"
+#include "app/records/solver_record.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/problem_settings.h"
+#include "app/runs/run_settings.h"
+#include "app/runs/scenario_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress.h"
 #include "experiments/scenario_hopper.h"
 
 namespace hoplab {
@@ -74,12 +74,8 @@ ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
   return failure.empty() ? ExitCode::kDone : ExitCode::kNoResult;
 }
 
-}  // namespace
-
-void AddGaitCommand(CLI::App& app, Invocation& invocation) {
+void AddGait(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<GaitSettings>();
-  CLI::App& sub = *app.add_subcommand(
-      "gait", "Steady hop or stride of a scenario, its stability and what changes it");
   AddScenarioOptions(sub, settings->scenario);
   sub.add_option("--along", settings->along,
                  "Follow it along a parameter, SI units, as kp=0.5:12 or clock.period_s=0.25:0.6")
@@ -87,13 +83,22 @@ void AddGaitCommand(CLI::App& app, Invocation& invocation) {
   AddJobsOption(sub, settings->jobs);
   AddSolverOptions(sub, settings->solver);
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<scenario>-gait-NNN)");
-  sub.footer(
-      "Examples:\n"
-      "  hoplab gait experiments/controlled-hopping.yaml\n"
-      "  hoplab gait experiments/controlled-hopping.yaml --along theta_td=0.5:0.9\n"
-      "  hoplab gait experiments/robot-walk.yaml --along clock.period_s=0.5:0.6\n"
-      "  hoplab gait hopping.yaml --set controller.kp_N_s=2 --json");
   OnParsed(sub, invocation, settings, RunGaitCommand);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command gait = {
+    .place = 80,
+    .name = "gait",
+    .what = "Steady hop or stride of a scenario, its stability and what changes it",
+    .footer =
+        "Examples:\n"
+        "  hoplab gait experiments/controlled-hopping.yaml\n"
+        "  hoplab gait experiments/controlled-hopping.yaml --along theta_td=0.5:0.9\n"
+        "  hoplab gait experiments/robot-walk.yaml --along clock.period_s=0.5:0.6\n"
+        "  hoplab gait hopping.yaml --set controller.kp_N_s=2 --json",
+    .add = AddGait};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,14 +1,14 @@
-#include "app/commands/generate.h"
+#include "fitting/generate.h"
 
 #include <chrono>
 #include <ostream>
 
-#include "app/run_record.h"
-#include "app/run_settings.h"
-#include "app/scenario_settings.h"
+#include "app/records/run_record.h"
+#include "app/runs/run_settings.h"
+#include "app/runs/scenario_settings.h"
+#include "app/terminal/command.h"
 #include "base/atomic_file.h"
 #include "datasets/write_dataset.h"
-#include "fitting/generate.h"
 
 namespace hoplab {
 namespace {
@@ -71,11 +71,8 @@ ExitCode RunGenerate(const GenerateSettings& settings, Console& console) {
   return ExitCode::kDone;
 }
 
-}  // namespace
-
-void AddGenerateCommand(CLI::App& app, Invocation& invocation) {
+void AddGenerate(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<GenerateSettings>();
-  CLI::App& sub = *app.add_subcommand("generate", "Make a dataset from a scenario, with noise");
   AddScenarioOptions(sub, settings->scenario);
   sub.add_option("--noise", settings->noise,
                  "1 standard deviation of every channel, in its unit (default: the scenario's)")
@@ -86,11 +83,20 @@ void AddGenerateCommand(CLI::App& app, Invocation& invocation) {
       ->required()
       ->option_text("DATASET");
   sub.add_flag("--force", settings->force, "Replace the dataset that stands there");
-  sub.footer(
-      "Examples:\n"
-      "  hoplab generate experiments/three-drops.yaml --out my-hops\n"
-      "  hoplab generate hopping.yaml --with air_drag:c_drag=0.05 --seed 7 --out windy");
   OnParsed(sub, invocation, settings, RunGenerate);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command generate = {
+    .place = 140,
+    .name = "generate",
+    .what = "Make a dataset from a scenario, with noise",
+    .footer =
+        "Examples:\n"
+        "  hoplab generate experiments/three-drops.yaml --out my-hops\n"
+        "  hoplab generate hopping.yaml --with air_drag:c_drag=0.05 --seed 7 --out windy",
+    .add = AddGenerate};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,5 +1,3 @@
-#include "app/commands/identify.h"
-
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -7,12 +5,14 @@
 #include <iterator>
 #include <ostream>
 
-#include "app/identify_record.h"
-#include "app/identify_work.h"
-#include "app/interrupt.h"
-#include "app/problem_settings.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
+#include "app/records/identify_record.h"
+#include "app/records/solver_record.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/identify_work.h"
+#include "app/runs/problem_settings.h"
+#include "app/runs/run_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/interrupt.h"
 #include "app/version.h"
 #include "base/input_error.h"
 #include "base/text.h"
@@ -216,12 +216,8 @@ ExitCode RunIdentify(const IdentifySettings& settings, Console& console) {
   return job.rank() == 0 ? Lead(settings, console, &job) : Follow(settings, job);
 }
 
-}  // namespace
-
-void AddIdentifyCommand(CLI::App& app, Invocation& invocation) {
+void AddIdentify(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<IdentifySettings>();
-  CLI::App& sub = *app.add_subcommand(
-      "identify", "Find what the published study does not print, from its tables");
   sub.add_option("--tables", settings->tables, "6.1 to 6.5 with commas between, or all (default)")
       ->option_text("LIST");
   sub.add_option("--times", settings->times, "Reading of the times, as flight,stays,last_five")
@@ -256,13 +252,22 @@ void AddIdentifyCommand(CLI::App& app, Invocation& invocation) {
   AddRunFolderOptions(
       sub, *settings, "Run folder (default runs/published-identify-NNN)",
       "Replace the run that stands in the run folder, begin an interrupted one anew");
-  sub.footer(
-      "An interrupted run goes on where it was: start the same command again.\n"
-      "Examples:\n"
-      "  hoplab identify --tables 6.5 --budget 40\n"
-      "  hoplab identify --budget 2000 --free-damping-scale --out constants\n"
-      "  mpirun -n 4 hoplab identify --tables all --free-toe-mass");
   OnParsed(sub, invocation, settings, RunIdentify);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command identify = {
+    .place = 120,
+    .name = "identify",
+    .what = "Find what the published study does not print, from its tables",
+    .footer =
+        "An interrupted run goes on where it was: start the same command again.\n"
+        "Examples:\n"
+        "  hoplab identify --tables 6.5 --budget 40\n"
+        "  hoplab identify --budget 2000 --free-damping-scale --out constants\n"
+        "  mpirun -n 4 hoplab identify --tables all --free-toe-mass",
+    .add = AddIdentify};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,20 +1,20 @@
-#include "app/commands/import.h"
+#include "datasets/import/import.h"
 
 #include <algorithm>
 #include <chrono>
 #include <ostream>
 
-#include "app/help_text.h"
-#include "app/quantity.h"
-#include "app/report_text.h"
-#include "app/run_record.h"
-#include "app/text_table.h"
-#include "app/usage_error.h"
+#include "app/records/run_record.h"
+#include "app/terminal/command.h"
+#include "app/terminal/help_text.h"
+#include "app/terminal/quantity.h"
+#include "app/terminal/report_text.h"
+#include "app/terminal/text_table.h"
+#include "app/terminal/usage_error.h"
 #include "base/atomic_file.h"
 #include "base/input_error.h"
 #include "base/text.h"
 #include "datasets/import/decimal.h"
-#include "datasets/import/import.h"
 #include "datasets/read_spec.h"
 
 namespace hoplab {
@@ -284,12 +284,8 @@ ExitCode RunImport(const ImportSettings& settings, Console& console) {
   return ExitCode::kDone;
 }
 
-}  // namespace
-
-void AddImportCommand(CLI::App& app, Invocation& invocation) {
+void AddImport(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<ImportSettings>();
-  CLI::App& sub = *app.add_subcommand(
-      "import", "Make a dataset of recordings: CSV, Motive, OpenSim, MATLAB, HDF5");
   const auto list = [&](const char* name, std::vector<std::string>& to, const char* what,
                         const char* text) {
     sub.add_option(name, to, what)->option_text(text)->allow_extra_args(false);
@@ -321,13 +317,22 @@ void AddImportCommand(CLI::App& app, Invocation& invocation) {
       ->required()
       ->option_text("DATASET");
   sub.add_flag("--force", settings->force, "Replace the dataset that stands there");
-  sub.footer(
-      "Channels: t x y vx vy ax ay leg_angle leg_length fx fy torque contact, ..\n"
-      "Without --accept-guesses it shows what it would take for what.\n"
-      "Examples:\n"
-      "  hoplab import docs/tutorial/run-1.csv --accept-guesses --out mine\n"
-      "  hoplab import run17.csv run18.csv --map t=Time:ms --map y=z:mm --out mine");
   OnParsed(sub, invocation, settings, RunImport);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command import = {
+    .place = 10,
+    .name = "import",
+    .what = "Make a dataset of recordings: CSV, Motive, OpenSim, MATLAB, HDF5",
+    .footer =
+        "Channels: t x y vx vy ax ay leg_angle leg_length fx fy torque contact, ..\n"
+        "Without --accept-guesses it shows what it would take for what.\n"
+        "Examples:\n"
+        "  hoplab import docs/tutorial/run-1.csv --accept-guesses --out mine\n"
+        "  hoplab import run17.csv run18.csv --map t=Time:ms --map y=z:mm --out mine",
+    .add = AddImport};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,8 +1,7 @@
-#include "app/commands/laws.h"
-
 #include <ostream>
 
-#include "app/run_record.h"
+#include "app/records/run_record.h"
+#include "app/terminal/command.h"
 #include "model/parameters.h"
 
 namespace hoplab {
@@ -77,12 +76,17 @@ ExitCode RunLaws(const LawsSettings& settings, Console& console) {
   return ExitCode::kDone;
 }
 
-}  // namespace
-
-void AddLawsCommand(CLI::App& app, Invocation& invocation) {
-  CLI::App& sub = *app.add_subcommand("laws", "Leg laws and parameters of each mechanism");
-  sub.footer("Example:\n  hoplab laws");
+void AddLaws(CLI::App& sub, Invocation& invocation) {
   OnParsed(sub, invocation, std::make_shared<LawsSettings>(), RunLaws);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command laws = {.place = 170,
+                                 .name = "laws",
+                                 .what = "Leg laws and parameters of each mechanism",
+                                 .footer = "Example:\n  hoplab laws",
+                                 .add = AddLaws};
+}  // namespace commands
 }  // namespace hoplab

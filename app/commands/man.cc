@@ -1,9 +1,8 @@
-#include "app/commands/man.h"
-
 #include <ostream>
 
-#include "app/man_page.h"
-#include "app/run_record.h"
+#include "app/records/run_record.h"
+#include "app/terminal/command.h"
+#include "app/terminal/man_page.h"
 
 namespace hoplab {
 namespace {
@@ -12,14 +11,10 @@ struct ManSettings {
   bool json = false;
 };
 
-}  // namespace
-
-void AddManCommand(CLI::App& app, Invocation& invocation) {
-  // What the build installs; readers say `man hoplab`.
-  CLI::App& sub = *app.add_subcommand("man", "Print the manual page")->group("");
-  sub.footer("Example:\n  hoplab man | man -l -");
+void AddMan(CLI::App& sub, Invocation& invocation) {
+  sub.group("");  // what the build installs; readers say `man hoplab`
   OnParsed(sub, invocation, std::make_shared<ManSettings>(),
-           [&app](const ManSettings& settings, Console& console) {
+           [&app = *sub.get_parent()](const ManSettings& settings, Console& console) {
              if (!settings.json) {
                console.out << ManPage(app);
                return ExitCode::kDone;
@@ -33,4 +28,13 @@ void AddManCommand(CLI::App& app, Invocation& invocation) {
            });
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command man = {.place = 210,
+                                .name = "man",
+                                .what = "Print the manual page",
+                                .footer = "Example:\n  hoplab man | man -l -",
+                                .add = AddMan};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,19 +1,19 @@
-#include "app/commands/optimize.h"
-
 #include <chrono>
 #include <cmath>
 #include <ostream>
 
-#include "app/help_text.h"
-#include "app/interrupt.h"
-#include "app/optimize_record.h"
-#include "app/problem_settings.h"
-#include "app/progress.h"
-#include "app/quantity.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
-#include "app/scenario_settings.h"
-#include "app/usage_error.h"
+#include "app/records/optimize_record.h"
+#include "app/records/solver_record.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/problem_settings.h"
+#include "app/runs/run_settings.h"
+#include "app/runs/scenario_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/help_text.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/quantity.h"
+#include "app/terminal/usage_error.h"
 #include "base/input_error.h"
 #include "base/text.h"
 #include "experiments/scenario_hopper.h"
@@ -175,12 +175,8 @@ ExitCode RunOptimizeCommand(const OptimizeSettings& settings, Console& console) 
   return failure.empty() ? ExitCode::kDone : ExitCode::kNoResult;
 }
 
-}  // namespace
-
-void AddOptimizeCommand(CLI::App& app, Invocation& invocation) {
+void AddOptimize(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<OptimizeSettings>();
-  CLI::App& sub =
-      *app.add_subcommand("optimize", "Search the gains of a scenario that settle soonest");
   AddScenarioOptions(sub, settings->scenario);
   sub.add_option("--over", settings->over,
                  "What to search of search.over, or with a range, as theta_td,kp=0.5:12")
@@ -210,12 +206,21 @@ void AddOptimizeCommand(CLI::App& app, Invocation& invocation) {
   AddJobsOption(sub, settings->jobs);
   AddSolverOptions(sub, settings->solver);
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<scenario>-optimize-NNN)");
-  sub.footer(
-      "Examples:\n"
-      "  hoplab optimize experiments/fastest-convergence.yaml --budget 20\n"
-      "  hoplab optimize experiments/fastest-convergence.yaml --over kp,v_des=1:3\n"
-      "  hoplab optimize hopping.yaml --algorithm crs2 --seeds 10 --json");
   OnParsed(sub, invocation, settings, RunOptimizeCommand);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command optimize = {
+    .place = 90,
+    .name = "optimize",
+    .what = "Search the gains of a scenario that settle soonest",
+    .footer =
+        "Examples:\n"
+        "  hoplab optimize experiments/fastest-convergence.yaml --budget 20\n"
+        "  hoplab optimize experiments/fastest-convergence.yaml --over kp,v_des=1:3\n"
+        "  hoplab optimize hopping.yaml --algorithm crs2 --seeds 10 --json",
+    .add = AddOptimize};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,13 +1,12 @@
-#include "app/commands/report.h"
-
 #include <chrono>
 #include <ostream>
 
-#include "app/comparison_record.h"
-#include "app/report_page.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
-#include "app/usage_error.h"
+#include "app/records/comparison_record.h"
+#include "app/reports/report_page.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/run_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/usage_error.h"
 
 namespace hoplab {
 namespace {
@@ -55,27 +54,32 @@ ExitCode RunReport(const ReportSettings& settings, Console& console) {
   return settings.folders.size() == 1 ? WriteAnew(settings, console) : Compare(settings, console);
 }
 
-}  // namespace
-
-void AddReportCommand(CLI::App& app, Invocation& invocation) {
+void AddReport(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<ReportSettings>();
-  CLI::App& sub = *app.add_subcommand(
-      "report", "Write report.html of a run anew, or lay several runs side by side");
   sub.add_option(
          "RUN_DIR", settings->folders,
          "A folder with run.json and its tables; two or more fits or diagnoses are compared "
          "with the first")
       ->required();
   AddRunFolderOptions(sub, *settings, "Folder of a comparison (default runs/<run>-comparison-NNN)");
-  sub.footer(
-      "Every command that writes a run folder writes report.html into it: one file\n"
-      "that opens without a network. With one run this one writes it again, as after\n"
-      "an update of hoplab. With several it tells what changed: values with the\n"
-      "intervals of their differences, errors, causes, settings.\n"
-      "Examples:\n"
-      "  hoplab report runs/rig-drops-fit-001\n"
-      "  hoplab report runs/old-bearing-fit-001 runs/new-bearing-fit-001");
   OnParsed(sub, invocation, settings, RunReport);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command report = {
+    .place = 150,
+    .name = "report",
+    .what = "Write report.html of a run anew, or lay several runs side by side",
+    .footer =
+        "Every command that writes a run folder writes report.html into it: one file\n"
+        "that opens without a network. With one run this one writes it again, as after\n"
+        "an update of hoplab. With several it tells what changed: values with the\n"
+        "intervals of their differences, errors, causes, settings.\n"
+        "Examples:\n"
+        "  hoplab report runs/rig-drops-fit-001\n"
+        "  hoplab report runs/old-bearing-fit-001 runs/new-bearing-fit-001",
+    .add = AddReport};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,16 +1,16 @@
-#include "app/commands/reproduce.h"
-
 #include <chrono>
 #include <ostream>
 
-#include "app/interrupt.h"
-#include "app/problem_settings.h"
-#include "app/progress.h"
-#include "app/reproduction_record.h"
-#include "app/reproduction_runs.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
-#include "app/scenario_settings.h"
+#include "app/records/reproduction_record.h"
+#include "app/records/reproduction_runs.h"
+#include "app/records/solver_record.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/problem_settings.h"
+#include "app/runs/run_settings.h"
+#include "app/runs/scenario_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress.h"
 #include "base/input_error.h"
 #include "base/range.h"
 #include "base/text.h"
@@ -105,12 +105,8 @@ ExitCode RunReproduceCommand(const ReproduceSettings& settings, Console& console
   return ExitCode::kInterrupted;
 }
 
-}  // namespace
-
-void AddReproduceCommand(CLI::App& app, Invocation& invocation) {
+void AddReproduce(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<ReproduceSettings>();
-  CLI::App& sub = *app.add_subcommand(
-      "reproduce", "Tables, figures and claims of the published study beside ours");
   sub.add_option("ITEM", settings->items,
                  "table-6.1, figure-6.23, claim-a ...; or tables, figures, kinematics, claims, all "
                  "(default)");
@@ -133,15 +129,24 @@ void AddReproduceCommand(CLI::App& app, Invocation& invocation) {
   AddJobsOption(sub, settings->jobs);
   AddSolverOptions(sub, settings->solver);
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<constants>-reproduce-NNN)");
-  sub.footer(
-      "A verdict is \"reproduced\", \"only under stated settings\" or \"not reproduced\";\n"
-      "the exit code is 0 with any of them. See docs/published-study.md.\n"
-      "Examples:\n"
-      "  hoplab reproduce table-6.5 claim-h\n"
-      "  hoplab reproduce all --out runs/study\n"
-      "  hoplab reproduce kinematics --hip-distance 0.5\n"
-      "  hoplab reproduce claims --law consistent");
   OnParsed(sub, invocation, settings, RunReproduceCommand);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command reproduce = {
+    .place = 110,
+    .name = "reproduce",
+    .what = "Tables, figures and claims of the published study beside ours",
+    .footer =
+        "A verdict is \"reproduced\", \"only under stated settings\" or \"not reproduced\";\n"
+        "the exit code is 0 with any of them. See docs/published-study.md.\n"
+        "Examples:\n"
+        "  hoplab reproduce table-6.5 claim-h\n"
+        "  hoplab reproduce all --out runs/study\n"
+        "  hoplab reproduce kinematics --hip-distance 0.5\n"
+        "  hoplab reproduce claims --law consistent",
+    .add = AddReproduce};
+}  // namespace commands
 }  // namespace hoplab

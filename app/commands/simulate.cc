@@ -1,18 +1,19 @@
-#include "app/commands/simulate.h"
-
 #include <fmt/format.h>
 
 #include <chrono>
 #include <ostream>
 
-#include "app/problem_settings.h"
-#include "app/quantity.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
-#include "app/scenario_settings.h"
-#include "app/simulation_record.h"
-#include "app/text_table.h"
-#include "app/trajectory_tables.h"
+#include "app/records/simulation_record.h"
+#include "app/records/solver_record.h"
+#include "app/records/trajectory_tables.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/problem_settings.h"
+#include "app/runs/run_settings.h"
+#include "app/runs/scenario_settings.h"
+#include "app/runs/sensitivity_direction.h"
+#include "app/terminal/command.h"
+#include "app/terminal/quantity.h"
+#include "app/terminal/text_table.h"
 #include "fitting/generate.h"
 #include "fitting/model_of_spec.h"
 
@@ -150,11 +151,8 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
   return useless ? ExitCode::kNoResult : ExitCode::kDone;
 }
 
-}  // namespace
-
-void AddSimulateCommand(CLI::App& app, Invocation& invocation) {
+void AddSimulate(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<SimulateSettings>();
-  CLI::App& sub = *app.add_subcommand("simulate", "Run a scenario: events, energy, trajectory");
   AddScenarioOptions(sub, settings->scenario);
   AddSolverOptions(sub, settings->solver);
   sub.add_option("--sensitivities", settings->sensitivities,
@@ -163,12 +161,21 @@ void AddSimulateCommand(CLI::App& app, Invocation& invocation) {
       ->option_text("NAME,...")
       ->allow_extra_args(false);
   AddRunFolderOptions(sub, *settings, "Run folder (default runs/<scenario>-simulate-NNN)");
-  sub.footer(
-      "Examples:\n"
-      "  hoplab simulate experiments/controlled-hopping.yaml\n"
-      "  hoplab simulate hopping.yaml --set controller.kp_N_s=4 --law consistent\n"
-      "  hoplab simulate hopping.yaml --sensitivities E,d --json");
   OnParsed(sub, invocation, settings, RunSimulate);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command simulate = {
+    .place = 130,
+    .name = "simulate",
+    .what = "Run a scenario: events, energy, trajectory",
+    .footer =
+        "Examples:\n"
+        "  hoplab simulate experiments/controlled-hopping.yaml\n"
+        "  hoplab simulate hopping.yaml --set controller.kp_N_s=4 --law consistent\n"
+        "  hoplab simulate hopping.yaml --sensitivities E,d --json",
+    .add = AddSimulate};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,17 +1,17 @@
-#include "app/commands/sweep.h"
-
 #include <chrono>
 #include <mutex>
 #include <ostream>
 
-#include "app/interrupt.h"
-#include "app/mpi_job.h"
-#include "app/problem_settings.h"
-#include "app/progress.h"
-#include "app/run_folder.h"
-#include "app/run_settings.h"
-#include "app/scenario_settings.h"
-#include "app/sweep_record.h"
+#include "app/records/solver_record.h"
+#include "app/records/sweep_record.h"
+#include "app/reports/run_folder.h"
+#include "app/runs/mpi_job.h"
+#include "app/runs/problem_settings.h"
+#include "app/runs/run_settings.h"
+#include "app/runs/scenario_settings.h"
+#include "app/terminal/command.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress.h"
 #include "app/version.h"
 #include "base/check.h"
 #include "base/input_error.h"
@@ -174,11 +174,8 @@ ExitCode RunSweepCommand(const SweepSettings& settings, Console& console) {
   return job.rank() == 0 ? Lead(settings, console, &job) : Follow(settings, job);
 }
 
-}  // namespace
-
-void AddSweepCommand(CLI::App& app, Invocation& invocation) {
+void AddSweep(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<SweepSettings>();
-  CLI::App& sub = *app.add_subcommand("sweep", "Run a scenario over grids, lists or hypercubes");
   AddScenarioOptions(sub, settings->scenario);
   AddSeedOption(sub, settings->seed, "Of a Latin hypercube");
   AddJobsOption(sub, settings->jobs, "; one a rank under mpirun");
@@ -186,13 +183,22 @@ void AddSweepCommand(CLI::App& app, Invocation& invocation) {
   AddRunFolderOptions(
       sub, *settings, "Run folder (default runs/<scenario>-sweep-NNN)",
       "Replace the run that stands in the run folder, begin an interrupted one anew");
-  sub.footer(
-      "An interrupted sweep goes on where it was: start the same command again.\n"
-      "Examples:\n"
-      "  hoplab sweep experiments/modulus.yaml\n"
-      "  hoplab sweep experiments/modulus.yaml --jobs 2 --out runs/modulus\n"
-      "  mpirun -n 4 hoplab sweep experiments/modulus.yaml");
   OnParsed(sub, invocation, settings, RunSweepCommand);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command sweep = {
+    .place = 100,
+    .name = "sweep",
+    .what = "Run a scenario over grids, lists or hypercubes",
+    .footer =
+        "An interrupted sweep goes on where it was: start the same command again.\n"
+        "Examples:\n"
+        "  hoplab sweep experiments/modulus.yaml\n"
+        "  hoplab sweep experiments/modulus.yaml --jobs 2 --out runs/modulus\n"
+        "  mpirun -n 4 hoplab sweep experiments/modulus.yaml",
+    .add = AddSweep};
+}  // namespace commands
 }  // namespace hoplab

@@ -1,9 +1,9 @@
-#include "app/commands/version.h"
+#include "app/version.h"
 
 #include <ostream>
 
-#include "app/run_record.h"
-#include "app/version.h"
+#include "app/records/run_record.h"
+#include "app/terminal/command.h"
 
 namespace hoplab {
 namespace {
@@ -35,12 +35,17 @@ ExitCode RunVersion(const VersionSettings& settings, Console& console) {
   return ExitCode::kDone;
 }
 
-}  // namespace
-
-void AddVersionCommand(CLI::App& app, Invocation& invocation) {
-  CLI::App& sub = *app.add_subcommand("version", "Versions of hoplab and of what it stands on");
-  sub.footer("Example:\n  hoplab version --json");
+void AddVersion(CLI::App& sub, Invocation& invocation) {
   OnParsed(sub, invocation, std::make_shared<VersionSettings>(), RunVersion);
 }
 
+}  // namespace
+
+namespace commands {
+extern constexpr Command version = {.place = 220,
+                                    .name = "version",
+                                    .what = "Versions of hoplab and of what it stands on",
+                                    .footer = "Example:\n  hoplab version --json",
+                                    .add = AddVersion};
+}  // namespace commands
 }  // namespace hoplab

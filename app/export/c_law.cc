@@ -9,7 +9,7 @@
 
 #include "app/export/parts.h"
 #include "app/export/template_text.h"
-#include "app/quantity.h"
+#include "app/terminal/quantity.h"
 #include "base/input_error.h"
 #include "base/text.h"
 #include "model/laws/elastica/tables.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/quantity.h"
+#include "app/terminal/quantity.h"
 #include "base/input_error.h"
 #include "base/text.h"
 #include "model/effects/active_effects.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/run_folder.h"
+#include "app/records/stored_run.h"
 #include "model/simulate.h"
 
 namespace hoplab {

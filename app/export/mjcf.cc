@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/quantity.h"
+#include "app/terminal/quantity.h"
 #include "base/input_error.h"
 #include "model/leg_compliance.h"
 

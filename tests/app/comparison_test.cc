@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "app/comparison_record.h"
+#include "app/records/comparison_record.h"
 #include "base/input_error.h"
 #include "tests/support/input_error_of.h"
 

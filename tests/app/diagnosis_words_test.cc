@@ -1,4 +1,4 @@
-#include "app/diagnosis_words.h"
+#include "app/records/diagnosis_words.h"
 
 #include <gtest/gtest.h>
 

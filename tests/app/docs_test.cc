@@ -1,13 +1,14 @@
 // Documentation that follows the code: equations, links, the catalogue of effects.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <regex>
 #include <set>
 #include <sstream>
 
-#include "app/effect_catalogue.h"
+#include "app/reports/effect_catalogue.h"
 #include "tests/support/temp_folder.h"
 
 namespace hoplab {
@@ -106,6 +107,32 @@ TEST(Docs, TheIndexLeadsToEveryPage) {
         decision || page.parent_path().parent_path() != kSource / "docs")
       continue;
     EXPECT_NE(index.find("(" + name + ")"), std::string::npos) << name;
+  }
+}
+
+// The rooms of the command line, each seeing those before it only; export stands beside the
+// reports.
+TEST(Docs, IncludesBetweenTheRoomsOfAppPointDown) {
+  const std::vector<std::string> rooms = {"terminal", "runs",    "records",
+                                          "export",   "reports", "commands"};
+  const auto height = [&](const std::string& room) {
+    return std::find(rooms.begin(), rooms.end(), room) - rooms.begin();
+  };
+  const std::regex include("#include \"app/([a-z_]+)/[a-z_/]+[.]h\"");
+  int seen = 0;
+  for (const std::string& room : rooms) {
+    for (const auto& entry : fs::directory_iterator(kSource / "app" / room)) {
+      if (!entry.is_regular_file()) continue;
+      for (const std::string& other : Matches(ReadText(entry.path()), include)) {
+        EXPECT_LE(height(other), height(room)) << entry.path() << " includes app/" << other;
+        ++seen;
+      }
+    }
+  }
+  EXPECT_GE(seen, 200);
+  for (const auto& entry : fs::directory_iterator(kSource / "app")) {
+    if (!entry.is_directory()) continue;
+    EXPECT_LT(height(entry.path().filename().string()), std::ssize(rooms)) << entry.path();
   }
 }
 

@@ -1,4 +1,4 @@
-#include "app/explain.h"
+#include "app/reports/explain.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 #include <regex>
 #include <set>
 
-#include "app/effect_advice.h"
-#include "app/effect_words.h"
-#include "app/glossary.h"
-#include "app/pace.h"
-#include "app/report_page.h"
+#include "app/reports/effect_advice.h"
+#include "app/reports/effect_words.h"
+#include "app/reports/glossary.h"
+#include "app/reports/report_page.h"
+#include "app/terminal/pace.h"
 #include "tests/support/temp_folder.h"
 
 namespace hoplab {

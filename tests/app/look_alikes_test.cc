@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "app/effect_advice.h"
+#include "app/reports/effect_advice.h"
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {

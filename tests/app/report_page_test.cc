@@ -1,12 +1,12 @@
-#include "app/report_page.h"
+#include "app/reports/report_page.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <ctime>
 
-#include "app/csv.h"
-#include "app/report_headline.h"
+#include "app/records/csv.h"
+#include "app/reports/report_headline.h"
 #include "base/check.h"
 #include "web/assets.h"
 

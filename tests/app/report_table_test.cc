@@ -1,11 +1,11 @@
-#include "app/report_table.h"
+#include "app/reports/report_table.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "app/csv.h"
+#include "app/records/csv.h"
 #include "tests/support/input_error_of.h"
 
 namespace hoplab {

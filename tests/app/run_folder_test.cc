@@ -1,4 +1,4 @@
-#include "app/run_folder.h"
+#include "app/reports/run_folder.h"
 
 #include <gtest/gtest.h>
 

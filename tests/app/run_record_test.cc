@@ -1,12 +1,13 @@
-#include "app/run_record.h"
+#include "app/records/run_record.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "app/csv.h"
-#include "app/fit_record.h"
-#include "app/fit_report.h"
+#include "app/records/csv.h"
+#include "app/records/fit_record.h"
+#include "app/records/fit_words.h"
+#include "app/reports/fit_report.h"
 #include "tests/datasets/small_dataset.h"
 
 namespace hoplab {
@@ -35,7 +36,7 @@ TEST(RunRecord, NumbersReadBackExactly) {
 }
 
 TEST(RunRecord, BytesThatAreNoTextDoNotStopIt) {
-  EXPECT_TRUE(Json::accept(TextOf(FailureRecord("fit", "caf\xe9"))));
+  EXPECT_TRUE(Json::accept(FailureText("fit", "caf\xe9")));
 }
 
 TEST(CsvText, QuotesAndEmptyCells) {

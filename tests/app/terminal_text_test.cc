@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "app/quantity.h"
-#include "app/text_table.h"
-#include "app/warnings.h"
+#include "app/terminal/quantity.h"
+#include "app/terminal/text_table.h"
+#include "app/terminal/warnings.h"
 
 namespace hoplab {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/trajectory_tables.h"
+#include "app/records/trajectory_tables.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/discovery_words.h"
 #include "app/export/effect_code.h"
+#include "app/records/discovery_words.h"
 #include "tests/support/formulas.h"
 #include "tests/support/run_process.h"
 
@@ -115,6 +115,7 @@ class Adding : public ::testing::Test {
     const fs::path effects = tree_->path() / "model/effects";
     LinkFolder("model/effects", tree_->path());
     LinkFolder("model/laws/legs", tree_->path());
+    LinkFolder("app/commands", tree_->path());
     fs::create_directories(tree_->path() / "experiments");
     fs::create_symlink(kSource / "experiments/three-drops.yaml",
                        tree_->path() / "experiments/three-drops.yaml");
@@ -132,7 +133,7 @@ class Adding : public ::testing::Test {
     WriteFiles("command.md", "cpp", tree_->path());
     WriteFiles("experiment.md", "yaml", tree_->path());
     WriteFiles("formula.md", "yaml", tree_->path());
-    log_ = ChangeFiles("law.md", tree_->path()) + ChangeFiles("command.md", tree_->path());
+    log_ = ChangeFiles("law.md", tree_->path());
     if (!log_.empty()) return;
     const std::vector<std::vector<std::string>> steps = {
         {HOPLAB_CMAKE, "-S", ".", "-B", "build", "-G", HOPLAB_GENERATOR,
@@ -263,6 +264,10 @@ TEST_F(Adding, ACommandPrintsWhatStandsThere) {
   const std::vector<std::string> printed = RunCommands("command.md");
   ASSERT_EQ(printed.size(), 2u);
   EXPECT_EQ(printed[0], Blocks("command.md", "text").at(0));
+  const std::string help = Run("hoplab", {"--help"}).out;
+  const std::size_t apexes = help.find("  apexes"), report = help.find("  report");
+  EXPECT_LT(help.find("  generate"), apexes) << help;
+  EXPECT_LT(apexes, report) << help;
   EXPECT_NE(printed[1].find("--plain"), std::string::npos) << printed[1];
   const ProcessResult json = Run(
       "hoplab", {"apexes", "experiments/three-drops.yaml", "--json", "--law", "even_stiffness"});

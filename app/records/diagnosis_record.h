@@ -1,0 +1,19 @@
+#pragma once
+
+#include "app/records/run_record.h"
+#include "app/runs/diagnosis_run.h"
+
+namespace hoplab {
+
+/// run.json of a diagnosis, `seconds` excepted; `dataset_argument` as on the command line. SI
+/// units, radians; what was not computed is null.
+Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument,
+                     const DiagnosisOptions& options, const DiagnosisRun& run);
+
+// Parts that the record of a discovery has too.
+
+Json HeldOutRecord(const FitProblem& problem, const HeldOutErrors& errors);
+Json ForceRecord(const ReconstructedForce& force);
+Json ForcesRecord(const std::optional<FreeForces>& free_forces);
+
+}  // namespace hoplab

@@ -1,0 +1,178 @@
+#include "app/records/diagnosis_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "app/terminal/quantity.h"
+#include "base/text.h"
+
+namespace hoplab {
+namespace {
+
+constexpr double kLeastChance = 1e-3;
+constexpr int kMostWords = 30;         // of a first sentence
+constexpr std::size_t kMostNamed = 3;  // in it, fewer where it gets too long
+
+// "a", "a and b", "a, b and c".
+std::string Listed(const std::vector<std::string>& words) {
+  if (words.size() < 2) return Join(words);
+  const std::vector<std::string> first(words.begin(), words.end() - 1);
+  return Join(first) + " and " + words.back();
+}
+
+// The first few, and how many more.
+std::string FirstOf(std::vector<std::string> words, std::size_t most) {
+  if (words.size() <= most) return Listed(words);
+  const std::size_t more = words.size() - most;
+  words.resize(most);
+  return Join(words) + fmt::format(" and {} more", more);
+}
+
+long WordsOf(const std::string& text) {
+  return text.empty() ? 0 : 1 + std::count(text.begin(), text.end(), ' ');
+}
+
+// The sentence with as many names as thirty words hold.
+std::string Shortened(const std::function<std::string(std::size_t most)>& sentence) {
+  for (std::size_t most = kMostNamed; most > 1; --most) {
+    if (std::string text = sentence(most); WordsOf(text) <= kMostWords) return text;
+  }
+  return sentence(1);
+}
+
+std::vector<std::string> NamesOf(const Diagnosis& d, const std::vector<int>& places) {
+  std::vector<std::string> names;
+  for (const int place : places)
+    names.push_back(CauseText(d.naming.candidates[static_cast<std::size_t>(place)].candidate));
+  return names;
+}
+
+// The channel whose held-out error falls most: "the test error of body_x from 8.85 to 1.20 mm".
+std::optional<std::string> ErrorChange(const Diagnosis& d) {
+  const std::vector<double>&before = d.before.test.rmse, &after = d.extension->after.test.rmse;
+  std::size_t best = before.size();
+  for (std::size_t c = 0; c < std::min(before.size(), after.size()); ++c) {
+    if (!std::isfinite(before[c]) || !std::isfinite(after[c])) continue;
+    if (best == before.size() || after[c] / before[c] < after[best] / before[best]) best = c;
+  }
+  if (best == before.size()) return std::nullopt;
+  const std::string name(NameOf(d.problem.channels[best].channel));
+  const std::string unit = ChannelUnit(*ChannelFromName(name));
+  const std::string to = ErrorText(after[best], unit);
+  std::string from = ErrorText(before[best], unit);
+  if (const std::size_t blank = from.find(' '); to.ends_with(from.substr(blank + 1)))
+    from.resize(blank);
+  return fmt::format("the test error of {} from {} to {}", WithoutUnit(name), from, to);
+}
+
+// What the held-out trials say of the extension.
+std::string HeldOutClause(const Diagnosis& d) {
+  const HeldOutGain& gain = d.extension->gain;
+  if (d.extension->after.test.trials == 0) return "no held-out trial confirms it";
+  if (!gain.ci95) return "too few held-out hops to claim a gain";
+  if (!gain.IsClaim()) return "held-out trials do not confirm it";
+  if (const std::optional<std::string> change = ErrorChange(d)) return "it takes " + *change;
+  return fmt::format("it gains {:.3g} nats a held-out sample", gain.nats_per_sample);
+}
+
+// "air_drag", "a or b", "one of a, b and 2 more".
+std::string GroupText(const Diagnosis& d, const CauseReport& c, std::size_t most) {
+  const std::vector<int>& group = d.naming.GroupOf(c.candidate);
+  if (group.size() < 2) return CauseText(c.cause);
+  const std::vector<std::string> names = NamesOf(d, group);
+  return group.size() == 2 && most > 1 ? names[0] + " or " + names[1]
+                                       : "one of " + FirstOf(names, most);
+}
+
+// "The simulation lacks a (91 %) and b or c (5 %); it takes the test error of ..".
+std::string CausesSentence(const Diagnosis& d, std::size_t most) {
+  const ExtensionReport& e = *d.extension;
+  const std::vector<const CauseReport*> told = e.ToldCauses();
+  std::vector<std::string> names;
+  for (const CauseReport* c : told) {
+    std::string name = GroupText(d, *c, most);
+    if (told.size() > 1 && most > 1) name += fmt::format(" ({})", ShareText(c->share));
+    names.push_back(std::move(name));
+  }
+  const bool sure = e.Probability() >= kSure;
+  std::string text = sure                         ? "The simulation lacks "
+                     : e.Probability() >= kLikely ? "The simulation probably lacks "
+                                                  : "The simulation may lack ";
+  text += FirstOf(names, most);
+  if (!sure) text += fmt::format(" (P {:.2f})", e.Probability());
+  return text + "; " + HeldOutClause(d) + ".";
+}
+
+std::string UnexplainedSentence(const Diagnosis& d, std::size_t most) {
+  const std::string missing = "Something is missing that the catalogue does not hold";
+  if (!d.extension) return missing + ".";
+  const ExtensionReport& e = *d.extension;
+  std::vector<std::string> names;
+  for (const CauseReport* c : e.ToldCauses()) names.push_back(CauseText(c->cause));
+  return fmt::format("{}; the best attempt, {}, {}.", missing, FirstOf(names, most),
+                     e.at_bound ? "needs a size beyond what is physical"
+                                : "explains " + ShareText(e.explained) + " of the misfit");
+}
+
+}  // namespace
+
+std::string VerdictSentence(const Diagnosis& d) {
+  if (!d.refusal.empty() || d.interrupted) return "";
+  switch (d.verdict) {
+    case Verdict::kAdequate:
+      if (d.detection.p_value <= kDetectionLevel)
+        return fmt::format("Nothing in the catalogue is needed: {} ({}).", d.reason,
+                           ChanceText(d.detection.p_value));
+      return fmt::format("Nothing is missing that these data could show ({}).",
+                         ChanceText(d.detection.p_value));
+    case Verdict::kNamed:
+    case Verdict::kConfounded:
+      return Shortened([&](std::size_t most) { return CausesSentence(d, most); });
+    case Verdict::kUnexplained:
+      return Shortened([&](std::size_t most) { return UnexplainedSentence(d, most); });
+  }
+  return "";
+}
+
+std::string ShareText(double share) {
+  // Not rounded up to all of it.
+  const double percent = 100.0 * std::clamp(share, 0.0, 1.0);
+  if (percent > 0.0 && percent < 0.1) return "under 0.1 %";
+  return percent < 10.0 ? fmt::format("{:.1f} %", percent)
+                        : fmt::format("{:.0f} %", std::floor(percent));
+}
+
+std::string SizeText(double value, const std::string& unit) {
+  const ReadableUnit readable = ReadableUnitOf(value, unit);
+  const std::string number = Significant(value * readable.factor, 2);
+  return readable.unit.empty() ? number : number + " " + readable.unit;
+}
+
+std::string ChanceText(double p_value) {
+  if (std::isnan(p_value)) return "p not computed";
+  if (p_value < kLeastChance) return "p < 0.001";
+  return "p = " + Significant(p_value, 2);
+}
+
+std::string PlaceText(const FitProblem& problem, const MisfitCell& cell) {
+  const std::string channel =
+      cell.channel < 0 ? "contact times"
+                       : WithoutUnit(std::string(NameOf(
+                             problem.channels[static_cast<std::size_t>(cell.channel)].channel)));
+  std::string mode(NameOf(cell.mode));
+  if (cell.mode == Mode::kRolling || cell.mode == Mode::kToe) mode += " stance";
+  const std::string when = cell.phase == "middle" ? "in the middle of " : cell.phase + " in ";
+  return channel + " " + when + mode;
+}
+
+std::string CauseText(const Candidate& candidate) {
+  const std::string name(candidate.effect->info.name);
+  return candidate.only_recording.empty() ? name
+                                          : name + " in " + Printable(candidate.only_recording);
+}
+
+}  // namespace hoplab

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "app/records/diagnosis_record.h"
+
+namespace hoplab {
+
+/// The verdict in one sentence of at most thirty words, main causes only; empty if there is none.
+std::string VerdictSentence(const Diagnosis& diagnosis);
+
+/// "0.012 N s^2/m^2": a size with its unit, two significant digits.
+std::string SizeText(double value, const std::string& unit);
+
+/// "97 %", "4.2 %", never rounded up.
+std::string ShareText(double share);
+
+/// "p = 0.31", "p < 0.001".
+std::string ChanceText(double p_value);
+
+/// "body_x late in flight": where a cell of the misfit map lies.
+std::string PlaceText(const FitProblem& problem, const MisfitCell& cell);
+
+/// "air_drag", "air_drag in train-2.csv".
+std::string CauseText(const Candidate& candidate);
+
+}  // namespace hoplab

@@ -1,0 +1,114 @@
+#include "app/records/identify_record.h"
+
+#include <cmath>
+
+namespace hoplab {
+namespace {
+
+Json ReadingRecord(const StudyReading& reading) {
+  return {{"variant", VariantRecord(reading.variant)}, {"liftoff", WordOf(reading.liftoff)}};
+}
+
+Json ConstantsRecord(const StudyConstants& constants) {
+  Json record = Json::object();
+  for (int i = 0; i < kStudyConstantCount; ++i) {
+    const StudyConstantInfo& info = InfoOf(static_cast<StudyConstant>(i));
+    const std::string unit(info.unit);
+    record[std::string(info.name)] = {
+        {"value", NumberOrNull(constants[static_cast<std::size_t>(i)])}, {"unit", unit}};
+  }
+  return record;
+}
+
+Json ScoresRecord(const StudyScores& s) {
+  Json record = {{"table_6_5_rms_points", NumberOrNull(s.energy_rms)},
+                 {"table_6_5_worst_points", NumberOrNull(s.energy_worst)},
+                 {"stiffness_rms", NumberOrNull(s.stiffness_rms)},
+                 {"stiffness_worst", NumberOrNull(s.stiffness_worst)},
+                 {"table_6_4_tau", NumberOrNull(s.modulus_trend)},
+                 {"convergence_rms_s", NumberOrNull(s.convergence_rms)}};
+  for (std::size_t i = 0; i < s.times.size(); ++i) {
+    const std::string table = "table_6_" + std::to_string(i + 1);
+    record[table + "_converged"] = s.times[i].converged;
+    record[table + "_time_rms_s"] = NumberOrNull(s.times[i].rms_s);
+    record[table + "_rank_correlation"] = NumberOrNull(s.times[i].rank_correlation);
+  }
+  return record;
+}
+
+Json PartsRecord(const StudyMisfit& misfit) {
+  Json record = Json::object();
+  for (int i = 0; i < kStudyPartCount; ++i)
+    record[std::string(NameOf(static_cast<StudyPart>(i)))] =
+        NumberOrNull(misfit.parts[static_cast<std::size_t>(i)]);
+  return record;
+}
+
+Json FitRecord(const ScoredFit& scored) {
+  return {{"reading", ReadingRecord(scored.fit.reading)},
+          {"convergence", NameOf(scored.convergence)},
+          {"constants", ConstantsRecord(scored.fit.constants)},
+          {"misfit", NumberOrNull(scored.fit.misfit)},
+          {"parts", PartsRecord(scored.fit.parts)},
+          {"scores", ScoresRecord(scored.scores)}};
+}
+
+Json DirectionsRecord(const std::vector<StudyConstant>& free,
+                      const std::vector<StudyDirection>& directions) {
+  Json record = Json::array();
+  for (const StudyDirection& d : directions) {
+    Json loadings = Json::object();
+    for (std::size_t i = 0; i < free.size(); ++i)
+      loadings[std::string(InfoOf(free[i]).name)] = d.loadings[i];
+    record.push_back({{"strength", NumberOrNull(d.strength)}, {"loadings", loadings}});
+  }
+  return record;
+}
+
+Json DecisionsRecord(const std::vector<PointDecision>& decisions) {
+  Json record = Json::array();
+  for (const PointDecision& decision : decisions) {
+    Json words = Json::array();
+    for (const PointDecision::Word& w : decision.words) {
+      words.push_back({{"word", w.word},
+                       {"table_6_5_misfit", NumberOrNull(w.energy_misfit)},
+                       {"steady_misfit", NumberOrNull(w.steady_misfit)},
+                       {"all_misfit", NumberOrNull(w.all_misfit)}});
+    }
+    record.push_back({{"point", decision.point}, {"words", words}});
+  }
+  return record;
+}
+
+}  // namespace
+
+const char* WordOf(LiftoffRule rule) {
+  return rule == LiftoffRule::kZeroForce ? "zero_force" : "rest_length";
+}
+
+void AddIdentification(const IdentificationRequest& request, const IdentificationResult& result,
+                       Json& record) {
+  if (!result.by_all.empty()) record["best"] = FitRecord(result.by_all.front());
+  record["best_on_table_6_5"] = FitRecord(result.best_by_energy);
+  record["as_good"] = {{"count", result.as_good},
+                       {"low", ConstantsRecord(result.low)},
+                       {"high", ConstantsRecord(result.high)}};
+  Json others = Json::array();
+  for (const ScoredFit& scored : result.by_all) others.push_back(FitRecord(scored));
+  record["readings"] = others;
+  Json front = Json::array();
+  for (const FrontPoint& point : result.front) {
+    Json at = FitRecord(point.fit);
+    at["name"] = point.name;
+    front.push_back(at);
+  }
+  record["front"] = front;
+  record["directions"] = {
+      {"table_6_5", DirectionsRecord(request.free, result.energy_directions)},
+      {"with_stiffness", DirectionsRecord(request.free, result.smooth_directions)}};
+  record["decisions"] = DecisionsRecord(result.decisions);
+  record["evaluations"] = result.evaluations;
+  record["interrupted"] = result.interrupted;
+}
+
+}  // namespace hoplab

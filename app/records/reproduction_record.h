@@ -1,0 +1,23 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "app/records/run_record.h"
+#include "experiments/study/reproduction.h"
+
+namespace hoplab {
+
+/// Keys of a reproduction in run.json: tables, figures, claims, comparison, left_out. Angles in
+/// rad, all else SI; the CSVs name their units in their headers.
+void AddReproduction(const Reproduction& reproduction, Json& record);
+
+/// The CSVs by file name: one for each table and figure and for a claim with a table behind it, and
+/// every printed number beside ours in `comparison.csv`.
+std::map<std::string, std::string> ReproductionTables(const Reproduction& reproduction);
+
+/// What the command prints.
+std::string ReproductionReport(const std::string& name, const Reproduction& reproduction,
+                               bool colours);
+
+}  // namespace hoplab

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/records/run_record.h"
+#include "experiments/sweep.h"
+
+namespace hoplab {
+
+/// Rows of a sweep, in the order of the plan; absent ones were not computed.
+using SweepRows = std::vector<std::optional<SweepRow>>;
+
+/// Unit of a dotted key, by the suffix of its name; empty where it has none.
+std::string UnitOfKey(const std::string& key);
+
+/// Keys `columns` and `rows` of a sweep in run.json; rows that were not computed are left out.
+void AddSweep(const SweepPlan& plan, const SweepRows& rows, Json& record);
+/// The rows as CSV.
+std::string SweepTable(const SweepPlan& plan, const SweepRows& rows);
+/// What the command prints: how the runs ended, the first rows.
+std::string SweepReport(const SweepPlan& plan, const SweepRows& rows, bool colours);
+
+}  // namespace hoplab

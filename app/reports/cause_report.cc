@@ -1,0 +1,196 @@
+#include "app/reports/cause_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/records/diagnosis_words.h"
+#include "app/records/fit_words.h"
+#include "app/terminal/quantity.h"
+#include "app/terminal/report_text.h"
+#include "app/terminal/text_table.h"
+#include "base/text.h"
+
+namespace hoplab {
+namespace {
+
+using enum TextTable::Align;
+
+constexpr std::size_t kMostTrials = 12;  // listed of a size that differs between trials
+
+struct Interval {
+  std::optional<std::pair<double, double>> ci;
+  bool at_bound = false;
+};
+
+void AddCauseRow(TextTable& table, const SharedParameter& s, double value, const Interval& interval,
+                 const std::array<std::string, 2>& remarks) {
+  const ReadableUnit unit = ReadableUnitOf(value, s.unit);
+  std::string shown = Significant(value * unit.factor, 3), range;
+  if (interval.ci) {
+    const double half = 0.5 * (interval.ci->second - interval.ci->first) * unit.factor;
+    const int decimals = DecimalsFor(half);
+    shown = Fixed(value * unit.factor, decimals);
+    range = Fixed(interval.ci->first * unit.factor, decimals) + " .. " +
+            Fixed(interval.ci->second * unit.factor, decimals);
+  }
+  table.AddRow({s.name, shown, interval.at_bound ? "at its bound" : range, unit.unit, remarks[0],
+                remarks[1]});
+}
+
+// Places of a candidate's values among the shared ones of a model that has it; -1: it has not.
+int PlaceIn(const Extension& model, const Candidate& candidate) {
+  int place = model.problem.shared_count() - model.parameter_count();
+  for (const Candidate& member : model.members) {
+    if (member == candidate) return place;
+    place += member.parameter_count();
+  }
+  return -1;
+}
+
+// How far the evidence of a group's k-th model is behind the first's [nats].
+double NatsBehind(const Naming& naming, std::size_t member, std::size_t k) {
+  const std::vector<double>& weights = naming.group_weights[member];
+  return std::log(weights[0] / weights[k]);
+}
+
+// One cause with its sizes, followed by what does as well in its place.
+void AddCause(TextTable& table, const Diagnosis& d, const CauseReport& cause, bool between) {
+  const Naming& naming = d.naming;
+  const Uncertainty& u = d.extension->uncertainty;
+  const std::size_t m = naming.MemberOf(cause.candidate);
+  for (std::size_t k = 0; k < naming.groups[m].size(); ++k) {
+    const CandidateResult& c = naming.candidates[static_cast<std::size_t>(naming.groups[m][k])];
+    const bool rival = k > 0;
+    if (rival && (m >= naming.rivals.size() || k >= naming.rivals[m].size())) continue;
+    const Extension& model = rival ? naming.rivals[m][k] : naming.best;
+    const int place = PlaceIn(model, c.candidate);
+    if (place < 0) continue;
+    for (int i = 0; i < c.candidate.parameter_count(); ++i) {
+      const auto at = static_cast<std::size_t>(place) + static_cast<std::size_t>(i);
+      Interval interval;
+      if (!rival) {
+        const ParameterUncertainty& p = u.parameters[at];
+        interval = {between ? p.ci95_between_trials : p.ci95, p.at_bound};
+      }
+      std::string share, chance;
+      if (i == 0) {
+        share = rival ? fmt::format("or: {:.1f} nats behind", NatsBehind(naming, m, k))
+                      : ShareText(cause.share);
+        chance = fmt::format("{:.2f}", rival ? cause.group_probability * naming.group_weights[m][k]
+                                             : cause.probability);
+      }
+      AddCauseRow(table, model.problem.shared[at], model.shared[place + i], interval,
+                  {share, chance});
+    }
+  }
+}
+
+// The told causes with their sizes, the largest share first.
+std::string CauseTable(const Diagnosis& d, bool colours) {
+  const ExtensionReport& e = *d.extension;
+  const Uncertainty& u = e.uncertainty;
+  const bool between =
+      u.misfit && !u.parameters.empty() && u.parameters.back().ci95_between_trials.has_value();
+  const char* title = d.verdict == Verdict::kUnexplained ? "best attempt"
+                      : e.MainCauses().empty()           ? "small cause"
+                                                         : "main cause";
+  TextTable table({kLeft, kRight, kLeft, kLeft, kLeft, kRight});
+  table.AddRow({title, "size",
+                !between   ? "95 % interval"
+                : d.by_hop ? "95 % between hops"
+                           : "95 % between trials",
+                "unit", "explains", "P"});
+  for (const CauseReport* c : e.ToldCauses()) AddCause(table, d, *c, between);
+  return WithHeader(table.Lines(), colours);
+}
+
+// Causes of no consequence for the misfit, in one line.
+std::string SmallLine(const Diagnosis& d, bool colours) {
+  std::vector<std::string> names;
+  if (!d.extension->MainCauses().empty()) {
+    for (const CauseReport& c : d.extension->causes) {
+      if (!c.main) names.push_back(CauseText(c.cause) + " (" + ShareText(c.share) + ")");
+    }
+  }
+  if (names.empty()) return "";
+  return Labelled(
+      "small",
+      "corrections the data also want, which may stand for details of the model: " + Join(names),
+      colours);
+}
+
+// "in every trial, differently": the sizes of a cause on whose size trials do not agree.
+std::string VariesLines(const Diagnosis& d, bool colours) {
+  const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
+  std::string text;
+  for (const CauseReport* c : d.extension->ToldCauses()) {
+    if (!c->Varies()) continue;
+    for (std::size_t k = 0; k < c->sizes.size(); ++k) {
+      const Heterogeneity& h = c->sizes[k];
+      const std::string unit(c->cause.Parameter(static_cast<int>(k)).unit);
+      std::vector<std::string> sizes;
+      for (std::size_t i = 0; i < h.sizes.size() && sizes.size() < kMostTrials; ++i) {
+        if (std::isfinite(h.sizes[i]))
+          sizes.push_back(train[i].file + " " + SizeText(h.sizes[i], unit));
+      }
+      text += Labelled("varies",
+                       fmt::format("{} in every trial, differently: mean {}, spread {} ({}): {}",
+                                   CauseText(c->cause), SizeText(h.mean, unit),
+                                   SizeText(h.spread, unit), ChanceText(h.p_value), Join(sizes)),
+                       colours);
+    }
+  }
+  return text;
+}
+
+// What the names mean.
+std::string MeaningLines(const Diagnosis& d, bool colours) {
+  std::vector<const Effect*> effects;
+  for (const CauseReport* cause : d.extension->ToldCauses()) {
+    for (const int place : d.naming.GroupOf(cause->candidate)) {
+      const Effect* e = d.naming.candidates[static_cast<std::size_t>(place)].candidate.effect;
+      if (std::find(effects.begin(), effects.end(), e) == effects.end()) effects.push_back(e);
+    }
+  }
+  std::string text;
+  for (const Effect* e : effects)
+    text += Labelled(text.empty() ? "meaning" : "",
+                     std::string(e->info.name) + ": " + std::string(e->info.sentence), colours);
+  return text;
+}
+
+// What no cause explains, as the noise model sees it.
+std::string LeftLine(const Diagnosis& d, bool colours) {
+  if (d.left.noise.IsWhite()) return "";
+  return Labelled("left",
+                  fmt::format("a smooth error of {}, {} of the misfit",
+                              LeftText(d.naming.best.problem), ShareText(d.left.share)),
+                  colours);
+}
+
+// How sure the names are together.
+std::string SureLine(const Diagnosis& d, bool colours) {
+  const double unlisted = d.UnlistedProbability();
+  return Labelled("unlisted",
+                  fmt::format("P {:.2f} that the cause is outside the catalogue{}", unlisted,
+                              CalibrationCases() > 0
+                                  ? fmt::format(", by {} simulated cases", CalibrationCases())
+                                  : std::string()),
+                  colours);
+}
+
+}  // namespace
+
+std::string CauseLines(const Diagnosis& d, bool colours) {
+  return CauseTable(d, colours) + MeaningLines(d, colours) + VariesLines(d, colours) +
+         SmallLine(d, colours);
+}
+
+std::string DoubtLines(const Diagnosis& d, bool colours) {
+  return LeftLine(d, colours) + SureLine(d, colours);
+}
+
+}  // namespace hoplab

@@ -1,0 +1,363 @@
+#include "app/reports/diagnosis_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/records/diagnosis_words.h"
+#include "app/reports/cause_report.h"
+#include "app/terminal/quantity.h"
+#include "app/terminal/report_text.h"
+#include "app/terminal/text_table.h"
+#include "base/text.h"
+
+namespace hoplab {
+namespace {
+
+using enum TextTable::Align;
+
+// What is listed for a reader; the rest stands in the CSVs.
+constexpr std::size_t kMostPlaces = 4, kMostListed = 12, kMostHops = 4, kMostForces = 3;
+constexpr double kSmallShare = 0.05;
+// A term of a sparse regression worth a word: resampling keeps it this often.
+constexpr double kOftenKept = 0.5;
+
+std::string Percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
+
+std::string Headline(const Diagnosis& d) {
+  long train = 0, test = 0, samples = 0;
+  for (const TrialProblem& t : d.problem.trials) {
+    ++(t.role == TrialRole::kTrain ? train : test);
+    if (t.role == TrialRole::kTrain) samples += t.sample_count;
+  }
+  return fmt::format("  law {}, {}{} train and {}, {}, {} tried\n", NameOf(d.problem.law),
+                     d.by_hop ? "fitted hop by hop, " : "", train,
+                     Plural(test, d.by_hop ? "test hop" : "test trial"),
+                     Plural(samples, "train sample"),
+                     Plural(static_cast<long>(d.naming.candidates.size()), "cause"));
+}
+
+// ---- where
+
+std::string CellsLine(const Diagnosis& d) {
+  std::vector<std::string> places;
+  for (const MisfitCell& c : d.localisation.cells) {
+    if (places.size() == kMostPlaces || c.share < kSmallShare) break;
+    places.push_back(Percent(c.share) + " " + PlaceText(d.problem, c));
+  }
+  return Join(places);
+}
+
+std::string PartsLine(const Diagnosis& d) {
+  std::vector<MisfitPart> hops = d.localisation.hops, trials = d.localisation.trials;
+  const auto by_share = [](const MisfitPart& a, const MisfitPart& b) { return a.share > b.share; };
+  std::stable_sort(hops.begin(), hops.end(), by_share);
+  std::stable_sort(trials.begin(), trials.end(), by_share);
+  std::vector<std::string> words;
+  if (hops.size() > 1) {
+    std::vector<std::string> parts;
+    for (const MisfitPart& p : hops) {
+      if (parts.size() < 3 && p.share >= kSmallShare)
+        parts.push_back(fmt::format("{} hop {}", Percent(p.share), p.index + 1));
+    }
+    if (!parts.empty()) words.push_back(Join(parts));
+  }
+  if (trials.size() > 1 && trials[0].share >= kSmallShare) {
+    const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
+    words.push_back(fmt::format("most in {} ({})",
+                                train[static_cast<std::size_t>(trials[0].index)].file,
+                                Percent(trials[0].share)));
+  }
+  return Join(words, "; ");
+}
+
+// ---- held-out
+
+std::string HeldOutTable(const Diagnosis& d, bool colours) {
+  const HeldOutErrors& after = d.extension->after;
+  TextTable table({kLeft, kRight, kRight});
+  table.AddRow({"held-out error", "before", "after"});
+  for (std::size_t c = 0; c < d.problem.channels.size(); ++c) {
+    const std::string name(NameOf(d.problem.channels[c].channel));
+    const std::string unit = ChannelUnit(*ChannelFromName(name));
+    table.AddRow({WithoutUnit(name), ErrorText(d.before.test.rmse[c], unit),
+                  ErrorText(after.test.rmse[c], unit)});
+  }
+  const auto feature = [&](const char* name, double old, double now, bool length) {
+    if (!std::isfinite(old) && !std::isfinite(now)) return;
+    const auto text = [&](double v) {
+      if (std::isnan(v)) return std::string("-");
+      return length ? ErrorText(v, "m") : Significant(1e3 * v, 3) + " ms";
+    };
+    table.AddRow({name, text(old), text(now)});
+  };
+  const FeatureErrors &b = d.before.features, &a = after.features;
+  feature("apex height", b.apex_height_rmse, a.apex_height_rmse, true);
+  feature("apex time", b.apex_time_rmse, a.apex_time_rmse, false);
+  feature("touch-down time", b.touchdown_time_rmse, a.touchdown_time_rmse, false);
+  feature("stance duration", b.stance_time_rmse, a.stance_time_rmse, false);
+  return WithHeader(table.Lines(), colours);
+}
+
+// Of the model as it was.
+std::string TestErrorLine(const Diagnosis& d) {
+  std::vector<std::string> parts;
+  for (std::size_t c = 0; c < d.problem.channels.size(); ++c) {
+    const std::string name(NameOf(d.problem.channels[c].channel));
+    parts.push_back(WithoutUnit(name) + " " +
+                    ErrorText(d.before.test.rmse[c], ChannelUnit(*ChannelFromName(name))));
+  }
+  return Join(parts);
+}
+
+std::string GainLine(const ExtensionReport& e) {
+  const HeldOutGain& g = e.gain;
+  if (std::isnan(g.nats_per_sample)) return "not computed: no held-out trial to compare on";
+  std::string text = fmt::format("{:+.3g} nats a sample", g.nats_per_sample);
+  text += g.ci95 ? fmt::format(", 95 % interval {:.3g} .. {:.3g}", g.ci95->first, g.ci95->second)
+                 : std::string(", no interval from so few hops");
+  text += fmt::format(" ({}, {})", Plural(g.hops, "hop"), Plural(g.samples, "sample"));
+  if (!g.IsClaim()) text += ": no claim";
+  if (!e.left_out.empty()) text += "; left out, not simulated to its end: " + Join(e.left_out);
+  return text;
+}
+
+std::string MovedTable(const ExtensionReport& e, bool colours) {
+  TextTable table({kLeft, kRight, kRight, kLeft, kLeft});
+  table.AddRow({"parameter", "before", "after", "unit", "moved by"});
+  for (const Movement& m : e.movements) {
+    const ReadableUnit unit = ReadableUnitOf(m.before, m.unit);
+    table.AddRow({m.name, Significant(m.before * unit.factor, 4),
+                  Significant(m.after * unit.factor, 4), unit.unit,
+                  m.std_errors ? fmt::format("{:+.{}f} standard errors", *m.std_errors,
+                                             std::abs(*m.std_errors) < 10.0 ? 1 : 0)
+                               : "not known: undetermined before"});
+  }
+  return e.movements.empty() ? "" : WithHeader(table.Lines(), colours);
+}
+
+std::string EnergyTable(const EnergyLedger& ledger, bool colours) {
+  TextTable table({kLeft, kRight, kRight, kRight, kRight});
+  table.AddRow({"energy lost", "from", "measured", "before", "after"});
+  const auto lost = [](const HopBalance& b) {
+    const double share = b.LossShare();
+    return std::isnan(share) ? std::string("-") : fmt::format("{:.2f} %", 100.0 * share);
+  };
+  for (std::size_t k = 0; k < std::min(ledger.hops.size(), kMostHops); ++k) {
+    const HopEnergy& h = ledger.hops[k];
+    const double begin = std::isnan(h.measured.begin) ? h.before.begin : h.measured.begin;
+    table.AddRow({fmt::format("hop {} of {}", k + 1, ledger.recording),
+                  Significant(begin, 4) + " J", lost(h.measured), lost(h.before),
+                  h.after ? lost(*h.after) : ""});
+  }
+  return WithHeader(table.Lines(), colours);
+}
+
+std::string RemainderLine(const ExtensionReport& e) {
+  const Detection& r = e.remainder;
+  if (!e.InDoubt()) return fmt::format("what is left looks like noise ({})", ChanceText(r.p_value));
+  if (!e.SomeRemains())
+    return fmt::format("what is left may be noise or not ({})", ChanceText(r.p_value));
+  // Not rounded up to all of it.
+  std::string text = fmt::format("{:.1f} % of the misfit is explained, not all of it ({})",
+                                 std::floor(1e3 * e.explained) / 10.0, ChanceText(r.p_value));
+  const auto most = std::max_element(
+      r.tests.begin() + static_cast<std::ptrdiff_t>(r.candidates), r.tests.end(),
+      [](const DetectionTest& a, const DetectionTest& b) { return a.statistic < b.statistic; });
+  if (most != r.tests.end() && most->dof > 0)
+    text += fmt::format("; a free {} would take up most of the rest", most->name);
+  return text;
+}
+
+// ---- what is not it
+
+std::string Capped(std::vector<std::string> items) {
+  if (items.size() <= kMostListed) return Join(items);
+  const std::size_t more = items.size() - kMostListed;
+  items.resize(kMostListed);
+  return Join(items) + fmt::format(" and {} more (candidates.csv)", more);
+}
+
+// The bound of each parameter: "air_drag 0.012 N s^2/m^2"; empty where none could be told.
+std::string BoundText(const CandidateResult& c) {
+  std::vector<std::string> parts;
+  for (int k = 0;
+       k < std::min<int>(c.candidate.parameter_count(), static_cast<int>(c.bound95.size())); ++k) {
+    if (!std::isfinite(c.bound95[k])) return "";
+    parts.push_back(SizeText(c.bound95[k], std::string(c.candidate.Parameter(k).unit)));
+  }
+  return parts.empty() ? "" : c.candidate.Name() + " " + Join(parts, " and ");
+}
+
+// The bound in typical sizes, the loosest of its parameters.
+double RelativeBound(const CandidateResult& c) {
+  double most = 0.0;
+  for (int k = 0; k < static_cast<int>(c.bound95.size()); ++k)
+    most = std::max(most, c.bound95[k] / std::abs(c.candidate.Parameter(k).typical));
+  return most;
+}
+
+std::string ExclusionLines(const Diagnosis& d, bool colours) {
+  std::vector<const CandidateResult*> excluded;
+  std::vector<std::string> unneeded, unseen, untried;
+  for (const CandidateResult& c : d.naming.candidates) {
+    if (!c.candidate.only_recording.empty()) continue;  // the same effect, more narrowly
+    if (c.status == CandidateStatus::kExcluded || c.status == CandidateStatus::kNotNeeded) {
+      if (BoundText(c).empty())
+        unneeded.push_back(c.candidate.Name());
+      else
+        excluded.push_back(&c);
+    } else if (c.candidate.effect->info.has_threshold && c.status == CandidateStatus::kNotTested) {
+      untried.push_back(c.candidate.Name());
+    } else if (c.status == CandidateStatus::kNotTested) {
+      std::vector<std::string> sizes;
+      for (const OpenParameter& p : c.candidate.parameters)
+        sizes.push_back(SizeText(p.info.typical, std::string(p.info.unit)));
+      unseen.push_back(c.candidate.Name() + " " + Join(sizes, " and "));
+    }
+  }
+  std::stable_sort(excluded.begin(), excluded.end(), [](const auto* a, const auto* b) {
+    return RelativeBound(*a) < RelativeBound(*b);
+  });
+  std::vector<std::string> bounds;
+  for (const CandidateResult* c : excluded) bounds.push_back(BoundText(*c));
+  std::string text;
+  if (!bounds.empty()) text += Labelled("excluded", "beyond " + Capped(bounds), colours);
+  if (!unneeded.empty())
+    text += Labelled("not needed", "beside the above: " + Capped(unneeded), colours);
+  if (!unseen.empty())
+    text += Labelled("never shown", "at typical sizes: " + Capped(unseen), colours);
+  if (!untried.empty())
+    text += Labelled(
+        "not tried",
+        Capped(untried) + ": small sizes change nothing, and no simulation ran at larger ones",
+        colours);
+  return text;
+}
+
+// ---- what next
+
+std::string ExperimentLine(const Diagnosis& d) {
+  const SeparatingExperiment& e = *d.experiment;
+  if (!e.Separates()) {
+    return fmt::format(
+        "none of {} designs like {} would settle it: the best promises {:.1f} nats, {:.0f} are "
+        "needed",
+        e.designs_tried, e.design.like, e.expected_nats, kIndistinguishable);
+  }
+  // The first group that is one is what the search was for.
+  std::string cause = "the cause";
+  for (const std::vector<int>& group : d.naming.groups) {
+    if (group.size() < 2) continue;
+    cause = d.naming.candidates[static_cast<std::size_t>(group.front())].candidate.Name();
+    break;
+  }
+  return fmt::format("{}, otherwise like {}: expected to set {} apart from {} by {} nats",
+                     Describe(e.design), e.design.like, cause, e.closest_rival,
+                     Significant(e.expected_nats, 2));
+}
+
+// "-0.072 + 0.39 s, kept by 99 % of the resamples or more"; empty where no term is.
+std::string ShapeText(const ReconstructedForce& f) {
+  std::string text;
+  double least = 1.0;
+  for (const RegressionTerm& t : f.terms) {
+    if (t.inclusion < kOftenKept || t.coefficient == 0.0) continue;
+    const std::string size = Significant(std::abs(t.coefficient), 2);
+    const bool negative = t.coefficient < 0.0;
+    text += text.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ");
+    text += t.term == "1" ? size : size + " " + t.term;
+    least = std::min(least, t.inclusion);
+  }
+  if (text.empty()) return "";
+  return fmt::format("{}, kept by {} of the resamples", text, Percent(least));
+}
+
+std::string ForceLine(const ReconstructedForce& f) {
+  const ForcePoint* largest = nullptr;
+  for (const ForcePoint& p : f.points) {
+    if (std::isnan(p.band95)) continue;
+    if (!largest || std::abs(p.value) / p.band95 > std::abs(largest->value) / largest->band95)
+      largest = &p;
+  }
+  const std::string against = f.group.against.substr(0, f.group.against.find(" [-]"));
+  std::string text = f.group.name;
+  if (largest) {
+    const ReadableUnit unit = ReadableUnitOf(largest->value, f.group.unit);
+    const double band = largest->band95 * unit.factor;
+    const int decimals = DecimalsFor(band);
+    text += fmt::format(" {} +- {} {}", Fixed(largest->value * unit.factor, decimals),
+                        Fixed(band, decimals), unit.unit);
+    if (!against.empty()) text += fmt::format(" at {} {}", against, Significant(largest->at, 2));
+  }
+  if (const std::string shape = ShapeText(f); !shape.empty())
+    text += fmt::format("; over s = {}: {}", against, shape);
+  return text;
+}
+
+std::string ForceLines(const FreeForces& free_forces, bool colours) {
+  std::string text;
+  std::size_t shown = 0;
+  for (const ReconstructedForce& f : free_forces.forces) {
+    if (shown == kMostForces || f.p_value > kDetectionLevel) break;
+    text += Labelled(shown++ == 0 ? "free forces" : "", ForceLine(f), colours);
+  }
+  if (shown > 0)
+    text += Labelled("", "(what is missing as a force, a description and no mechanism)", colours);
+  return text;
+}
+
+// What no cause of the list explains may have a formula.
+std::string FormulaLine(const Diagnosis& d, bool formula_sought, bool colours) {
+  if (d.verdict != Verdict::kUnexplained || formula_sought) return "";
+  return Labelled("a formula", "hoplab discover looks for one: diagnose --discover does it at once",
+                  colours);
+}
+
+std::string NoVerdict(const Diagnosis& d, const std::string& failure, bool colours) {
+  std::string text = "\n" + Labelled("no verdict", failure, colours);
+  for (const GateCheck& c : d.gate.checks)
+    text += Labelled(c.passed ? "passed" : "failed", c.name + ": " + c.text, colours);
+  return text;
+}
+
+}  // namespace
+
+std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, bool formula_sought,
+                            bool colours) {
+  const Diagnosis& d = run.diagnosis;
+  std::string text = Styled(Printable(dataset.name, 100), Emphasis::kBold, colours);
+  if (!dataset.title.empty()) text += "  " + Printable(dataset.title, 100);
+  text += "\n" + Headline(d);
+  if (const std::string failure = run.Failure(); !failure.empty())
+    return text + NoVerdict(d, failure, colours);
+
+  text += "\n  " + Styled(Wrapped(VerdictSentence(d), 2), Emphasis::kBold, colours) + "\n\n";
+  if (d.verdict != Verdict::kAdequate) {
+    text += Labelled("misfit", CellsLine(d), colours);
+    if (const std::string parts = PartsLine(d); !parts.empty())
+      text += Labelled("", parts, colours);
+    text += "\n";
+  }
+  if (d.extension) {
+    const ExtensionReport& e = *d.extension;
+    text += CauseLines(d, colours) + "\n";
+    if (e.after.test.trials > 0) text += HeldOutTable(d, colours) + "\n";
+    text += MovedTable(e, colours) + "\n";
+    if (!run.energy.hops.empty()) text += EnergyTable(run.energy, colours) + "\n";
+    text += Labelled("gain", GainLine(e), colours);
+    text += Labelled("remainder", RemainderLine(e), colours);
+    text += DoubtLines(d, colours);
+  } else if (d.before.test.trials > 0) {
+    text += Labelled("test error", TestErrorLine(d), colours);
+  }
+  if (d.free_forces) text += ForceLines(*d.free_forces, colours);
+  text += FormulaLine(d, formula_sought, colours);
+  text += ExclusionLines(d, colours);
+  if (d.experiment) text += Labelled("next trial", ExperimentLine(d), colours);
+  for (const std::string& note : d.notes) text += Labelled("note", note, colours);
+  return text;
+}
+
+}  // namespace hoplab

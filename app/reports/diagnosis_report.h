@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "app/records/diagnosis_record.h"
+
+namespace hoplab {
+
+/// A diagnosis in words, for a terminal: the verdict, where the misfit sits, the cause and its
+/// size, what the extended model gains, what is excluded, what could not have shown, what to record
+/// next. `formula_sought`: a formula was looked for beside it, so nothing points to that.
+std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, bool formula_sought,
+                            bool colours);
+
+}  // namespace hoplab

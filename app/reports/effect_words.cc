@@ -1,0 +1,61 @@
+#include "app/reports/effect_words.h"
+
+#include <cctype>
+
+#include "base/text.h"
+
+namespace hoplab {
+
+std::string_view TitleOf(EffectKind kind) {
+  switch (kind) {
+    case EffectKind::kForce:
+      return "Forces, torques and impacts";
+    case EffectKind::kParameter:
+      return "The mechanism and what it stands on";
+    case EffectKind::kGuard:
+      return "When contact begins";
+    case EffectKind::kObservation:
+      return "What the sensors report";
+  }
+  return "";
+}
+
+std::string SentenceOf(const Effect& effect) {
+  std::string text(effect.info.sentence);
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text + ".";
+}
+
+std::vector<Law> AllLaws() {
+  std::vector<Law> laws;
+  for (const MechanismKind mechanism : {MechanismKind::kCLeg, MechanismKind::kStraightLeg,
+                                        MechanismKind::kBall, MechanismKind::kRobot}) {
+    const std::span<const Law> of = LawsOf(mechanism);
+    laws.insert(laws.end(), of.begin(), of.end());
+  }
+  return laws;
+}
+
+std::vector<Law> LawsWith(const Effect& effect) {
+  std::vector<Law> laws = AllLaws();
+  std::erase_if(laws,
+                [&](Law law) { return !AppliesTo(effect, law, LegMass::kNone, kEveryInput); });
+  return laws;
+}
+
+std::string RestrictionOf(const Effect& effect) {
+  const EffectInfo& info = effect.info;
+  if (!info.only_laws.empty()) {
+    std::vector<std::string> names;
+    for (const Law law : info.only_laws) names.emplace_back(NameOf(law));
+    return (names.size() == 1 ? "law " : "laws ") + Join(names) +
+           (info.massless_leg_only ? ", massless" : "");
+  }
+  if (info.needs_inputs != 0) return "what a log drives";
+  if (info.for_legs && info.for_ball) return "";
+  if (info.massless_leg_only) return "massless legs only";
+  if (info.for_robot && !info.for_legs && !info.for_ball) return "robot only";
+  return info.for_legs ? "legs only" : "ball only";
+}
+
+}  // namespace hoplab

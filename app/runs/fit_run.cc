@@ -1,0 +1,205 @@
+#include "app/runs/fit_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/input_error.h"
+#include "base/text.h"
+#include "datasets/suspect_things.h"
+
+namespace hoplab {
+namespace {
+
+bool IsFinished(const StartRecord& record) {
+  return record.status == SolveStatus::kConverged || record.status == SolveStatus::kIterationLimit;
+}
+
+// Places of the shared values to profile.
+std::vector<int> ProfileTargets(const FitProblem& problem, const std::vector<std::string>& wanted) {
+  std::vector<int> targets;
+  const std::vector<std::string> names = problem.shared_names();
+  for (const std::string& name : wanted) {
+    if (name == "all") {
+      targets.clear();
+      for (int i = 0; i < problem.shared_count(); ++i) targets.push_back(i);
+      return targets;
+    }
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end())
+      throw InputError({"--profile", Printable(name), "is not a parameter of this fit",
+                        DidYouMean(name, names)});
+    targets.push_back(static_cast<int>(at - names.begin()));
+  }
+  return targets;
+}
+
+void Announce(const FitRunOptions& options, std::string_view stage) {
+  if (options.stage) options.stage(stage);
+}
+
+void AddProfiles(const FitRunOptions& options, const std::vector<int>& targets, FitRun& run) {
+  for (const int target : targets) {
+    // Where the data say nothing, or the optimum sits on a bound, there is no width to step by.
+    const SharedParameter& s = run.problem.shared[target];
+    const ParameterUncertainty& known = run.uncertainty->parameters[target];
+    const double step = known.std_error.value_or(0.1 * s.scale);
+    Announce(options, "profile of " + s.name);
+    Profile profile =
+        ComputeProfile(run.problem, run.fit, options.fit, target, step, known.inflation);
+    if (options.fit.stop && *options.fit.stop) return;  // this one is cut short
+    run.profiles.push_back(std::move(profile));
+  }
+}
+
+void AddObjectives(const FitOptions& fit, const std::vector<TrialProblem>& train, FitRun& run) {
+  std::vector<OwnValues> nominal;
+  for (const TrialProblem& trial : train) nominal.push_back(trial.start);
+  run.at_nominal = EvaluateObjective(run.problem, train, InitialShared(run.problem), nominal,
+                                     fit.loss, fit.jobs, /*matrices=*/false);
+  run.at_optimum =
+      EvaluateObjective(run.problem, train, run.fit.shared, run.fit.starts, fit.loss, fit.jobs,
+                        /*matrices=*/false);
+}
+
+// Fitted trials that are missed by this many times the chi-square of those held out.
+constexpr double kFarWorse = 4.0;
+constexpr int kFewestToCompare = 2;
+
+// Chi-square a sample over the complete trials of a role; NaN with fewer than two.
+double Chi2PerSample(const std::vector<TrialErrors>& trials, TrialRole role) {
+  double chi2 = 0.0;
+  long samples = 0, count = 0;
+  for (const TrialErrors& t : trials) {
+    if (t.role != role || !t.complete) continue;
+    chi2 += t.chi2;
+    samples += t.samples;
+    ++count;
+  }
+  return count < kFewestToCompare ? std::nan("") : chi2 / static_cast<double>(samples);
+}
+
+// A minimum fits the fitted trials better than others, or nearly as well.
+void AddTrainFault(FitRun& run) {
+  const double train = Chi2PerSample(run.trials, TrialRole::kTrain);
+  const double test = Chi2PerSample(run.trials, TrialRole::kTest);
+  if (!(train > kFarWorse * std::max(test, 1.0))) return;
+  run.faults.push_back(fmt::format(
+      "the fitted trials are missed by far more than those held out (chi2 {:.3g} a sample against "
+      "{:.3g})",
+      train, test));
+}
+
+}  // namespace
+
+std::string_view NameOf(FitStanding standing) {
+  switch (standing) {
+    case FitStanding::kOk:
+      return "ok";
+    case FitStanding::kPartial:
+      return "partial";
+    case FitStanding::kStuck:
+      return "stuck";
+    case FitStanding::kFailed:
+      return "failed";
+  }
+  return "";
+}
+
+FitStanding FitRun::Standing() const {
+  if (interrupted || !has_result) return FitStanding::kFailed;
+  if (!faults.empty()) return FitStanding::kStuck;
+  if (AllUndetermined()) return FitStanding::kFailed;
+  return left_out.empty() ? FitStanding::kOk : FitStanding::kPartial;
+}
+
+int FitRun::finished_starts() const {
+  return static_cast<int>(std::count_if(fit.records.begin(), fit.records.end(), IsFinished));
+}
+
+bool FitRun::Undetermined(int parameter) const {
+  if (!uncertainty) return true;
+  const ParameterUncertainty& p = uncertainty->parameters[parameter];
+  return !p.std_error && !p.at_bound;
+}
+
+bool FitRun::AllUndetermined() const {
+  for (int i = 0; i < problem.shared_count(); ++i) {
+    if (!Undetermined(i)) return false;
+  }
+  return true;
+}
+
+std::string FitRun::Failure() const {
+  if (interrupted && !has_result) return "interrupted; no start had been finished";
+  if (interrupted) {
+    return "interrupted; the result is the best of " + std::to_string(finished_starts()) +
+           " finished start" + (finished_starts() == 1 ? "" : "s");
+  }
+  if (!refusal.empty()) return refusal;
+  if (!has_result) {
+    return "the search led nowhere" + (fit.message.empty() ? "" : ": " + fit.message) +
+           "; try --starts 8, other nominal values or another law";
+  }
+  if (!faults.empty())
+    return "the search is stuck: " + faults.front() +
+           "; try --starts 8, --span hops, other nominal values or another law";
+  if (AllUndetermined())
+    return "the data determine none of the parameters (" + Join(problem.shared_names()) + ")";
+  return "";
+}
+
+std::string FitRun::Caveat() const {
+  if (const std::string failure = Failure(); !failure.empty()) return failure;
+  if (!left_out.empty())
+    return fmt::format(
+        "{} of {} train hops are left out, since no values found let them be "
+        "simulated: {}",
+        left_out.size(), left_out.size() + fit.starts.size(), Join(left_out));
+  return "";
+}
+
+FitRun RunFit(const Dataset& dataset, const FitRunOptions& options) {
+  FitRun run;
+  run.problem = MakeProblem(dataset, options.problem);
+  const std::vector<int> targets = ProfileTargets(run.problem, options.profile);
+  Announce(options, "checking the dataset");
+  run.check = CheckDataset(dataset, run.problem, options.fit.jobs);
+  if (options.checked) options.checked(run.check);
+
+  run.refusal = UnreadableTimes(dataset);
+  if (!run.refusal.empty()) return run;
+
+  Announce(options, "fitting " + Join(run.problem.shared_names()));
+  DatasetFit fitted = FitDataset(dataset, options.problem, options.fit, options.span);
+  run.problem = std::move(fitted.problem);
+  run.fit = std::move(fitted.result);
+  run.by_hop = fitted.by_hop;
+  run.note = std::move(fitted.note);
+  run.left_out = std::move(fitted.left_out);
+  run.interrupted = run.fit.interrupted;
+  run.has_result = run.fit.ok && IsFinished(run.fit.records[run.fit.best_start]);
+  if (!run.has_result) return run;
+  run.faults = run.fit.stop.faults;
+
+  // The assessment is short and runs to its end: a start refitted halfway would be a wrong error.
+  Announce(options, "assessing the fit");
+  FitOptions to_the_end = options.fit;
+  to_the_end.stop = nullptr;
+  const std::vector<TrialProblem> train = TrialsOf(run.problem, TrialRole::kTrain);
+  run.trials = AssessTrials(run.problem, run.fit, to_the_end);
+  AddTrainFault(run);
+  AddObjectives(options.fit, train, run);
+  // Where a search is stuck there is nothing to be sure about.
+  if (!run.faults.empty()) return run;
+  run.uncertainty = AssessUncertainty(run.problem, train, run.fit.shared, run.fit.starts,
+                                      options.fit.loss, options.fit.jobs);
+  run.certificate =
+      CertifyGradients(run.problem, train, run.fit.shared, run.fit.starts, options.fit.jobs);
+  if (!run.interrupted) AddProfiles(options, targets, run);
+  run.interrupted = run.interrupted || (options.fit.stop && *options.fit.stop);
+  return run;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/simulate.h"
+
+namespace hoplab {
+
+/// A direction `--sensitivities` names: x0, y0, vx0, vy0, a parameter of the mechanism or
+/// effect.parameter of an effect that acts. Throws InputError with the nearest known name.
+SensitivityDirection ResolveDirection(const std::string& name, MechanismKind mechanism,
+                                      LegMass mass, const std::vector<EffectSetting>& effects);
+
+}  // namespace hoplab

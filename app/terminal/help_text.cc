@@ -1,0 +1,61 @@
+#include "app/terminal/help_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/terminal/report_text.h"
+#include "base/text.h"
+
+namespace hoplab {
+namespace {
+constexpr std::size_t kNameColumn = 25;
+constexpr char kSeparator = '|';
+}  // namespace
+
+HelpFormatter::HelpFormatter(std::size_t columns) : columns_(columns) { column_width(kNameColumn); }
+
+std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
+  return Line(make_option_name(option, is_positional) + make_option_opts(option),
+              make_option_desc(option));
+}
+
+std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+  return option->get_option_text().empty() ? "" : " " + option->get_option_text();
+}
+
+std::string HelpFormatter::make_subcommand(const CLI::App* sub) const {
+  return Line(sub->get_name(), sub->get_description());
+}
+
+std::string HelpFormatter::Line(const std::string& name, const std::string& description) const {
+  // A long name pushes its own description only: the reader's column stays where it is.
+  const std::string begin = fmt::format("{:<{}}", "  " + name, kNameColumn);
+  const std::string text = Wrapped(description, kNameColumn, columns_);
+  if (begin.size() <= kNameColumn) return begin + text + "\n";
+  return begin + "\n" + std::string(kNameColumn, ' ') + text + "\n";
+}
+
+CLI::Validator OneOf(const std::vector<std::string>& words) {
+  return {[words](std::string& word) {
+            return std::find(words.begin(), words.end(), word) != words.end()
+                       ? std::string()
+                       : Printable(word) + " is none of its values. " + DidYouMean(word, words);
+          },
+          Join(words, std::string(1, kSeparator)), "OneOf"};
+}
+
+std::vector<std::string> ChoicesOf(const CLI::Option& option) {
+  // CLI11 tells the descriptions of an option's validators behind its type, as TEXT:a|b.
+  const std::string type = option.get_type_name();
+  if (type.find(kSeparator) == type.npos) return {};
+  std::vector<std::string> words;
+  for (std::size_t begin = type.find(':') + 1; begin <= type.size();) {
+    const std::size_t end = std::min(type.find(kSeparator, begin), type.size());
+    words.push_back(type.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+}  // namespace hoplab
