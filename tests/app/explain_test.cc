@@ -10,6 +10,7 @@
 #include "app/reports/effect_words.h"
 #include "app/reports/glossary.h"
 #include "app/reports/report_page.h"
+#include "app/reports/text_entries.h"
 #include "app/terminal/pace.h"
 #include "tests/support/temp_folder.h"
 
@@ -77,6 +78,16 @@ TEST(Explain, TheGlossaryIsInOrderAndNoNameMeansTwoThings) {
     for (std::sregex_iterator it(also.begin(), also.end(), word), end; it != end; ++it)
       EXPECT_TRUE(names.insert(it->str()).second) << it->str();
   }
+}
+
+TEST(Explain, AnEntryIsItsTextsInOrderWithLinesJoined) {
+  constexpr std::string_view kKeys[] = {"word", "also", "what"};
+  const std::vector<TextEntry> entries = ParseEntries(
+      "# a remark\n\nword: one\nwhat: It goes on:\n  here; and\n  here.\n\n\nword: two\nalso: 2\n",
+      kKeys);
+  const std::vector<TextEntry> expected = {{"one", "", "It goes on: here; and here."},
+                                           {"two", "2", ""}};
+  EXPECT_EQ(entries, expected);
 }
 
 TEST(Explain, AdviceSpeaksOfEffectsThatExist) {

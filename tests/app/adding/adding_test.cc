@@ -116,6 +116,7 @@ class Adding : public ::testing::Test {
     LinkFolder("model/effects", tree_->path());
     LinkFolder("model/laws/legs", tree_->path());
     LinkFolder("app/commands", tree_->path());
+    LinkFolder("app/reports/texts", tree_->path());
     fs::create_directories(tree_->path() / "experiments");
     fs::create_symlink(kSource / "experiments/three-drops.yaml",
                        tree_->path() / "experiments/three-drops.yaml");
