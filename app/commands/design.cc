@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "app/records/design_record.h"
+#include "app/reports/design_report.h"
 #include "app/reports/run_folder.h"
 #include "app/runs/problem_settings.h"
 #include "app/runs/run_settings.h"

@@ -6,6 +6,7 @@
 #include "app/records/diagnosis_tables.h"
 #include "app/records/discovery_record.h"
 #include "app/reports/diagnosis_report.h"
+#include "app/reports/discovery_report.h"
 #include "app/reports/run_folder.h"
 #include "app/runs/problem_settings.h"
 #include "app/runs/run_settings.h"

@@ -3,6 +3,7 @@
 
 #include "app/export/discovered_code.h"
 #include "app/records/discovery_record.h"
+#include "app/reports/discovery_report.h"
 #include "app/reports/run_folder.h"
 #include "app/runs/problem_settings.h"
 #include "app/runs/run_settings.h"

@@ -3,6 +3,7 @@
 
 #include "app/records/gait_record.h"
 #include "app/records/solver_record.h"
+#include "app/reports/gait_report.h"
 #include "app/reports/run_folder.h"
 #include "app/runs/problem_settings.h"
 #include "app/runs/run_settings.h"

@@ -7,6 +7,7 @@
 
 #include "app/records/identify_record.h"
 #include "app/records/solver_record.h"
+#include "app/reports/identify_report.h"
 #include "app/reports/run_folder.h"
 #include "app/runs/identify_work.h"
 #include "app/runs/problem_settings.h"

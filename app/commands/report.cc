@@ -2,6 +2,7 @@
 #include <ostream>
 
 #include "app/records/comparison_record.h"
+#include "app/reports/comparison_report.h"
 #include "app/reports/report_page.h"
 #include "app/reports/run_folder.h"
 #include "app/runs/run_settings.h"

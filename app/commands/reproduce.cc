@@ -4,6 +4,7 @@
 #include "app/records/reproduction_record.h"
 #include "app/records/reproduction_runs.h"
 #include "app/records/solver_record.h"
+#include "app/reports/reproduction_report.h"
 #include "app/reports/run_folder.h"
 #include "app/runs/problem_settings.h"
 #include "app/runs/run_settings.h"

@@ -5,6 +5,7 @@
 #include "app/records/solver_record.h"
 #include "app/records/sweep_record.h"
 #include "app/reports/run_folder.h"
+#include "app/reports/sweep_report.h"
 #include "app/runs/mpi_job.h"
 #include "app/runs/problem_settings.h"
 #include "app/runs/run_settings.h"

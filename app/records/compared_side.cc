@@ -7,20 +7,6 @@
 
 namespace hoplab {
 
-const Json& JsonAt(const Json& record, const std::string& pointer) {
-  static const Json kNull = nullptr;
-  const Json::json_pointer path(pointer);
-  return record.contains(path) ? record.at(path) : kNull;
-}
-std::string TextAt(const Json& record, const std::string& pointer) {
-  const Json& value = JsonAt(record, pointer);
-  return value.is_string() ? value.get<std::string>() : "";
-}
-double NumberAt(const Json& record, const std::string& pointer) {
-  const Json& value = JsonAt(record, pointer);
-  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-}
-
 ComparedSide::ComparedSide(const ComparedRun& compared) : record_(compared.run.record) {
   std::filesystem::path folder = compared.folder;
   if (!folder.has_filename()) folder = folder.parent_path();

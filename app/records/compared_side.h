@@ -3,15 +3,9 @@
 #include <string>
 
 #include "app/records/comparison_record.h"
+#include "app/records/json_at.h"
 
 namespace hoplab {
-
-/// What stands at a pointer of a record; null where the record ends before.
-const Json& JsonAt(const Json& record, const std::string& pointer);
-/// The text there, or "".
-std::string TextAt(const Json& record, const std::string& pointer);
-/// The number there, or NaN.
-double NumberAt(const Json& record, const std::string& pointer);
 
 /// A run of fit or diagnose, read the same way: of a diagnosis the model with the causes it found.
 /// It refers to the record.

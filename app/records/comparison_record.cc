@@ -3,23 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 
 #include "app/records/compared_side.h"
+#include "app/records/comparison_values.h"
 #include "app/records/csv.h"
 #include "app/terminal/quantity.h"
 #include "base/text.h"
 
 namespace hoplab {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLevel = 0.05;  // of all values of a run together
-constexpr double kTwoSided95 = 1.959963984540054;
 
 // Whether two runs are of the same recordings: then their errors are common.
 bool SameRecordings(const ComparedSide& a, const ComparedSide& b) {
@@ -36,83 +31,6 @@ bool SameRecordings(const ComparedSide& a, const ComparedSide& b) {
   };
   const std::set<std::string> first = recordings(a), second = recordings(b);
   return first.empty() || second.empty() || first == second;
-}
-
-struct Interval {
-  double value = kNaN, low = kNaN, high = kNaN;
-  bool between_trials = false;
-  double half() const { return 0.5 * (high - low); }
-};
-
-Interval IntervalOf(const ComparedSide& side, const std::string& name) {
-  Interval out;
-  const Json* p = side.parameter(name);
-  if (!p) return out;
-  out.value = NumberAt(*p, "/value");
-  out.between_trials = side.misfit() && JsonAt(*p, "/ci95_between_trials").is_array();
-  const std::string key = out.between_trials ? "/ci95_between_trials" : "/ci95";
-  out.low = NumberAt(*p, key + "/0");
-  out.high = NumberAt(*p, key + "/1");
-  return out;
-}
-
-Json PairOrNull(double low, double high) {
-  if (!std::isfinite(low) || !std::isfinite(high)) return nullptr;
-  return Json::array({low, high});
-}
-
-// A value of one run beside that of the first.
-Json ValueRecord(const Interval& first, const Interval& own, bool is_first, bool independent) {
-  const double difference = is_first ? kNaN : own.value - first.value;
-  const double half = independent ? std::hypot(first.half(), own.half()) : kNaN;
-  const double z = half > 0.0 ? kTwoSided95 * difference / half : kNaN;
-  double p_value = kNaN;
-  if (std::isfinite(z)) {
-    const boost::math::normal normal;
-    p_value = 2.0 * boost::math::cdf(boost::math::complement(normal, std::abs(z)));
-  }
-  return {{"value", NumberOrNull(own.value)},
-          {"ci95", PairOrNull(own.low, own.high)},
-          {"between_trials", own.between_trials},
-          {"difference", NumberOrNull(difference)},
-          {"difference_ci95", PairOrNull(difference - half, difference + half)},
-          {"z", NumberOrNull(z)},
-          {"p_value", NumberOrNull(p_value)},
-          {"clear", false}};
-}
-
-// Holm's steps: of all values of a run none is called clear by chance in 95 of 100 comparisons.
-void MarkClear(Json& values, std::size_t run) {
-  std::vector<Json*> tested;
-  for (Json& value : values) {
-    if (value["runs"][run]["p_value"].is_number()) tested.push_back(&value["runs"][run]);
-  }
-  std::sort(tested.begin(), tested.end(), [](const Json* a, const Json* b) {
-    return (*a)["p_value"].get<double>() < (*b)["p_value"].get<double>();
-  });
-  for (std::size_t i = 0; i < tested.size(); ++i) {
-    const auto left = static_cast<double>(tested.size() - i);
-    if ((*tested[i])["p_value"].get<double>() * left > kLevel) return;
-    (*tested[i])["clear"] = true;
-  }
-}
-
-Json ValuesRecord(const std::vector<ComparedSide>& sides, const std::vector<bool>& independent) {
-  Json out = Json::array();
-  std::set<std::string> seen;
-  for (const ComparedSide& from : sides) {
-    for (const Json& p : from.parameters()) {
-      const std::string name = TextAt(p, "/name");
-      if (!seen.insert(name).second) continue;
-      const Interval first = IntervalOf(sides.front(), name);
-      Json runs = Json::array();
-      for (std::size_t i = 0; i < sides.size(); ++i)
-        runs.push_back(ValueRecord(first, IntervalOf(sides[i], name), i == 0, independent[i]));
-      out.push_back({{"name", name}, {"unit", TextAt(p, "/unit")}, {"runs", runs}});
-    }
-  }
-  for (std::size_t i = 1; i < sides.size(); ++i) MarkClear(out, i);
-  return out;
 }
 
 std::string UnitOfChannel(const std::string& channel) {
@@ -183,57 +101,6 @@ Json CausesRecord(const std::vector<ComparedSide>& sides) {
       runs.push_back(found);
     }
     out.push_back({{"name", name}, {"runs", runs}});
-  }
-  return out;
-}
-
-// What was set otherwise: law, options, and stated values that no run fitted.
-Json ChangedRecord(const std::vector<ComparedSide>& sides) {
-  Json out = Json::array();
-  const auto add = [&](const std::string& what, const std::string& key, const auto& value_of) {
-    Json values = Json::array();
-    for (const ComparedSide& side : sides) values.push_back(value_of(side));
-    const bool differs = std::any_of(values.begin(), values.end(),
-                                     [&](const Json& v) { return v != values.front(); });
-    if (differs) out.push_back({{"what", what}, {"key", key}, {"values", values}});
-  };
-  for (const char* key : {"dataset", "law", "law_variant", "version"})
-    add("run", key,
-        [&](const ComparedSide& s) { return JsonAt(s.record(), "/" + std::string(key)); });
-  const auto keys_of = [&](const auto& part_of) {
-    std::vector<std::string> keys;
-    for (const ComparedSide& side : sides) {
-      const Json& part = part_of(side);
-      if (!part.is_object()) continue;
-      for (const auto& [key, value] : part.items()) {
-        if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
-      }
-    }
-    return keys;
-  };
-  const auto entry = [](const Json& part, const std::string& key) {
-    return part.is_object() && part.contains(key) ? part.at(key) : Json(nullptr);
-  };
-  const auto options = [](const ComparedSide& s) -> const Json& {
-    return JsonAt(s.record(), "/options");
-  };
-  for (const std::string& key : keys_of(options)) {
-    // What only one of two commands knows was not set.
-    const bool common = std::all_of(sides.begin(), sides.end(), [&](const ComparedSide& s) {
-      return options(s).contains(key);
-    });
-    if (!common) continue;
-    const std::string told = key == "dataset" ? "dataset folder" : key;
-    add("option", told, [&](const ComparedSide& s) { return entry(options(s), key); });
-  }
-  const auto stated = [](const ComparedSide& s) -> const Json& {
-    return JsonAt(s.mechanism(), "/parameters");
-  };
-  for (const std::string& key : keys_of(stated)) {
-    const bool fitted = std::any_of(sides.begin(), sides.end(), [&](const ComparedSide& s) {
-      return s.parameter(key) != nullptr;
-    });
-    if (!fitted) add("stated", key, [&](const ComparedSide& s) { return entry(stated(s), key); });
   }
   return out;
 }

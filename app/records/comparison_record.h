@@ -24,7 +24,4 @@ Json ComparisonRecord(const std::vector<ComparedRun>& runs);
 /// Rows of values.csv: one a value and run.
 std::string ComparisonTable(const Json& record);
 
-/// The record for a terminal.
-std::string ComparisonReport(const Json& record, bool colours);
-
 }  // namespace hoplab

@@ -22,7 +22,4 @@ std::string DesignSentence(const DesignRun& run);
 /// "0.12 bits", "below 0.001 bits": an entropy given by its logarithm in nats.
 std::string BitsText(double log_nats);
 
-/// The run for a terminal.
-std::string DesignReport(const Dataset& dataset, const DesignRun& run, bool colours);
-
 }  // namespace hoplab

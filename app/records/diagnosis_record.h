@@ -10,10 +10,4 @@ namespace hoplab {
 Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument,
                      const DiagnosisOptions& options, const DiagnosisRun& run);
 
-// Parts that the record of a discovery has too.
-
-Json HeldOutRecord(const FitProblem& problem, const HeldOutErrors& errors);
-Json ForceRecord(const ReconstructedForce& force);
-Json ForcesRecord(const std::optional<FreeForces>& free_forces);
-
 }  // namespace hoplab

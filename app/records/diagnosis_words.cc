@@ -152,6 +152,8 @@ std::string SizeText(double value, const std::string& unit) {
   return readable.unit.empty() ? number : number + " " + readable.unit;
 }
 
+std::string WholeShareText(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
+
 std::string ChanceText(double p_value) {
   if (std::isnan(p_value)) return "p not computed";
   if (p_value < kLeastChance) return "p < 0.001";

@@ -15,6 +15,9 @@ std::string SizeText(double value, const std::string& unit);
 /// "97 %", "4.2 %", never rounded up.
 std::string ShareText(double share);
 
+/// "97 %", to the next.
+std::string WholeShareText(double share);
+
 /// "p = 0.31", "p < 0.001".
 std::string ChanceText(double p_value);
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "app/records/csv.h"
-#include "app/records/diagnosis_record.h"
+#include "app/records/diagnosis_parts.h"
 #include "app/records/diagnosis_tables.h"
 #include "app/records/discovery_words.h"
 #include "app/records/formula_words.h"

@@ -23,7 +23,4 @@ Json DiscoveryRecord(const Dataset& dataset, const std::string& dataset_argument
 /// speak), residuals.csv and the effect files.
 std::map<std::string, std::string> DiscoveryFiles(const Discovery& d);
 
-/// What the terminal shows.
-std::string DiscoveryReport(const Discovery& d, bool colours);
-
 }  // namespace hoplab

@@ -59,6 +59,28 @@ Json FitSentences(const FitRun& run) {
           {"remarks", TrialRemarks(run)}};
 }
 
+// How sure the values are together; nulls where they were not assessed.
+void AddUncertainty(const FitRun& run, Json& record) {
+  const bool assessed = run.uncertainty.has_value();
+  record["chi2_per_dof"] = assessed ? NumberOrNull(run.uncertainty->chi2_per_dof) : Json(nullptr);
+  record["chi2_p_value"] = assessed ? NumberOrNull(run.uncertainty->chi2_p_value) : Json(nullptr);
+  record["misfit"] = assessed ? Json(run.uncertainty->misfit) : Json(nullptr);
+  record["covariance"] =
+      assessed ? MatrixRecord(run.problem, run.uncertainty->covariance) : Json(nullptr);
+  record["correlation"] =
+      assessed ? MatrixRecord(run.problem, run.uncertainty->correlation) : Json(nullptr);
+}
+
+// Why the search may have ended where it did.
+Json StopRecord(const FitRun& run) {
+  return {
+      {"minimum", run.has_result && run.faults.empty()},
+      {"complete", run.has_result && run.fit.stop.complete},
+      {"promised_nats", run.has_result ? NumberOrNull(run.fit.stop.promised_nats) : Json(nullptr)},
+      {"at_wall", run.fit.stop.at_wall},
+      {"faults", run.faults}};
+}
+
 }  // namespace
 
 Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
@@ -92,14 +114,7 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
   record["best_start"] = run.has_result ? Json(run.fit.best_start) : Json(nullptr);
   record["cost"] = run.has_result ? NumberOrNull(run.fit.cost) : Json(nullptr);
   record["interrupted"] = run.interrupted;
-  const bool assessed = run.uncertainty.has_value();
-  record["chi2_per_dof"] = assessed ? NumberOrNull(run.uncertainty->chi2_per_dof) : Json(nullptr);
-  record["chi2_p_value"] = assessed ? NumberOrNull(run.uncertainty->chi2_p_value) : Json(nullptr);
-  record["misfit"] = assessed ? Json(run.uncertainty->misfit) : Json(nullptr);
-  record["covariance"] =
-      assessed ? MatrixRecord(run.problem, run.uncertainty->covariance) : Json(nullptr);
-  record["correlation"] =
-      assessed ? MatrixRecord(run.problem, run.uncertainty->correlation) : Json(nullptr);
+  AddUncertainty(run, record);
   record["profiles"] = ProfilesRecord(run);
   record["channels"] = ChannelsRecord(run.problem);
   record["known"] = KnownRecord(run.problem);
@@ -111,12 +126,7 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
   record["fitted"] = run.by_hop ? "single hops" : "whole traces";
   record["left_out"] = run.left_out;
   record["left"] = run.fit.discrepancy ? LeftRecord(run.problem) : Json(nullptr);
-  record["stop"] = {
-      {"minimum", run.has_result && run.faults.empty()},
-      {"complete", run.has_result && run.fit.stop.complete},
-      {"promised_nats", run.has_result ? NumberOrNull(run.fit.stop.promised_nats) : Json(nullptr)},
-      {"at_wall", run.fit.stop.at_wall},
-      {"faults", run.faults}};
+  record["stop"] = StopRecord(run);
   record["warnings"] = run.check.warnings;
   record["notes"] = run.check.notes;
   if (!run.note.empty()) record["notes"].push_back(run.note);

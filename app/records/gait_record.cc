@@ -1,17 +1,9 @@
 #include "app/records/gait_record.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "app/records/csv.h"
 #include "app/records/gait_tables.h"
-#include "app/records/simulation_record.h"
 #include "app/records/stride_record.h"
 #include "app/records/trajectory_tables.h"
-#include "app/terminal/console.h"
-#include "app/terminal/quantity.h"
-#include "app/terminal/text_table.h"
 
 namespace hoplab {
 namespace {
@@ -52,86 +44,6 @@ Json BranchRecord(const GaitRun& run) {
           {"bifurcations", bifurcations},
           {"first_end", end(run.branch.first_end, run.branch.first_outcome)},
           {"last_end", end(run.branch.last_end, run.branch.last_outcome)}};
-}
-
-std::string EndText(BranchEnd end, Outcome outcome) {
-  switch (end) {
-    case BranchEnd::kRange:
-      return "the end of the range";
-    case BranchEnd::kHopFails:
-      return "where the hop fails: " + std::string(SentenceOf(outcome));
-    case BranchEnd::kNotConverged:
-      return "where no fixed point is found any more";
-    case BranchEnd::kPointLimit:
-      return "the limit of points";
-    case BranchEnd::kStopped:
-      return "the interruption";
-  }
-  return "";
-}
-
-std::string BranchReport(const GaitRun& run) {
-  const Branch& branch = run.branch;
-  if (!run.along || branch.points.empty()) return "";
-  const std::string& name = run.along->name;
-  std::string text =
-      fmt::format("\n  along {}, {} points from {} ({}) to {} ({})\n", name, branch.points.size(),
-                  Significant(branch.points.front().parameter, 4),
-                  EndText(branch.first_end, branch.first_outcome),
-                  Significant(branch.points.back().parameter, 4),
-                  EndText(branch.last_end, branch.last_outcome));
-  // A stride has some twenty events: where their order changes is told, not how.
-  const bool strides = HasStrides(run.hopper);
-  std::string orders;
-  for (std::size_t i = 1; i < branch.points.size(); ++i) {
-    const BranchPoint &a = branch.points[i - 1], &b = branch.points[i];
-    if (strides && b.sequence_changed)
-      orders += (orders.empty() ? "" : ", ") + Significant(b.parameter, 4);
-    const std::string place = fmt::format("  {} = {}: ", name, Significant(b.parameter, 4));
-    if (b.sequence_changed && !strides)
-      text += place + "an event grazes, " + EventSequence(a.fixed_point.hop) + " becomes " +
-              EventSequence(b.fixed_point.hop) + "\n";
-    else if (b.near_grazing && !a.near_grazing && !strides)
-      text += place + "an event is close to grazing from here on\n";
-    if (a.fixed_point.stable() != b.fixed_point.stable())
-      text += place + (b.fixed_point.stable() ? "stable" : "unstable") + " from here on\n";
-  }
-  if (!orders.empty()) text += "  another order of events from " + name + " = " + orders + " on\n";
-  for (const Bifurcation& b : branch.bifurcations)
-    text += fmt::format("  {} = {}: {}\n", name, Significant(b.parameter, 4), NameOf(b.kind));
-  return text;
-}
-
-std::string PredictionText(const GaitRun& run) {
-  if (run.prediction.linear_hops < 0) return "none, it does not come back";
-  return fmt::format("{} (the slowest mode starts at {} % and needs {})",
-                     run.prediction.linear_hops, Significant(100.0 * run.prediction.e0, 3),
-                     Fixed(run.prediction.hops, 1));
-}
-
-std::string CountedText(const GaitRun& run) {
-  if (!run.counted || !run.counted->converged()) return "";
-  return fmt::format("{} in the scenario's run, at {} s{}", run.counted->hops,
-                     Fixed(run.counted->time, 3),
-                     run.counted->band == ConvergenceTime::Band::kTwoPercent ? "* (2 %)" : "");
-}
-
-// What each parameter does to the spectral radius.
-std::string RateTable(const GaitRun& run, bool colours) {
-  using enum TextTable::Align;
-  TextTable table({kLeft, kRight, kRight, kRight});
-  table.AddRow({"parameter", "value (SI)", "d rho/d parameter", "rho per +1 %"});
-  for (std::size_t i = 0; i < run.rates.size(); ++i) {
-    const double value = ValueOf(run.hopper, GaitDirection(run.hopper, run.parameters[i]));
-    const double rate = run.rates[i].value;
-    table.AddRow({run.parameters[i], Significant(value, 5),
-                  std::isnan(rate) ? "does not exist" : fmt::format("{:+.5e}", rate),
-                  std::isnan(rate) ? "" : fmt::format("{:+.6f}", 0.01 * value * rate)});
-  }
-  const std::vector<std::string> lines = table.Lines();
-  std::string text = "\n" + Styled(lines.front(), Emphasis::kFaint, colours) + "\n";
-  for (std::size_t i = 1; i < lines.size(); ++i) text += lines[i] + "\n";
-  return text;
 }
 
 // The branch as CSV.
@@ -209,36 +121,6 @@ std::map<std::string, std::string> GaitTables(const GaitRun& run) {
         {{HasStrides(run.hopper) ? "steady stride" : "steady hop", &run.hopper, &run.point}});
   if (run.along && !run.branch.points.empty()) tables["branch.csv"] = BranchTable(run);
   return tables;
-}
-
-std::string GaitReport(const std::string& name, const GaitRun& run, bool colours) {
-  const FixedPoint& p = run.point;
-  std::string text = Styled(name, Emphasis::kBold, colours);
-  if (HasStrides(run.hopper)) {
-    text += fmt::format("  law robot, {} strides from its start\n\n", Fixed(run.own_strides, 1));
-    return p.found() ? text + StrideReport(run) + RateTable(run, colours) + BranchReport(run)
-                     : text;
-  }
-  text +=
-      fmt::format("  law {}, from an apex at {} m with {} m/s\n\n", NameOf(run.hopper.request.law),
-                  Fixed(run.start[1], 4), Fixed(run.start[0], 4));
-  if (!p.found()) return text;
-  text += fmt::format("  steady hop       vx {} m/s, apex {} m, every {} s ({})\n",
-                      Significant(p.state[0], 7), Significant(p.state[1], 7),
-                      Significant(p.hop.period, 5), EventSequence(p.hop));
-  text += fmt::format("  multipliers      {} and {}\n", Multiplier(p.multipliers[0]),
-                      Multiplier(p.multipliers[1]));
-  text += fmt::format("  spectral radius  {}, {}\n", Significant(p.spectral_radius, 7),
-                      p.conserves_energy ? "one multiplier is the energy's, which is conserved"
-                      : p.stable()       ? "stable"
-                                         : "unstable");
-  text += "  hops to 1 %      " + PredictionText(run) + "\n";
-  if (const std::string counted = CountedText(run); !counted.empty())
-    text += "  counted          " + counted + "\n";
-  if (run.hopper.request.law == Law::kLargeDeflection && p.hop.max_flexure > kMaxFlexure)
-    text += fmt::format("  the leg bends to F C/l0 = {}; beyond {} this law is not to be trusted\n",
-                        Significant(p.hop.max_flexure, 2), kMaxFlexure);
-  return text + RateTable(run, colours) + BranchReport(run);
 }
 
 }  // namespace hoplab

@@ -13,7 +13,5 @@ void AddGait(const GaitRun& run, Json& record);
 /// The CSVs behind a gait's plots by file name: trajectory (the scenario's own run), cycles (the
 /// steady hop), branch (where a parameter was followed).
 std::map<std::string, std::string> GaitTables(const GaitRun& run);
-/// What the command prints.
-std::string GaitReport(const std::string& name, const GaitRun& run, bool colours);
 
 }  // namespace hoplab

@@ -19,10 +19,6 @@ std::map<std::string, std::string> IdentificationTables(const IdentificationResu
 /// A fit as a scenario. `origin` is said in its comment: the command and the date.
 std::string ScenarioText(const StudyFit& fit, const std::string& name, const std::string& origin);
 
-/// What the command prints.
-std::string IdentifyReport(const IdentificationRequest& request, const IdentificationResult& result,
-                           bool colours);
-
 /// "zero_force", "rest_length".
 const char* WordOf(LiftoffRule rule);
 

@@ -1,15 +1,9 @@
 #include "app/records/optimize_record.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "app/records/csv.h"
 #include "app/records/gait_tables.h"
+#include "app/records/solver_record.h"
 #include "app/records/trajectory_tables.h"
-#include "app/terminal/console.h"
-#include "app/terminal/quantity.h"
-#include "app/terminal/text_table.h"
 
 namespace hoplab {
 namespace {
@@ -76,64 +70,80 @@ Json VariablesRecord(const OptimizeRun& run) {
   return out;
 }
 
-// "0.71 s after 2 hops", "falls (fell_no_return)".
-std::string Worth(const SearchPoint& point) {
-  switch (point.verdict) {
-    case PointVerdict::kRunEnded:
-      return "the run ends: " + std::string(SentenceOf(point.outcome));
-    case PointVerdict::kNoConvergence:
-      return "does not converge";
-    case PointVerdict::kConstraint:
-      return "breaks " + point.violated;
-    case PointVerdict::kGood:
-    case PointVerdict::kWideBand:
-      break;
+Json NewOptimizeRecord(const OptimizeSettings& settings, const Scenario& scenario,
+                       const OptimizeRun& run) {
+  RecordHeader header;
+  header.command = "optimize";
+  header.law = std::string(NameOf(run.problem.hopper_at(run.scenario_x).request.law));
+  header.variant = scenario.mechanism.variant;
+  header.seed = settings.seed;
+  Json over = Json::object();
+  for (const SearchVariable& v : run.problem.variables) over[v.name] = {v.low, v.high};
+  header.options = {{"scenario", settings.scenario.scenario},
+                    {"set", settings.scenario.set},
+                    {"with", settings.scenario.with},
+                    {"over", over},
+                    {"algorithm", settings.algorithm},
+                    {"budget", run.options.budget},
+                    {"seeds", settings.seeds},
+                    {"weight", settings.weight},
+                    {"map", settings.map_size}};
+  RecordSolver(settings.solver, header.options);
+  Json record = NewRecord(header);
+  record["scenario"] = scenario.name;
+  return record;
+}
+
+// The objective map.
+std::string MapTable(const OptimizeRun& run) {
+  const auto& variables = run.problem.variables;
+  std::vector<std::string> header = {variables[0].name};
+  if (variables.size() > 1) header.push_back(variables[1].name);
+  for (const char* name : {"verdict", "outcome", "objective", "score", "convergence_time_s",
+                           "spectral_radius", "steady_speed_m_per_s"})
+    header.emplace_back(name);
+  CsvText csv(header);
+  for (const MapCell& cell : run.map) {
+    csv.Cell(cell.first);
+    if (variables.size() > 1) csv.Cell(cell.second);
+    const SearchPoint& p = cell.point;
+    csv.Cell(NameOf(p.verdict)).Cell(NameOf(p.outcome)).Cell(p.objective).Cell(p.score);
+    csv.Cell(p.convergence.time).Cell(p.spectral_radius).Cell(p.speed);
+    csv.EndRow();
   }
-  std::string text;
-  if (point.convergence.converged())
-    text = fmt::format("{} s{}, {} hop{}", Fixed(point.convergence.time, 3),
-                       point.verdict == PointVerdict::kWideBand ? "* (2 %)" : "",
-                       point.convergence.hops, point.convergence.hops == 1 ? "" : "s");
-  if (!std::isnan(point.spectral_radius))
-    text += fmt::format("{}spectral radius {}", text.empty() ? "" : ", ",
-                        Significant(point.spectral_radius, 4));
-  text += fmt::format(", {} m/s", Fixed(point.speed, 3));
-  if (point.gait.empty()) return text;
-  return point.gait + ": " + text +
-         fmt::format(", cost of transport {}, at most {} N m",
-                     Significant(point.cost_of_transport, 3), Significant(point.torque, 3));
+  return csv.text();
 }
 
-std::string WorstText(const WorstCase& worst) {
-  std::string text = fmt::format("{} of {} converge", worst.converged, worst.runs);
-  if (std::isfinite(worst.worst_time))
-    text += fmt::format(", at worst in {} s", Fixed(worst.worst_time, 3));
-  return text + (worst.ended > 0 ? fmt::format(", {} fall", worst.ended) : "");
+// The history of all seeds.
+std::string HistoryTable(const OptimizeRun& run) {
+  CsvText csv({"seed", "evaluation", "objective", "score"});
+  for (const SeedResult& seed : run.result.seeds) {
+    for (const SearchStep& step : seed.history) {
+      csv.Cell(static_cast<double>(seed.seed)).Cell(static_cast<double>(step.evaluation));
+      csv.Cell(step.objective).Cell(step.score);
+      csv.EndRow();
+    }
+  }
+  return csv.text();
 }
 
-std::string NoiseText(const NoisyHops& noise) {
-  return fmt::format("{} of {} runs of 60 hops fall, speed varies by {} %", noise.fell, noise.runs,
-                     Significant(100.0 * noise.speed_deviation, 2));
+// The steady hops before and best, from apex to apex.
+std::string CyclesTable(const OptimizeRun& run) {
+  const Hopper before = run.problem.hopper_at(run.scenario_x);
+  std::vector<LabelledGait> gaits = {{"before", &before, &run.before_gait}};
+  Hopper best;
+  if (run.has_result()) {
+    best = run.problem.hopper_at(run.result.best.x);
+    gaits.push_back({"best", &best, &run.best_gait});
+  }
+  return CycleTable(gaits);
 }
 
 }  // namespace
 
-bool OptimizeRun::has_result() const {
-  return !result.best.x.empty() && result.best.verdict <= PointVerdict::kWideBand;
-}
-
-std::string OptimizeRun::Failure() const {
-  if (result.interrupted)
-    return has_result() ? "interrupted; the result is the best of what was tried"
-                        : "interrupted; nothing that converges had been found";
-  if (!has_result())
-    return "no point that converges within the constraints was found in " +
-           std::to_string(result.evaluations) + " evaluations; widen search.over or loosen " +
-           "search.constraints";
-  return "";
-}
-
-void AddOptimize(const OptimizeRun& run, Json& record) {
+Json OptimizeRecord(const OptimizeSettings& settings, const Scenario& scenario,
+                    const OptimizeRun& run) {
+  Json record = NewOptimizeRecord(settings, scenario, run);
   const GainSearchResult& result = run.result;
   record["objective"] = NameOf(run.problem.objective);
   record["algorithm"] = NameOf(run.options.algorithm);
@@ -157,81 +167,15 @@ void AddOptimize(const OptimizeRun& run, Json& record) {
                      {"best", GaitPointRecord(run.best_gait)}};
   const Hopper before = run.problem.hopper_at(run.scenario_x);
   record["mechanism"] = MechanismRecord(RequestOf(before));
+  if (const std::string failure = run.Failure(); !failure.empty()) SetFailed(record, failure);
+  return record;
 }
 
-std::string MapTable(const OptimizeRun& run) {
-  const auto& variables = run.problem.variables;
-  std::vector<std::string> header = {variables[0].name};
-  if (variables.size() > 1) header.push_back(variables[1].name);
-  for (const char* name : {"verdict", "outcome", "objective", "score", "convergence_time_s",
-                           "spectral_radius", "steady_speed_m_per_s"})
-    header.emplace_back(name);
-  CsvText csv(header);
-  for (const MapCell& cell : run.map) {
-    csv.Cell(cell.first);
-    if (variables.size() > 1) csv.Cell(cell.second);
-    const SearchPoint& p = cell.point;
-    csv.Cell(NameOf(p.verdict)).Cell(NameOf(p.outcome)).Cell(p.objective).Cell(p.score);
-    csv.Cell(p.convergence.time).Cell(p.spectral_radius).Cell(p.speed);
-    csv.EndRow();
-  }
-  return csv.text();
-}
-
-std::string HistoryTable(const OptimizeRun& run) {
-  CsvText csv({"seed", "evaluation", "objective", "score"});
-  for (const SeedResult& seed : run.result.seeds) {
-    for (const SearchStep& step : seed.history) {
-      csv.Cell(static_cast<double>(seed.seed)).Cell(static_cast<double>(step.evaluation));
-      csv.Cell(step.objective).Cell(step.score);
-      csv.EndRow();
-    }
-  }
-  return csv.text();
-}
-
-std::string CyclesTable(const OptimizeRun& run) {
-  const Hopper before = run.problem.hopper_at(run.scenario_x);
-  std::vector<LabelledGait> gaits = {{"before", &before, &run.before_gait}};
-  Hopper best;
-  if (run.has_result()) {
-    best = run.problem.hopper_at(run.result.best.x);
-    gaits.push_back({"best", &best, &run.best_gait});
-  }
-  return CycleTable(gaits);
-}
-
-std::string OptimizeReport(const std::string& name, const OptimizeRun& run, bool colours) {
-  using enum TextTable::Align;
-  const GainSearchResult& result = run.result;
-  std::string text =
-      Styled(name, Emphasis::kBold, colours) +
-      fmt::format("  {} by {}, {} evaluations from {} seed{}\n\n", NameOf(run.problem.objective),
-                  NameOf(run.options.algorithm), result.evaluations, result.seeds.size(),
-                  result.seeds.size() == 1 ? "" : "s");
-  if (!run.has_result()) return text;
-  TextTable table({kLeft, kRight, kRight, kLeft});
-  table.AddRow({"", "before", "best", "searched"});
-  for (std::size_t i = 0; i < run.problem.variables.size(); ++i) {
-    const SearchVariable& v = run.problem.variables[i];
-    table.AddRow({v.name, Significant(run.scenario_x[i], 5), Significant(result.best.x[i], 5),
-                  fmt::format("{} .. {}", Significant(v.low, 4), Significant(v.high, 4))});
-  }
-  const std::vector<std::string> lines = table.Lines();
-  text += Styled(lines.front(), Emphasis::kFaint, colours) + "\n";
-  for (std::size_t i = 1; i < lines.size(); ++i) text += lines[i] + "\n";
-  text +=
-      "\n  before         " + Worth(run.before) + "\n  best           " + Worth(result.best) + "\n";
-  text += fmt::format("  how sure       {} of {} seeds end within 1 % of the best\n",
-                      result.agreeing, result.seeds.size());
-  text += "  stiffness 5 %  " + WorstText(run.best_robustness.stiffness) +
-          " (before: " + WorstText(run.before_robustness.stiffness) + ")\n";
-  text += "  25 starts      " + WorstText(run.best_robustness.starts) +
-          " (before: " + WorstText(run.before_robustness.starts) + ")\n";
-  if (run.best_robustness.noise.runs > 0)
-    text += "  0.5 deg noise  " + NoiseText(run.best_robustness.noise) +
-            " (before: " + NoiseText(run.before_robustness.noise) + ")\n";
-  return text;
+std::map<std::string, std::string> OptimizeTables(const OptimizeRun& run) {
+  std::map<std::string, std::string> tables = {{"history.csv", HistoryTable(run)},
+                                               {"cycles.csv", CyclesTable(run)}};
+  if (!run.map.empty()) tables["map.csv"] = MapTable(run);
+  return tables;
 }
 
 }  // namespace hoplab

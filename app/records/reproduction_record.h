@@ -16,8 +16,4 @@ void AddReproduction(const Reproduction& reproduction, Json& record);
 /// every printed number beside ours in `comparison.csv`.
 std::map<std::string, std::string> ReproductionTables(const Reproduction& reproduction);
 
-/// What the command prints.
-std::string ReproductionReport(const std::string& name, const Reproduction& reproduction,
-                               bool colours);
-
 }  // namespace hoplab

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/records/run_record.h"
 #include "app/runs/gait_run.h"
@@ -15,9 +16,5 @@ double SpeedOf(const Hop& hop);
 /// What run.json tells of a robot's stride beside what it tells of every gait: `stride` with its
 /// kind, speed, cost, torque and when each leg stands.
 void AddStride(const GaitRun& run, Json& record);
-/// The steady stride and its stability, for the terminal.
-std::string StrideReport(const GaitRun& run);
-/// "0.94" or "0.1 + 0.3i".
-std::string Multiplier(const std::complex<double>& multiplier);
 
 }  // namespace hoplab

@@ -19,7 +19,5 @@ std::string UnitOfKey(const std::string& key);
 void AddSweep(const SweepPlan& plan, const SweepRows& rows, Json& record);
 /// The rows as CSV.
 std::string SweepTable(const SweepPlan& plan, const SweepRows& rows);
-/// What the command prints: how the runs ended, the first rows.
-std::string SweepReport(const SweepPlan& plan, const SweepRows& rows, bool colours);
 
 }  // namespace hoplab

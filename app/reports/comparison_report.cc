@@ -1,9 +1,11 @@
+#include "app/reports/comparison_report.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/records/comparison_record.h"
+#include "app/records/json_at.h"
 #include "app/terminal/console.h"
 #include "app/terminal/quantity.h"
 #include "app/terminal/report_text.h"

@@ -1,3 +1,5 @@
+#include "app/reports/design_report.h"
+
 #include <fmt/format.h>
 
 #include <cmath>

@@ -7,6 +7,8 @@
 
 #include "app/records/diagnosis_words.h"
 #include "app/reports/cause_report.h"
+#include "app/reports/exclusion_report.h"
+#include "app/reports/force_report.h"
 #include "app/terminal/quantity.h"
 #include "app/terminal/report_text.h"
 #include "app/terminal/text_table.h"
@@ -18,12 +20,8 @@ namespace {
 using enum TextTable::Align;
 
 // What is listed for a reader; the rest stands in the CSVs.
-constexpr std::size_t kMostPlaces = 4, kMostListed = 12, kMostHops = 4, kMostForces = 3;
+constexpr std::size_t kMostPlaces = 4, kMostHops = 4;
 constexpr double kSmallShare = 0.05;
-// A term of a sparse regression worth a word: resampling keeps it this often.
-constexpr double kOftenKept = 0.5;
-
-std::string Percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
 
 std::string Headline(const Diagnosis& d) {
   long train = 0, test = 0, samples = 0;
@@ -44,7 +42,7 @@ std::string CellsLine(const Diagnosis& d) {
   std::vector<std::string> places;
   for (const MisfitCell& c : d.localisation.cells) {
     if (places.size() == kMostPlaces || c.share < kSmallShare) break;
-    places.push_back(Percent(c.share) + " " + PlaceText(d.problem, c));
+    places.push_back(WholeShareText(c.share) + " " + PlaceText(d.problem, c));
   }
   return Join(places);
 }
@@ -59,7 +57,7 @@ std::string PartsLine(const Diagnosis& d) {
     std::vector<std::string> parts;
     for (const MisfitPart& p : hops) {
       if (parts.size() < 3 && p.share >= kSmallShare)
-        parts.push_back(fmt::format("{} hop {}", Percent(p.share), p.index + 1));
+        parts.push_back(fmt::format("{} hop {}", WholeShareText(p.share), p.index + 1));
     }
     if (!parts.empty()) words.push_back(Join(parts));
   }
@@ -67,7 +65,7 @@ std::string PartsLine(const Diagnosis& d) {
     const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
     words.push_back(fmt::format("most in {} ({})",
                                 train[static_cast<std::size_t>(trials[0].index)].file,
-                                Percent(trials[0].share)));
+                                WholeShareText(trials[0].share)));
   }
   return Join(words, "; ");
 }
@@ -170,72 +168,6 @@ std::string RemainderLine(const ExtensionReport& e) {
   return text;
 }
 
-// ---- what is not it
-
-std::string Capped(std::vector<std::string> items) {
-  if (items.size() <= kMostListed) return Join(items);
-  const std::size_t more = items.size() - kMostListed;
-  items.resize(kMostListed);
-  return Join(items) + fmt::format(" and {} more (candidates.csv)", more);
-}
-
-// The bound of each parameter: "air_drag 0.012 N s^2/m^2"; empty where none could be told.
-std::string BoundText(const CandidateResult& c) {
-  std::vector<std::string> parts;
-  for (int k = 0;
-       k < std::min<int>(c.candidate.parameter_count(), static_cast<int>(c.bound95.size())); ++k) {
-    if (!std::isfinite(c.bound95[k])) return "";
-    parts.push_back(SizeText(c.bound95[k], std::string(c.candidate.Parameter(k).unit)));
-  }
-  return parts.empty() ? "" : c.candidate.Name() + " " + Join(parts, " and ");
-}
-
-// The bound in typical sizes, the loosest of its parameters.
-double RelativeBound(const CandidateResult& c) {
-  double most = 0.0;
-  for (int k = 0; k < static_cast<int>(c.bound95.size()); ++k)
-    most = std::max(most, c.bound95[k] / std::abs(c.candidate.Parameter(k).typical));
-  return most;
-}
-
-std::string ExclusionLines(const Diagnosis& d, bool colours) {
-  std::vector<const CandidateResult*> excluded;
-  std::vector<std::string> unneeded, unseen, untried;
-  for (const CandidateResult& c : d.naming.candidates) {
-    if (!c.candidate.only_recording.empty()) continue;  // the same effect, more narrowly
-    if (c.status == CandidateStatus::kExcluded || c.status == CandidateStatus::kNotNeeded) {
-      if (BoundText(c).empty())
-        unneeded.push_back(c.candidate.Name());
-      else
-        excluded.push_back(&c);
-    } else if (c.candidate.effect->info.has_threshold && c.status == CandidateStatus::kNotTested) {
-      untried.push_back(c.candidate.Name());
-    } else if (c.status == CandidateStatus::kNotTested) {
-      std::vector<std::string> sizes;
-      for (const OpenParameter& p : c.candidate.parameters)
-        sizes.push_back(SizeText(p.info.typical, std::string(p.info.unit)));
-      unseen.push_back(c.candidate.Name() + " " + Join(sizes, " and "));
-    }
-  }
-  std::stable_sort(excluded.begin(), excluded.end(), [](const auto* a, const auto* b) {
-    return RelativeBound(*a) < RelativeBound(*b);
-  });
-  std::vector<std::string> bounds;
-  for (const CandidateResult* c : excluded) bounds.push_back(BoundText(*c));
-  std::string text;
-  if (!bounds.empty()) text += Labelled("excluded", "beyond " + Capped(bounds), colours);
-  if (!unneeded.empty())
-    text += Labelled("not needed", "beside the above: " + Capped(unneeded), colours);
-  if (!unseen.empty())
-    text += Labelled("never shown", "at typical sizes: " + Capped(unseen), colours);
-  if (!untried.empty())
-    text += Labelled(
-        "not tried",
-        Capped(untried) + ": small sizes change nothing, and no simulation ran at larger ones",
-        colours);
-  return text;
-}
-
 // ---- what next
 
 std::string ExperimentLine(const Diagnosis& d) {
@@ -256,56 +188,6 @@ std::string ExperimentLine(const Diagnosis& d) {
   return fmt::format("{}, otherwise like {}: expected to set {} apart from {} by {} nats",
                      Describe(e.design), e.design.like, cause, e.closest_rival,
                      Significant(e.expected_nats, 2));
-}
-
-// "-0.072 + 0.39 s, kept by 99 % of the resamples or more"; empty where no term is.
-std::string ShapeText(const ReconstructedForce& f) {
-  std::string text;
-  double least = 1.0;
-  for (const RegressionTerm& t : f.terms) {
-    if (t.inclusion < kOftenKept || t.coefficient == 0.0) continue;
-    const std::string size = Significant(std::abs(t.coefficient), 2);
-    const bool negative = t.coefficient < 0.0;
-    text += text.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ");
-    text += t.term == "1" ? size : size + " " + t.term;
-    least = std::min(least, t.inclusion);
-  }
-  if (text.empty()) return "";
-  return fmt::format("{}, kept by {} of the resamples", text, Percent(least));
-}
-
-std::string ForceLine(const ReconstructedForce& f) {
-  const ForcePoint* largest = nullptr;
-  for (const ForcePoint& p : f.points) {
-    if (std::isnan(p.band95)) continue;
-    if (!largest || std::abs(p.value) / p.band95 > std::abs(largest->value) / largest->band95)
-      largest = &p;
-  }
-  const std::string against = f.group.against.substr(0, f.group.against.find(" [-]"));
-  std::string text = f.group.name;
-  if (largest) {
-    const ReadableUnit unit = ReadableUnitOf(largest->value, f.group.unit);
-    const double band = largest->band95 * unit.factor;
-    const int decimals = DecimalsFor(band);
-    text += fmt::format(" {} +- {} {}", Fixed(largest->value * unit.factor, decimals),
-                        Fixed(band, decimals), unit.unit);
-    if (!against.empty()) text += fmt::format(" at {} {}", against, Significant(largest->at, 2));
-  }
-  if (const std::string shape = ShapeText(f); !shape.empty())
-    text += fmt::format("; over s = {}: {}", against, shape);
-  return text;
-}
-
-std::string ForceLines(const FreeForces& free_forces, bool colours) {
-  std::string text;
-  std::size_t shown = 0;
-  for (const ReconstructedForce& f : free_forces.forces) {
-    if (shown == kMostForces || f.p_value > kDetectionLevel) break;
-    text += Labelled(shown++ == 0 ? "free forces" : "", ForceLine(f), colours);
-  }
-  if (shown > 0)
-    text += Labelled("", "(what is missing as a force, a description and no mechanism)", colours);
-  return text;
 }
 
 // What no cause of the list explains may have a formula.

@@ -1,3 +1,5 @@
+#include "app/reports/discovery_report.h"
+
 #include <fmt/format.h>
 
 #include "app/records/discovery_record.h"

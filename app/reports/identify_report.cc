@@ -1,8 +1,9 @@
+#include "app/reports/identify_report.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "app/records/identify_record.h"
 #include "app/terminal/console.h"
 #include "app/terminal/quantity.h"
 #include "app/terminal/report_text.h"

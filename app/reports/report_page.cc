@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/reports/explain.h"
-#include "app/reports/report_headline.h"
+#include "app/reports/headline.h"
 #include "app/reports/report_table.h"
 #include "base/check.h"
 #include "web/assets.h"

@@ -1,9 +1,10 @@
+#include "app/reports/reproduction_report.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/records/reproduction_record.h"
 #include "app/terminal/quantity.h"
 #include "app/terminal/report_text.h"
 #include "app/terminal/text_table.h"

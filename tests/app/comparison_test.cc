@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/records/comparison_record.h"
+#include "app/reports/comparison_report.h"
 #include "base/input_error.h"
 #include "tests/support/input_error_of.h"
 

@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "app/records/csv.h"
-#include "app/reports/report_headline.h"
+#include "app/reports/headline.h"
 #include "base/check.h"
 #include "web/assets.h"
 
