@@ -12,10 +12,11 @@ namespace {
 
 ExitCode RunOptimizeCommand(const OptimizeSettings& settings, Console& console) {
   const auto begin = std::chrono::steady_clock::now();
+  const std::vector<OverOption> over = OverOptionsOf(settings);
   const ScenarioDocument document = ScenarioDocumentOf(settings.scenario);
   const Scenario scenario = document.Read();
   const RunFolder folder(RunFolderOptionsOf(settings), scenario.name, "optimize");
-  OptimizeRun run = PrepareOptimize(settings, document, scenario);
+  OptimizeRun run = PrepareOptimize(settings, over, document, scenario);
   const InterruptGuard interrupt;
   Progress progress(console, settings.quiet);
   RunOptimize(settings, interrupt.flag(), progress, run);

@@ -1,6 +1,10 @@
 #include "app/records/identify_record.h"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "app/records/solver_record.h"
 
 namespace hoplab {
 namespace {
@@ -80,14 +84,36 @@ Json DecisionsRecord(const std::vector<PointDecision>& decisions) {
   return record;
 }
 
-}  // namespace
-
-const char* WordOf(LiftoffRule rule) {
-  return rule == LiftoffRule::kZeroForce ? "zero_force" : "rest_length";
+Json NewIdentifyRecord(const IdentifySettings& settings) {
+  RecordHeader header;
+  header.command = "identify";
+  header.law = std::string(NameOf(Law::kThesis));
+  header.seed = settings.seed;
+  header.options = {{"tables", settings.tables},
+                    {"times", settings.times},
+                    {"budget", settings.budget},
+                    {"readings", settings.readings},
+                    {"keep", settings.keep},
+                    {"keep_toe", settings.keep_toe},
+                    {"free_damping_scale", settings.free_damping_scale},
+                    {"free_rolling_blend", settings.free_rolling_blend},
+                    {"free_toe_mass", settings.free_toe_mass},
+                    {"free_desired_speed", settings.free_desired_speed},
+                    {"placed_as_printed", settings.placed_as_printed}};
+  RecordSolver(settings.solver, header.options);
+  return NewRecord(header);
 }
 
-void AddIdentification(const IdentificationRequest& request, const IdentificationResult& result,
-                       Json& record) {
+std::string TextOfFile(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+Json IdentifyRecord(const IdentifySettings& settings, const IdentificationRequest& request,
+                    const IdentificationResult& result) {
+  Json record = NewIdentifyRecord(settings);
   if (!result.by_all.empty()) record["best"] = FitRecord(result.by_all.front());
   record["best_on_table_6_5"] = FitRecord(result.best_by_energy);
   record["as_good"] = {{"count", result.as_good},
@@ -109,6 +135,26 @@ void AddIdentification(const IdentificationRequest& request, const Identificatio
   record["decisions"] = DecisionsRecord(result.decisions);
   record["evaluations"] = result.evaluations;
   record["interrupted"] = result.interrupted;
+  return record;
+}
+
+std::map<std::string, std::string> IdentifyFiles(const IdentifySettings& settings,
+                                                 const IdentificationResult& result,
+                                                 const Json& record, const FitJournal& journal) {
+  std::map<std::string, std::string> files = IdentificationTables(result);
+  files["run.json"] = TextOf(record);
+  files["fits.txt"] = TextOfFile(journal.lines().file());
+  if (!result.by_all.empty() && !std::isnan(result.by_all.front().fit.misfit))
+    files["published.yaml"] =
+        ScenarioText(result.by_all.front().fit, "published", OriginText(settings));
+  if (!result.by_energy.empty() && !std::isnan(result.by_energy.front().misfit))
+    files["published-energy.yaml"] =
+        ScenarioText(result.by_energy.front(), "published-energy", OriginText(settings));
+  return files;
+}
+
+const char* WordOf(LiftoffRule rule) {
+  return rule == LiftoffRule::kZeroForce ? "zero_force" : "rest_length";
 }
 
 }  // namespace hoplab

@@ -1,6 +1,7 @@
 #include "app/records/stride_record.h"
 
 namespace hoplab {
+
 Json StateRecord(const std::vector<SectionComponent>& components, const SectionState& state) {
   Json record = Json::object();
   for (std::size_t i = 0; i < components.size(); ++i)

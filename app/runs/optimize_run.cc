@@ -57,11 +57,11 @@ std::string OptimizeRun::Failure() const {
   return "";
 }
 
-OptimizeRun PrepareOptimize(const OptimizeSettings& settings, const ScenarioDocument& document,
-                            const Scenario& scenario) {
+OptimizeRun PrepareOptimize(const OptimizeSettings& settings, const std::vector<OverOption>& over,
+                            const ScenarioDocument& document, const Scenario& scenario) {
   OptimizeRun run;
-  run.problem = SearchProblemOfScenario(document, scenario, OverOptionsOf(settings),
-                                        IntegratorOptionsOf(settings.solver));
+  run.problem =
+      SearchProblemOfScenario(document, scenario, over, IntegratorOptionsOf(settings.solver));
   run.problem.weight = settings.weight;
   run.options = SearchOptionsOf(settings, scenario);
   for (const SearchVariable& variable : run.problem.variables)
@@ -86,6 +86,7 @@ void RunOptimize(const OptimizeSettings& settings, const std::atomic<bool>* stop
   if (std::isnan(run.before.spectral_radius))
     run.before.spectral_radius = SteadyHop(run.problem.hopper_at(run.scenario_x)).spectral_radius;
   run.result = SearchGains(run.problem, run.options);
+  run.options.progress = nullptr;
   Assess(run, settings, progress);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,8 @@ struct OptimizeRun {
 
 /// The variables, the scenario's own values of them, and how to search. Throws InputError for a
 /// scenario that cannot be searched.
-OptimizeRun PrepareOptimize(const OptimizeSettings& settings, const ScenarioDocument& document,
-                            const Scenario& scenario);
+OptimizeRun PrepareOptimize(const OptimizeSettings& settings, const std::vector<OverOption>& over,
+                            const ScenarioDocument& document, const Scenario& scenario);
 
 /// Searches, then tries out the best point: gaits, robustness, the objective's map. `stop` ends it
 /// early.
