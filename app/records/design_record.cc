@@ -122,6 +122,40 @@ void AddHeader(const DesignRun& run, std::vector<std::string>& header) {
   header.emplace_back("outcome");
 }
 
+std::string DesignsTable(const DesignRun& run) {
+  std::vector<std::string> header;
+  for (const DesignRange& range : run.space.ranges)
+    header.emplace_back(InfoOf(range.setting).column);
+  header.emplace_back("by");
+  AddHeader(run, header);
+  CsvText csv(header);
+  const auto add = [&](const DesignTried& tried) {
+    for (const DesignRange& range : run.space.ranges) csv.Cell(Shown(tried.design, range.setting));
+    csv.Cell(tried.refitted ? "refits" : "linear");
+    AddCells(run, tried, csv);
+    csv.EndRow();
+  };
+  for (const DesignTried& tried : run.search.tried) add(tried);
+  for (const DesignTried& tried : run.search.best) {
+    if (tried.refitted) add(tried);
+  }
+  return csv.text();
+}
+
+std::string DesignMapTable(const DesignRun& run) {
+  if (run.search.map.empty()) return "";
+  std::vector<std::string> header = {"across", "up", "across_value", "up_value"};
+  AddHeader(run, header);
+  CsvText csv(header);
+  for (const DesignMapPoint& point : run.search.map) {
+    csv.Cell(InfoOf(point.across).column).Cell(InfoOf(point.up).column);
+    csv.Cell(Shown(point.tried.design, point.across)).Cell(Shown(point.tried.design, point.up));
+    AddCells(run, point.tried, csv);
+    csv.EndRow();
+  }
+  return csv.text();
+}
+
 }  // namespace
 
 std::string BitsText(double log_nats) {
@@ -197,38 +231,11 @@ Json DesignRecord(const Dataset& dataset, const std::string& dataset_argument,
   return record;
 }
 
-std::string DesignsTable(const DesignRun& run) {
-  std::vector<std::string> header;
-  for (const DesignRange& range : run.space.ranges)
-    header.emplace_back(InfoOf(range.setting).column);
-  header.emplace_back("by");
-  AddHeader(run, header);
-  CsvText csv(header);
-  const auto add = [&](const DesignTried& tried) {
-    for (const DesignRange& range : run.space.ranges) csv.Cell(Shown(tried.design, range.setting));
-    csv.Cell(tried.refitted ? "refits" : "linear");
-    AddCells(run, tried, csv);
-    csv.EndRow();
-  };
-  for (const DesignTried& tried : run.search.tried) add(tried);
-  for (const DesignTried& tried : run.search.best) {
-    if (tried.refitted) add(tried);
-  }
-  return csv.text();
-}
-
-std::string DesignMapTable(const DesignRun& run) {
-  if (run.search.map.empty()) return "";
-  std::vector<std::string> header = {"across", "up", "across_value", "up_value"};
-  AddHeader(run, header);
-  CsvText csv(header);
-  for (const DesignMapPoint& point : run.search.map) {
-    csv.Cell(InfoOf(point.across).column).Cell(InfoOf(point.up).column);
-    csv.Cell(Shown(point.tried.design, point.across)).Cell(Shown(point.tried.design, point.up));
-    AddCells(run, point.tried, csv);
-    csv.EndRow();
-  }
-  return csv.text();
+std::map<std::string, std::string> DesignTables(const DesignRun& run) {
+  std::map<std::string, std::string> tables;
+  if (!run.search.tried.empty()) tables["designs.csv"] = DesignsTable(run);
+  if (!run.search.map.empty()) tables["map.csv"] = DesignMapTable(run);
+  return tables;
 }
 
 }  // namespace hoplab

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "app/records/run_record.h"
@@ -11,10 +12,9 @@ namespace hoplab {
 Json DesignRecord(const Dataset& dataset, const std::string& dataset_argument,
                   const DesignRunOptions& options, const DesignRun& run);
 
-/// designs.csv: every design tried, by the linear forecast, then the refitted ones.
-std::string DesignsTable(const DesignRun& run);
-/// map.csv: worth over two settings, the others as in the best design; empty without a map.
-std::string DesignMapTable(const DesignRun& run);
+/// The tables that there are by file name: designs.csv, every design tried, by the linear forecast,
+/// then the refitted ones; map.csv, worth over two settings, the others as in the best design.
+std::map<std::string, std::string> DesignTables(const DesignRun& run);
 
 /// What to record, and what it is expected to bring; empty if there is no design.
 std::string DesignSentence(const DesignRun& run);

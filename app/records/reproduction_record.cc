@@ -1,6 +1,7 @@
 #include "app/records/reproduction_record.h"
 
 #include "app/records/csv.h"
+#include "app/records/solver_record.h"
 
 namespace hoplab {
 namespace {
@@ -153,6 +154,23 @@ std::string ComparisonTable(const Reproduction& reproduction) {
 }
 
 }  // namespace
+
+Json NewReproductionRecord(const ReproduceSettings& settings, const Study& study,
+                           const std::vector<std::string>& items, const std::string& constants) {
+  RecordHeader header;
+  header.command = "reproduce";
+  header.law = study.constants.law;
+  header.options = {{"items", items},
+                    {"constants", settings.constants.scenario},
+                    {"set", settings.constants.set},
+                    {"hip_distance_m", settings.legs.hip_distance},
+                    {"leg_diameter_m", settings.legs.leg_diameter}};
+  RecordSolver(settings.solver, header.options);
+  Json record = NewRecord(header);
+  record["scenario"] = study.constants.name;
+  record["constants"] = constants;  // dotted.key=text, one a line
+  return record;
+}
 
 void AddReproduction(const Reproduction& reproduction, Json& record) {
   Json published = Json::array(), statistics = Json::object();

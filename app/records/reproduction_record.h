@@ -4,10 +4,13 @@
 #include <string>
 
 #include "app/records/run_record.h"
-#include "experiments/study/reproduction.h"
+#include "app/runs/reproduce_settings.h"
 
 namespace hoplab {
 
+/// run.json of a reproduction before its keys; `constants`: dotted.key=text, one a line.
+Json NewReproductionRecord(const ReproduceSettings& settings, const Study& study,
+                           const std::vector<std::string>& items, const std::string& constants);
 /// Keys of a reproduction in run.json: tables, figures, claims, comparison, left_out. Angles in
 /// rad, all else SI; the CSVs name their units in their headers.
 void AddReproduction(const Reproduction& reproduction, Json& record);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/records/csv.h"
+#include "app/records/solver_record.h"
 
 namespace hoplab {
 namespace {
@@ -38,6 +39,22 @@ std::string UnitOfKey(const std::string& key) {
     if (key.ends_with(suffix)) return unit;
   }
   return "";
+}
+
+Json NewSweepRecord(const SweepSettings& settings, const SweepPlan& plan) {
+  RecordHeader header;
+  header.command = "sweep";
+  header.law = std::string(NameOf(plan.law()));
+  header.variant = plan.variant();
+  header.seed = settings.seed;
+  header.options = {{"scenario", settings.scenario.scenario},
+                    {"set", settings.scenario.set},
+                    {"with", settings.scenario.with}};
+  RecordSolver(settings.solver, header.options);
+  Json record = NewRecord(header);
+  record["scenario"] = plan.name();
+  record["settings_hash"] = plan.fingerprint();
+  return record;
 }
 
 void AddSweep(const SweepPlan& plan, const SweepRows& rows, Json& record) {

@@ -26,23 +26,6 @@ std::string SentenceOf(const Effect& effect) {
   return text + ".";
 }
 
-std::vector<Law> AllLaws() {
-  std::vector<Law> laws;
-  for (const MechanismKind mechanism : {MechanismKind::kCLeg, MechanismKind::kStraightLeg,
-                                        MechanismKind::kBall, MechanismKind::kRobot}) {
-    const std::span<const Law> of = LawsOf(mechanism);
-    laws.insert(laws.end(), of.begin(), of.end());
-  }
-  return laws;
-}
-
-std::vector<Law> LawsWith(const Effect& effect) {
-  std::vector<Law> laws = AllLaws();
-  std::erase_if(laws,
-                [&](Law law) { return !AppliesTo(effect, law, LegMass::kNone, kEveryInput); });
-  return laws;
-}
-
 std::string RestrictionOf(const Effect& effect) {
   const EffectInfo& info = effect.info;
   if (!info.only_laws.empty()) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/effects/effect.h"
+#include "app/records/effect_record.h"
 
 namespace hoplab {
 
@@ -17,10 +17,6 @@ std::string_view TitleOf(EffectKind kind);
 
 /// "Air slows the body with the square of its speed."
 std::string SentenceOf(const Effect& effect);
-
-/// The laws of every mechanism, each mechanism's default first.
-std::vector<Law> AllLaws();
-std::vector<Law> LawsWith(const Effect& effect);
 
 /// "ball only", "laws thesis, no_slip", "massless legs only"; empty where it goes with everything.
 std::string RestrictionOf(const Effect& effect);

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "app/records/run_record.h"
+#include "experiments/law_comparison.h"
+
+namespace hoplab {
+
+/// What `hoplab compare --json` prints; `dataset` is its name.
+Json LawComparisonRecord(const std::string& dataset, const LawComparison& comparison);
+
+}  // namespace hoplab

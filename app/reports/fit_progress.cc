@@ -1,0 +1,55 @@
+#include "app/reports/fit_progress.h"
+
+#include <cmath>
+
+#include "app/terminal/quantity.h"
+#include "app/terminal/warnings.h"
+
+namespace hoplab {
+namespace {
+
+std::string StepText(int start, int starts, std::string_view stage, int iteration, double cost) {
+  std::string text = "fitting";
+  if (start >= starts) {
+    text += ", beyond a threshold";
+  } else if (starts > 1) {
+    text += ", start " + std::to_string(start + 1) + " of " + std::to_string(starts);
+  }
+  text += ": " + std::string(stage) + ", iteration " + std::to_string(iteration);
+  if (std::isfinite(cost)) text += ", cost " + Significant(cost, 5);
+  return text;
+}
+
+}  // namespace
+
+void ShowProgress(FitRunOptions& options, Progress& progress, const Console& console) {
+  options.stage = [&progress](std::string_view stage) { progress.Stage(std::string(stage)); };
+  options.checked = [&progress, &console](const CheckReport& check) {
+    progress.Clear();
+    for (const std::string& warning : CollapseWarnings(check.warnings)) Warn(console, warning);
+  };
+  const int starts = options.fit.starts;
+  options.fit.progress = [&progress, starts](int start, std::string_view stage, int iteration,
+                                             double cost) {
+    progress.Step(StepText(start, starts, stage, iteration, cost), start, starts);
+  };
+}
+
+void ShowProgress(DiagnosisOptions& options, Progress& progress) {
+  options.stage = [&progress](std::string_view stage) { progress.Stage(std::string(stage)); };
+  options.step = [&progress](const std::string& text, int done, int of) {
+    progress.Step(text, done, of);
+  };
+  const int starts = options.fit.starts;
+  options.fit.progress = [&progress, starts](int start, std::string_view stage, int iteration,
+                                             double cost) {
+    std::string text = "fitting the model as it is";
+    if (starts > 1)
+      text += ", start " + std::to_string(start + 1) + " of " + std::to_string(starts);
+    text += ": " + std::string(stage) + ", iteration " + std::to_string(iteration);
+    if (std::isfinite(cost)) text += ", cost " + Significant(cost, 5);
+    progress.Step(text);
+  };
+}
+
+}  // namespace hoplab
