@@ -2,12 +2,8 @@
 #include <ostream>
 
 #include "app/records/gait_record.h"
-#include "app/records/solver_record.h"
 #include "app/reports/gait_report.h"
 #include "app/reports/run_folder.h"
-#include "app/runs/problem_settings.h"
-#include "app/runs/run_settings.h"
-#include "app/runs/scenario_settings.h"
 #include "app/terminal/command.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress.h"
@@ -15,28 +11,6 @@
 
 namespace hoplab {
 namespace {
-
-struct GaitSettings : RunSettings {
-  ScenarioSettings scenario;
-  std::string along;
-  int jobs = 0;
-  SolverSettings solver{.tolerance = 1e-12};
-};
-
-Json NewGaitRecord(const GaitSettings& settings, const Scenario& scenario, Law law) {
-  RecordHeader header;
-  header.command = "gait";
-  header.law = std::string(NameOf(law));
-  header.variant = scenario.mechanism.variant;
-  header.options = {{"scenario", settings.scenario.scenario},
-                    {"set", settings.scenario.set},
-                    {"with", settings.scenario.with},
-                    {"along", settings.along.empty() ? Json(nullptr) : Json(settings.along)}};
-  RecordSolver(settings.solver, header.options);
-  Json record = NewRecord(header);
-  record["scenario"] = scenario.name;
-  return record;
-}
 
 ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
   const auto begin = std::chrono::steady_clock::now();
@@ -54,11 +28,7 @@ ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
   const GaitRun run = RunGait(hopper, options);
   progress.Clear();
 
-  Json record = NewGaitRecord(settings, scenario, hopper.request.law);
-  AddGait(run, record);
-  const std::string failure =
-      run.interrupted ? "interrupted; the branch ends where it was stopped" : run.Failure();
-  if (!failure.empty()) SetFailed(record, failure);
+  Json record = GaitRecord(settings, scenario, run);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   record["seconds"] = took.count();
   std::map<std::string, std::string> files = GaitTables(run);
@@ -70,6 +40,7 @@ ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
     console.out << GaitReport(scenario.name, run, console.out_colours) << "\n  run folder  "
                 << written << '\n';
   }
+  const std::string failure = run.Failure();
   if (!failure.empty()) console.err << "hoplab gait: " << failure << '\n';
   if (run.interrupted) return ExitCode::kInterrupted;
   return failure.empty() ? ExitCode::kDone : ExitCode::kNoResult;
@@ -77,13 +48,7 @@ ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
 
 void AddGait(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<GaitSettings>();
-  AddScenarioOptions(sub, settings->scenario);
-  sub.add_option("--along", settings->along,
-                 "Follow it along a parameter, SI units, as kp=0.5:12 or clock.period_s=0.25:0.6")
-      ->option_text("NAME=LOW:HIGH");
-  AddJobsOption(sub, settings->jobs);
-  AddSolverOptions(sub, settings->solver);
-  AddRunFolderOptions(sub, *settings, "Run folder (default runs/<scenario>-gait-NNN)");
+  AddGaitOptions(sub, *settings);
   OnParsed(sub, invocation, settings, RunGaitCommand);
 }
 

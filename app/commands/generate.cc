@@ -3,47 +3,13 @@
 #include <chrono>
 #include <ostream>
 
-#include "app/records/run_record.h"
-#include "app/runs/run_settings.h"
-#include "app/runs/scenario_settings.h"
+#include "app/records/generate_record.h"
 #include "app/terminal/command.h"
 #include "base/atomic_file.h"
 #include "datasets/write_dataset.h"
 
 namespace hoplab {
 namespace {
-
-struct GenerateSettings {
-  ScenarioSettings scenario;
-  std::optional<double> noise;
-  std::uint64_t seed = 1;
-  std::string out;
-  bool force = false, json = false;
-};
-
-Json RecordOf(const GenerateSettings& settings, const Scenario& scenario,
-              const GeneratedDataset& made) {
-  RecordHeader header;
-  header.command = "generate";
-  header.dataset = made.dataset.name;
-  if (scenario.law) header.law = *scenario.law;
-  header.variant = scenario.mechanism.variant;
-  header.seed = settings.seed;
-  header.options = {{"scenario", settings.scenario.scenario},
-                    {"set", settings.scenario.set},
-                    {"with", settings.scenario.with},
-                    {"noise", NumberOrNull(settings.noise)},
-                    {"seed", settings.seed}};
-  Json record = NewRecord(header);
-  record["notes"] = made.notes;
-  record["trials"] = Json::array();
-  for (const Trial& trial : made.dataset.trials) {
-    record["trials"].push_back({{"file", trial.file},
-                                {"role", RoleName(trial.role)},
-                                {"rows", trial.trace.time_s.size()}});
-  }
-  return record;
-}
 
 ExitCode RunGenerate(const GenerateSettings& settings, Console& console) {
   const auto begin = std::chrono::steady_clock::now();
@@ -56,7 +22,7 @@ ExitCode RunGenerate(const GenerateSettings& settings, Console& console) {
   WriteDataset(made.dataset, settings.out, {settings.force});
   for (const std::string& note : made.notes) console.err << "note: " << note << '\n';
   if (settings.json) {
-    Json record = RecordOf(settings, scenario, made);
+    Json record = GenerateRecord(settings, scenario, made);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     record["seconds"] = took.count();
     console.out << TextOf(record);
@@ -73,16 +39,7 @@ ExitCode RunGenerate(const GenerateSettings& settings, Console& console) {
 
 void AddGenerate(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<GenerateSettings>();
-  AddScenarioOptions(sub, settings->scenario);
-  sub.add_option("--noise", settings->noise,
-                 "1 standard deviation of every channel, in its unit (default: the scenario's)")
-      ->check(CLI::NonNegativeNumber)
-      ->option_text("SIGMA");
-  AddSeedOption(sub, settings->seed, "Of the noise");
-  sub.add_option("--out", settings->out, "Folder of the new dataset")
-      ->required()
-      ->option_text("DATASET");
-  sub.add_flag("--force", settings->force, "Replace the dataset that stands there");
+  AddGenerateOptions(sub, *settings);
   OnParsed(sub, invocation, settings, RunGenerate);
 }
 

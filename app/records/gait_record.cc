@@ -2,6 +2,7 @@
 
 #include "app/records/csv.h"
 #include "app/records/gait_tables.h"
+#include "app/records/solver_record.h"
 #include "app/records/stride_record.h"
 #include "app/records/trajectory_tables.h"
 
@@ -73,9 +74,8 @@ std::string BranchTable(const GaitRun& run) {
   return csv.text();
 }
 
-}  // namespace
-
-void AddGait(const GaitRun& run, Json& record) {
+// What every gait has.
+void AddGaitKeys(const GaitRun& run, Json& record) {
   const FixedPoint& p = run.point;
   record["start"] = StateRecord(run.components, run.start);
   const bool found = p.found();
@@ -110,6 +110,30 @@ void AddGait(const GaitRun& run, Json& record) {
   record["counted"] = CountedRecord(run.counted);
   record["branch"] = BranchRecord(run);
   if (HasStrides(run.hopper)) AddStride(run, record);
+}
+
+Json NewGaitRecord(const GaitSettings& settings, const Scenario& scenario, Law law) {
+  RecordHeader header;
+  header.command = "gait";
+  header.law = std::string(NameOf(law));
+  header.variant = scenario.mechanism.variant;
+  header.options = {{"scenario", settings.scenario.scenario},
+                    {"set", settings.scenario.set},
+                    {"with", settings.scenario.with},
+                    {"along", settings.along.empty() ? Json(nullptr) : Json(settings.along)}};
+  RecordSolver(settings.solver, header.options);
+  Json record = NewRecord(header);
+  record["scenario"] = scenario.name;
+  return record;
+}
+
+}  // namespace
+
+Json GaitRecord(const GaitSettings& settings, const Scenario& scenario, const GaitRun& run) {
+  Json record = NewGaitRecord(settings, scenario, run.hopper.request.law);
+  AddGaitKeys(run, record);
+  if (const std::string failure = run.Failure(); !failure.empty()) SetFailed(record, failure);
+  return record;
 }
 
 std::map<std::string, std::string> GaitTables(const GaitRun& run) {

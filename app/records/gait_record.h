@@ -5,11 +5,12 @@
 
 #include "app/records/run_record.h"
 #include "app/runs/gait_run.h"
+#include "app/runs/gait_settings.h"
 
 namespace hoplab {
 
-/// Keys of a gait in run.json.
-void AddGait(const GaitRun& run, Json& record);
+/// run.json of a gait, `seconds` excepted.
+Json GaitRecord(const GaitSettings& settings, const Scenario& scenario, const GaitRun& run);
 /// The CSVs behind a gait's plots by file name: trajectory (the scenario's own run), cycles (the
 /// steady hop), branch (where a parameter was followed).
 std::map<std::string, std::string> GaitTables(const GaitRun& run);

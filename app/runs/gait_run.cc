@@ -80,6 +80,7 @@ AlongRange ParseAlong(const std::string& text) {
 }
 
 std::string GaitRun::Failure() const {
+  if (interrupted) return "interrupted; the branch ends where it was stopped";
   if (!HasStrides(hopper) && point.status == FixedPointStatus::kHopFails)
     return "no hop can be made from the start: " + std::string(SentenceOf(point.hop.outcome));
   if (HasStrides(hopper) && !map)
