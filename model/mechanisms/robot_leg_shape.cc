@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "model/jet.h"
+#include "model/laws/clamped/rule.h"
 
 namespace hoplab {
 namespace {
@@ -56,6 +56,7 @@ std::array<S, LegShape::kCount> Quadrature(const S& psi) {
   const S hip_x = -sin(psi), hip_y = 1.0 - cos(psi);
   std::array<S, LegShape::kCount> sum;
   for (S& v : sum) v = S(0.0);
+  // A point at the angle s; behind the contact nothing bends.
   const auto add = [&](const S& s, const S& weight, bool bends) {
     const auto motion = MotionsAt(s);
     std::array<Point<S>, 3> v;
@@ -80,32 +81,56 @@ std::array<S, LegShape::kCount> Quadrature(const S& psi) {
       sum[LegShape::kTurnX + k] += weight * (v[k].y * from_x - v[k].x * from_y);
     }
   };
-  // Gauss's rule of three points on each piece, behind the contact and before it.
-  constexpr int kParts = 24;
-  for (int k = 0; k < 3 * kParts; ++k) {
-    const double at_rule = (k % 3 - 1) * std::sqrt(0.15), share = k % 3 == 1 ? 4.0 / 9 : 5.0 / 18;
-    const double along = (k / 3 + 0.5 + at_rule) / kParts;
-    add(psi * along, psi * (share / kParts / kPi), true);
-    add((psi - kPi) * along, (kPi - psi) * (share / kParts / kPi), false);
+  // Gauss's rule before the contact and behind it.
+  for (int k = 0; k < clamped::kNodes; ++k) {
+    const double along = 0.5 * (1.0 + clamped::kRule<clamped::kNodes>.node[k]),
+                 share = 0.5 * clamped::kRule<clamped::kNodes>.weight[k] / kPi;
+    add(psi * along, psi * share, true);
+    add((psi - kPi) * along, (kPi - psi) * share, false);
   }
   return sum;
 }
 
+// Between two nodes the polynomial of fifth degree that has their values and two derivatives, in
+// the part t of the piece that has passed: the slopes are those of the values to the last.
 struct Table {
-  std::vector<LegShape> node;
+  using Row = std::array<double, LegShape::kCount>;
+  std::array<std::array<Row, 6>, kPieces> of;
 
-  Table() : node(kPieces + 1) {
-    constexpr double kStep = 1e-4;
-    for (int i = 0; i <= kPieces; ++i) {
-      const double psi = kFirst + i * kWidth;
-      const auto at = [&](double x) { return Quadrature(Seeded<Jet<1>>(x, 0, 1.0)); };
-      const auto here = at(psi), before = at(psi - kStep), after = at(psi + kStep);
+  Table() {
+    LegShape a = NodeAt(0);
+    for (int i = 0; i < kPieces; ++i) {
+      const LegShape b = NodeAt(i + 1);
       for (int k = 0; k < LegShape::kCount; ++k) {
-        node[i].value[k] = here[k].a;
-        node[i].slope[k] = here[k].v[0];
-        node[i].bend[k] = (after[k].v[0] - before[k].v[0]) / (2.0 * kStep);
+        const double a1 = a.slope[k] * kWidth, a2 = 0.5 * a.bend[k] * kWidth * kWidth;
+        const double b1 = b.slope[k] * kWidth, b2 = 0.5 * b.bend[k] * kWidth * kWidth;
+        const double rise = b.value[k] - a.value[k] - a1 - a2, tilt = b1 - a1 - 2.0 * a2,
+                     curl = b2 - a2;
+        const double c[] = {a.value[k],
+                            a1,
+                            a2,
+                            10.0 * rise - 4.0 * tilt + curl,
+                            -15.0 * rise + 7.0 * tilt - 2.0 * curl,
+                            6.0 * rise - 3.0 * tilt + curl};
+        for (int n = 0; n < 6; ++n) of[i][n][k] = c[n];
       }
+      a = b;
     }
+  }
+
+ private:
+  static LegShape NodeAt(int i) {
+    constexpr double kStep = 1e-4;
+    const double psi = kFirst + i * kWidth;
+    const auto at = [](double x) { return Quadrature(Seeded<Jet<1>>(x, 0, 1.0)); };
+    const auto here = at(psi), before = at(psi - kStep), after = at(psi + kStep);
+    LegShape node;
+    for (int k = 0; k < LegShape::kCount; ++k) {
+      node.value[k] = here[k].a;
+      node.slope[k] = here[k].v[0];
+      node.bend[k] = (after[k].v[0] - before[k].v[0]) / (2.0 * kStep);
+    }
+    return node;
   }
 };
 
@@ -113,30 +138,22 @@ struct Table {
 
 std::array<double, LegShape::kCount> LegShapeByQuadrature(double psi) { return Quadrature(psi); }
 
-// Between two nodes the polynomial of fifth degree that has their values and two derivatives: the
-// slopes are those of the values to the last.
 LegShape LegShapeAt(double psi) {
   static const Table table;
-  LegShape shape;
   const double x = (std::clamp(psi, kFirst, kLast) - kFirst) / kWidth;
   const int i = std::min(static_cast<int>(x), kPieces - 1);
-  const double t = x - i;
-  const LegShape &a = table.node[i], &b = table.node[i + 1];
-  const bool inside = psi > kFirst && psi < kLast;
+  const double t = x - i, inside = psi > kFirst && psi < kLast ? 1.0 / kWidth : 0.0;
+  const auto& c = table.of[i];
+  LegShape shape;
   for (int k = 0; k < LegShape::kCount; ++k) {
-    const double a1 = a.slope[k] * kWidth, a2 = 0.5 * a.bend[k] * kWidth * kWidth;
-    const double b1 = b.slope[k] * kWidth, b2 = 0.5 * b.bend[k] * kWidth * kWidth;
-    const double rise = b.value[k] - a.value[k] - a1 - a2, tilt = b1 - a1 - 2.0 * a2,
-                 curl = b2 - a2;
-    const double c3 = 10.0 * rise - 4.0 * tilt + curl, c4 = -15.0 * rise + 7.0 * tilt - 2.0 * curl,
-                 c5 = 6.0 * rise - 3.0 * tilt + curl;
-    shape.value[k] = a.value[k] + t * (a1 + t * (a2 + t * (c3 + t * (c4 + t * c5))));
+    shape.value[k] =
+        c[0][k] + t * (c[1][k] + t * (c[2][k] + t * (c[3][k] + t * (c[4][k] + t * c[5][k]))));
     shape.slope[k] =
-        inside ? (a1 + t * (2.0 * a2 + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5)))) / kWidth
-               : 0.0;
+        inside * (c[1][k] + t * (2.0 * c[2][k] +
+                                 t * (3.0 * c[3][k] + t * (4.0 * c[4][k] + t * 5.0 * c[5][k]))));
     shape.bend[k] =
-        inside ? (2.0 * a2 + t * (6.0 * c3 + t * (12.0 * c4 + t * 20.0 * c5))) / (kWidth * kWidth)
-               : 0.0;
+        inside * inside *
+        (2.0 * c[2][k] + t * (6.0 * c[3][k] + t * (12.0 * c[4][k] + t * 20.0 * c[5][k])));
   }
   return shape;
 }

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "tests/support/requests.h"
+#include "tests/support/robot_requests.h"
 
 namespace {
 std::atomic<long> allocations{0};
@@ -41,6 +42,22 @@ TEST(Allocation, ARunIntoAUsedTrajectoryAllocatesNothing) {
     q.parameters.theta_td = Degrees(24.0);
     q.max_hops = 3;
     EXPECT_EQ(AllocationsOf(q), 0) << NameOf(law);
+  }
+}
+
+// A robot lands, slides and lifts off; its legs have mass or none. Its parameters are copied.
+TEST(Allocation, ARobotAllocatesTheSameHoweverManySteps) {
+  for (double leg_mass : {0.0, 0.02}) {
+    Parameters<double> p = RobotParametersFor(2);
+    p.robot->friction = 0.8;
+    p.robot->damping = 3e-4;
+    p.robot->leg_mass = leg_mass;
+    SimulationRequest q = RobotDrop(p, {0.0, 0.22, 0.3, 0.0, 0.03, 0.2}, 0.4);
+    const long fine = AllocationsOf(q);
+    q.integrator.relative_tolerance = q.integrator.absolute_tolerance = 1e-6;
+    EXPECT_EQ(AllocationsOf(q), fine) << leg_mass;
+    q.horizon = 0.01;  // in the air
+    EXPECT_EQ(AllocationsOf(q), fine) << leg_mass;
   }
 }
 
