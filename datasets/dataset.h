@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/channel.h"
+#include "base/channel.h"
 #include "datasets/effect_file.h"
 #include "datasets/input_spec.h"
 #include "datasets/known_spec.h"
@@ -28,7 +28,7 @@ struct SourceSpec {
 
 /// A column that is a measurement, and its noise.
 struct ChannelSpec {
-  ChannelId id = ChannelId::kBodyX;
+  Channel id = Channel::kBodyX;
   std::optional<double>
       sigma;  // 1 standard deviation in the channel's unit; absent: to be estimated
   Origin origin = {};

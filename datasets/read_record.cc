@@ -40,7 +40,7 @@ double HeightAt(const Trial& trial, double angle_rad) {
 
 // The angle at each touch-down that the trace shows, out of its own column.
 void ReadFromLegAngle(Trial& trial, const std::string& trace_place) {
-  const std::vector<double>* angle = trial.trace.Find(ChannelId::kLegAngle);
+  const std::vector<double>* angle = trial.trace.Find(Channel::kLegAngle);
   if (angle == nullptr)
     throw AngleError(trial, " = {from: leg_angle}",
                      trace_place + " has no column leg_angle_rad to read it from",

@@ -95,7 +95,7 @@ double ReadTouchdownAngle(const YamlCursor& owner, MechanismType type) {
 std::vector<ChannelSpec> ReadChannels(const YamlCursor& cursor) {
   std::vector<ChannelSpec> channels;
   for (const auto& [name, block] : cursor.Entries(1)) {
-    const std::optional<ChannelId> id = ChannelFromName(name);
+    const std::optional<Channel> id = ChannelFromName(name);
     if (!id) {
       const KeyAdvice advice = UnknownKeyAdvice(name, ChannelNames());
       block.FailAtKey(advice.rule == "unknown key" ? "is no column of the format" : advice.rule,

@@ -78,7 +78,7 @@ bool IsNear(double ratio, double factor) { return ratio > factor / 20 && ratio <
 
 // How fast the trial falls in flight, over its gravity; NaN if its heights do not tell.
 double FallRatio(const Trial& trial) {
-  const std::vector<double>* heights = trial.trace.Find(ChannelId::kBodyY);
+  const std::vector<double>* heights = trial.trace.Find(Channel::kBodyY);
   return heights == nullptr
              ? std::nan("")
              : ApparentGravity(trial.trace.time_s, *heights) / trial.mechanism.gravity_m_per_s2;
@@ -159,7 +159,7 @@ class Inspector {
 
   void InspectStart(const Trial& trial) {
     const double height_m = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
-    const std::vector<double>* column = trial.trace.Find(ChannelId::kBodyY);
+    const std::vector<double>* column = trial.trace.Find(Channel::kBodyY);
     const std::vector<double> heights = column == nullptr ? std::vector<double>{} : Finite(*column);
     double sigma_m = 0.005;  // where the file states no uncertainty
     if (trial.initial_sigma && std::isfinite(trial.initial_sigma->y_m))
@@ -179,7 +179,7 @@ class Inspector {
     }
   }
 
-  void InspectColumn(const Trial& trial, ChannelId id) {
+  void InspectColumn(const Trial& trial, Channel id) {
     const std::vector<double>* column = trial.trace.Find(id);
     if (column == nullptr) return;
     const std::vector<double> values = Finite(*column);

@@ -23,10 +23,10 @@ std::vector<double> TimesOfContact(const Trace& trace, const std::vector<double>
 
 std::vector<double> TouchdownTimes(
     const Trace& trace, const std::function<double(std::size_t, std::size_t)>& touchdown_height) {
-  if (const std::vector<double>* contact = trace.Find(ChannelId::kContact))
+  if (const std::vector<double>* contact = trace.Find(Channel::kContact))
     return TimesOfContact(trace, *contact);
   std::vector<double> times;
-  const std::vector<double>* y = trace.Find(ChannelId::kBodyY);
+  const std::vector<double>* y = trace.Find(Channel::kBodyY);
   if (y == nullptr) return times;
   constexpr double kClear = 1.01;  // of touch-down height: beyond what noise does
   bool flies = false;
@@ -47,7 +47,7 @@ std::vector<double> TouchdownTimes(
 }
 
 bool TellsTouchdowns(const Trace& trace) {
-  return trace.Find(ChannelId::kContact) != nullptr || trace.Find(ChannelId::kBodyY) != nullptr;
+  return trace.Find(Channel::kContact) != nullptr || trace.Find(Channel::kBodyY) != nullptr;
 }
 
 double ValueAt(const Trace& trace, const std::vector<double>& column, double time_s) {

@@ -104,7 +104,7 @@ class TraceParser {
         Fail("column " + std::to_string(i + 1), "has no name", "Name or remove the column.");
       if (name == "time_s" || trace_.Find(name) != nullptr)
         Fail(shown, "stands twice in the first row", "Remove or rename one of the two.");
-      const std::optional<ChannelId> id = ChannelFromName(name);
+      const std::optional<Channel> id = ChannelFromName(name);
       if (!id) {
         // Names such as "contact" have no unit, so a column without one may be anything.
         if (const auto advice = WrongUnitAdvice(name, known, true))
@@ -157,7 +157,7 @@ class TraceParser {
     const double value = ReadNumber(Printable(name), cell);
     values.push_back(value);
     if (std::isnan(value)) return;
-    const std::optional<ChannelId> id = channels_[column];
+    const std::optional<Channel> id = channels_[column];
     const Range range = id ? ChannelRange(*id) : Range{};
     if (id && IsContact(*id) && value != 0 && value != 1)
       Fail(name + " = " + Printable(cell), "must be 0 or 1",
@@ -172,7 +172,7 @@ class TraceParser {
   Lines lines_;
   const std::string& place_;
   std::vector<std::string_view> cells_;
-  std::vector<std::optional<ChannelId>> channels_;
+  std::vector<std::optional<Channel>> channels_;
   Trace trace_;
 };
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "datasets/channel.h"
+#include "base/channel.h"
 
 namespace hoplab {
 
@@ -24,7 +24,7 @@ struct Trace {
 
   /// The column's samples, or null if there is no such column.
   const std::vector<double>* Find(std::string_view name) const;
-  const std::vector<double>* Find(ChannelId id) const { return Find(ChannelName(id)); }
+  const std::vector<double>* Find(Channel id) const { return Find(ChannelName(id)); }
   bool operator==(const Trace& other) const = default;
 };
 

@@ -17,8 +17,8 @@ std::vector<ChannelSpec> ChannelsOf(const Scenario& scenario, const GenerateOpti
   std::vector<ChannelSpec> channels;
   if (scenario.dataset) channels = scenario.dataset->channels;
   if (channels.empty()) {
-    channels.push_back({ChannelId::kBodyX, 0.001});
-    channels.push_back({ChannelId::kBodyY, 0.001});
+    channels.push_back({Channel::kBodyX, 0.001});
+    channels.push_back({Channel::kBodyY, 0.001});
   }
   for (ChannelSpec& c : channels) {
     if (options.noise) c.sigma = *options.noise;
@@ -189,7 +189,7 @@ Recording RecordingOf(const Scenario& scenario, const GenerateOptions& options,
       ResolveEffects(scenario.effects, r.law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone,
                      KindsOf(r.inputs), RobotLegsOfSpec(scenario.mechanism));
   r.channels = ChannelsOf(scenario, options);
-  for (const ChannelSpec& c : r.channels) r.wanted.push_back(ChannelOfSpec(c.id));
+  for (const ChannelSpec& c : r.channels) r.wanted.push_back(c.id);
   const double horizon = HorizonOf(scenario);
   const double rate =
       scenario.dataset ? scenario.dataset->sample_rate_hz.value_or(kDefaultRate) : kDefaultRate;

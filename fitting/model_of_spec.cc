@@ -154,8 +154,6 @@ std::vector<double> InitialOf(const StateSpec& s) {
   return initial;
 }
 
-Channel ChannelOfSpec(ChannelId id) { return *FindChannel(ChannelName(id)); }
-
 Law ResolveLaw(const std::string& name, MechanismKind mechanism, const std::string& place) {
   if (name.empty()) return LawsOf(mechanism).front();
   const std::optional<Law> law = FindLaw(name);

@@ -23,7 +23,6 @@ StateSpec SpecOfState(const Eigen::Vector4d& state);
 Mode ModeOfSpec(StartMode mode, MechanismType type);
 /// The same as a simulation begins with.
 std::vector<double> InitialOf(const StateSpec& state);
-Channel ChannelOfSpec(ChannelId id);
 
 /// The law named `name` (empty: the mechanism's default). Throws InputError, place `place`, for a
 /// law that does not exist or belongs to another mechanism.

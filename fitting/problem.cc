@@ -58,7 +58,7 @@ class Builder {
 
   void AddChannels() {
     for (const ChannelSpec& spec : dataset_.channels) {
-      if (spec.id == ChannelId::kContact) {
+      if (spec.id == Channel::kContact) {
         problem_.uses_contact = true;
         continue;
       }
@@ -66,7 +66,7 @@ class Builder {
         problem_.notes.push_back(std::string(ChannelName(spec.id)) + " is not compared");
         continue;
       }
-      ChannelProblem c{ChannelOfSpec(spec.id), spec.sigma.value_or(kNaN), !spec.sigma};
+      ChannelProblem c{spec.id, spec.sigma.value_or(kNaN), !spec.sigma};
       for (std::size_t i = 0; i < problem_.clocks.size(); ++i)
         if (problem_.clocks[i].name == spec.clock) c.clock = static_cast<int>(i);
       if (!spec.sigma) {
@@ -120,7 +120,7 @@ class Builder {
 
   // Switching times of a contact column.
   static void ReadContact(const Trial& trial, TrialProblem& t) {
-    const std::vector<double>* contact = trial.trace.Find(ChannelId::kContact);
+    const std::vector<double>* contact = trial.trace.Find(Channel::kContact);
     if (!contact) return;
     int last = -1;
     for (std::size_t row = 0; row < contact->size(); ++row) {

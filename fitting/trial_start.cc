@@ -71,19 +71,19 @@ OwnValues StartFromTrace(const Trial& trial, const FitProblem& problem, const Tr
   const double g = t.parameters.g;
   OwnValues start = Eigen::Vector4d(0.0, kNaN, 0.0, 0.0);
   const double touchdown = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
-  const std::vector<double>* y = trial.trace.Find(ChannelId::kBodyY);
+  const std::vector<double>* y = trial.trace.Find(Channel::kBodyY);
   std::size_t rows = t.row_times.size();
   if (y) {
     rows = 0;
     while (rows < y->size() && !((*y)[rows] < touchdown)) ++rows;
     LineFit(t, *y, rows, -0.5 * g, start[1], start[3]);
   }
-  if (const std::vector<double>* x = trial.trace.Find(ChannelId::kBodyX))
+  if (const std::vector<double>* x = trial.trace.Find(Channel::kBodyX))
     LineFit(t, *x, rows, 0.0, start[0], start[2]);
-  if (const std::vector<double>* v = trial.trace.Find(ChannelId::kBodyVx);
+  if (const std::vector<double>* v = trial.trace.Find(Channel::kBodyVx);
       v && !std::isnan(v->front()))
     start[2] = v->front();
-  if (const std::vector<double>* v = trial.trace.Find(ChannelId::kBodyVy);
+  if (const std::vector<double>* v = trial.trace.Find(Channel::kBodyVy);
       v && !std::isnan(v->front()))
     start[3] = v->front();
   if (!(start[1] >= touchdown)) {

@@ -8,33 +8,12 @@
 #include "model/hybrid/engine.h"
 #include "model/hybrid/ground_frame.h"
 #include "model/laws/leg_load.h"
+#include "model/row_sink.h"
 
 namespace hoplab {
 namespace {
 
 constexpr std::size_t kMostClocks = 8;
-
-// One reading of a row: of the channels that one clock stamps.
-struct Reading {
-  int row = 0;
-  int clock = -1;
-};
-
-// The readings of a request in the order of their times, where clocks stamp its channels.
-std::vector<Reading> ReadingsOf(const SimulationRequest& request) {
-  std::vector<Reading> readings;
-  if (request.channel_clocks.empty()) return readings;
-  const auto offset = [&](int clock) { return clock < 0 ? 0.0 : request.clock_offsets[clock]; };
-  std::vector<int> clocks(request.channel_clocks.begin(), request.channel_clocks.end());
-  std::sort(clocks.begin(), clocks.end());
-  clocks.erase(std::unique(clocks.begin(), clocks.end()), clocks.end());
-  for (int row = 0; row < static_cast<int>(request.row_times.size()); ++row)
-    for (const int clock : clocks) readings.push_back({row, clock});
-  std::stable_sort(readings.begin(), readings.end(), [&](const Reading& a, const Reading& b) {
-    return request.row_times[a.row] + offset(a.clock) < request.row_times[b.row] + offset(b.clock);
-  });
-  return readings;
-}
 
 // The request in scalar type T with directions first .. first + count seeded.
 template <class T>
@@ -42,6 +21,9 @@ struct Seeds {
   MechanismSetup<T> setup;
   boost::container::static_vector<T, kMaxStates> initial;
   boost::container::static_vector<T, kMostClocks> clock_offsets;
+
+  using InputValues = std::array<std::array<T, 2>, kInputKinds>;  // delay, scale
+  using EffectValues = std::array<std::array<T, kMaxEffectParameters>, ActiveEffects<T>::kMax>;
 
   Seeds(const SimulationRequest& request, int first, int count) {
     setup.law = request.law;
@@ -53,10 +35,10 @@ struct Seeds {
     for (const double offset : request.clock_offsets) clock_offsets.push_back(T(offset));
     for (const double angle : request.touchdown_angles) setup.touchdown_angles.push_back(T(angle));
     HOPLAB_CHECK(request.inputs.size() <= kInputKinds);
-    std::array<std::array<T, 2>, kInputKinds> input_values;
+    InputValues input_values;
     for (std::size_t i = 0; i < request.inputs.size(); ++i)
       input_values[i] = {T(request.inputs[i].delay), T(request.inputs[i].scale)};
-    std::array<std::array<T, kMaxEffectParameters>, ActiveEffects<T>::kMax> values;
+    EffectValues values;
     std::array<bool, ActiveEffects<T>::kMax> active{};
     HOPLAB_CHECK(request.effects.size() <= active.size());
     for (std::size_t e = 0; e < request.effects.size(); ++e) {
@@ -69,30 +51,8 @@ struct Seeds {
       if (d.of == SensitivityDirection::Of::kEffect) active[d.index] = true;
     }
     for (int k = 0; k < count; ++k) {
-      const SensitivityDirection& d = request.directions[first + k];
-      T* seeded = nullptr;
-      switch (d.of) {
-        case SensitivityDirection::Of::kParameter:
-          seeded = &Field(setup.parameters, d.parameter);
-          break;
-        case SensitivityDirection::Of::kInitialState:
-          HOPLAB_CHECK(d.index < static_cast<int>(initial.size()));
-          seeded = &initial[d.index];
-          break;
-        case SensitivityDirection::Of::kEffect:
-          seeded = &values[d.index][d.component];
-          break;
-        case SensitivityDirection::Of::kInput:
-          seeded = &input_values[d.index][d.component];
-          break;
-        case SensitivityDirection::Of::kTouchdownAngle:
-          seeded = &setup.touchdown_angles[d.index];
-          break;
-        case SensitivityDirection::Of::kClock:
-          seeded = &clock_offsets[d.index];
-          break;
-      }
-      *seeded = Seeded<T>(Value(*seeded), k, 1.0);
+      T& seeded = NumberAlong(request.directions[first + k], values, input_values);
+      seeded = Seeded<T>(Value(seeded), k, 1.0);
     }
     for (std::size_t e = 0; e < request.effects.size(); ++e) {
       if (active[e]) setup.effects.Add(*request.effects[e].effect, values[e]);
@@ -109,6 +69,26 @@ struct Seeds {
     setup.inputs.Seek(0.0);
   }
 
+  // The number that a direction is along.
+  T& NumberAlong(const SensitivityDirection& d, EffectValues& values, InputValues& inputs) {
+    switch (d.of) {
+      case SensitivityDirection::Of::kInitialState:
+        HOPLAB_CHECK(d.index < static_cast<int>(initial.size()));
+        return initial[d.index];
+      case SensitivityDirection::Of::kEffect:
+        return values[d.index][d.component];
+      case SensitivityDirection::Of::kInput:
+        return inputs[d.index][d.component];
+      case SensitivityDirection::Of::kTouchdownAngle:
+        return setup.touchdown_angles[d.index];
+      case SensitivityDirection::Of::kClock:
+        return clock_offsets[d.index];
+      case SensitivityDirection::Of::kParameter:
+        break;
+    }
+    return Field(setup.parameters, d.parameter);
+  }
+
   /// The same without directions.
   template <class To>
   MechanismSetup<To> SetupIn() const {
@@ -118,101 +98,6 @@ struct Seeds {
     for (const T& angle : setup.touchdown_angles) to.touchdown_angles.push_back(To(Value(angle)));
     return to;
   }
-};
-
-// Copies each row's wanted channels, with their directions, into a trajectory.
-template <class T>
-class RowSink final : public RowReader<T> {
- public:
-  RowSink(const SimulationRequest& request, const Seeds<T>& seeds, const HybridSystem<T>& system,
-          const GroundFrame<T>& frame, int first_direction, int directions, Trajectory& out)
-      : request_(request),
-        effects_(seeds.setup.effects),
-        parameters_(seeds.setup.parameters),
-        clock_offsets_(seeds.clock_offsets.data(), seeds.clock_offsets.size()),
-        readings_(ReadingsOf(request)),
-        system_(system),
-        frame_(frame),
-        first_(first_direction),
-        count_(directions),
-        out_(out),
-        body_only_(std::all_of(request.channels.begin(), request.channels.end(),
-                               [](Channel c) { return c <= Channel::kBodyVy; }) &&
-                   !parameters_.law_terms.leg_mass_active),  // M88
-        accelerations_(
-            std::any_of(request.channels.begin(), request.channels.end(), IsAcceleration)) {}
-
-  int count() const override {
-    return static_cast<int>(readings_.empty() ? request_.row_times.size() : readings_.size());
-  }
-  T Time(int i) const override {
-    if (readings_.empty()) return effects_.ObservationTime(T(request_.row_times[i]));
-    const Reading& reading = readings_[static_cast<std::size_t>(i)];
-    T time(request_.row_times[reading.row]);
-    if (reading.clock >= 0) time += clock_offsets_[static_cast<std::size_t>(reading.clock)];
-    return effects_.ObservationTime(time);
-  }
-  // How many rows, from the first on, have all their readings among the first `count`.
-  int RowsAmong(int count) const {
-    int rows = static_cast<int>(request_.row_times.size());
-    for (std::size_t i = static_cast<std::size_t>(count); i < readings_.size(); ++i)
-      rows = std::min(rows, readings_[i].row);
-    return readings_.empty() ? count : rows;
-  }
-
-  void Read(int i, Mode mode, const T& time, const T* z) override {
-    const Reading reading = readings_.empty() ? Reading{i} : readings_[static_cast<std::size_t>(i)];
-    const int row = reading.row;
-    Observation<T> seen;
-    if (body_only_) {
-      for (int i = 0; i < 4; ++i) seen.channel[i] = z[i];
-    } else {
-      seen = system_.Observe(mode, time, z);
-      frame_.LegToWorld(seen);
-      if (accelerations_) ReadAccelerations(mode, time, z, seen);
-    }
-    frame_.BodyToWorld(seen);
-    effects_.ChangeObservation(time + parameters_.time_origin, seen);
-    const int channels = static_cast<int>(request_.channels.size());
-    const int width = static_cast<int>(request_.directions.size());
-    for (int c = 0; c < channels; ++c) {
-      if (!readings_.empty() && request_.channel_clocks[c] != reading.clock) continue;
-      if (!seen.Has(request_.channels[c])) continue;  // stays NaN
-      const T& value = seen[request_.channels[c]];
-      const std::size_t cell = static_cast<std::size_t>(row) * channels + c;
-      out_.samples[cell] = Value(value);
-      for (int k = 0; k < count_; ++k)
-        out_.sensitivities[cell * width + first_ + k] = Slope(value, k);
-    }
-  }
-
- private:
-  // M55: of the body, and as an accelerometer on it reads them, without gravity.
-  void ReadAccelerations(Mode mode, const T& time, const T* z, Observation<T>& seen) const {
-    using std::cos;
-    using std::sin;
-    T dz[kMaxStates];
-    system_.Derivative(mode, time, z, dz);
-    seen[Channel::kBodyAx] = dz[2];
-    seen[Channel::kBodyAy] = dz[3];
-    const bool level = IsZero(parameters_.slope);
-    const T along = level ? T(0.0) : T(parameters_.g * sin(parameters_.slope));
-    const T down = level ? parameters_.g : T(parameters_.g * cos(parameters_.slope));
-    seen[Channel::kImuAx] = dz[2] + along;
-    seen[Channel::kImuAy] = dz[3] + down;
-    frame_.AccelerationsToWorld(seen);
-  }
-
-  const SimulationRequest& request_;
-  const ActiveEffects<T>& effects_;
-  const Parameters<T>& parameters_;
-  std::span<const T> clock_offsets_;
-  std::vector<Reading> readings_;  // empty: row by row
-  const HybridSystem<T>& system_;
-  const GroundFrame<T>& frame_;
-  int first_, count_;
-  Trajectory& out_;
-  bool body_only_, accelerations_;
 };
 
 // Events and the final state of a run, from the frame of the ground.
@@ -277,7 +162,9 @@ void RunChunk(const SimulationRequest& request, const Mechanism& mechanism, int 
   Trajectory scratch;
   Trajectory& record = first == 0 ? out : scratch;
   const GroundFrame<T> frame(seeds.setup.parameters.slope);
-  RowSink<T> sink(request, seeds, *system, frame, first, count, out);
+  RowSink<T> sink(request, seeds.setup.effects, seeds.setup.parameters,
+                  {seeds.clock_offsets.data(), seeds.clock_offsets.size()}, *system, frame, first,
+                  count, out);
   IntegratorOptions integrator = request.integrator;
   integrator.steering = SharpDirections(request, first, count);
   Engine<T> engine({*system, *values, *rates}, integrator,

@@ -59,19 +59,20 @@ void SetParameters(const std::map<std::string, double>& values, const std::vecto
 std::vector<Channel> ChannelsOf(const py::dict& options, MechanismKind mechanism) {
   std::vector<Channel> channels;
   std::vector<std::string> known;
-  for (int c = 0; c < kChannelCount; ++c) known.emplace_back(NameOf(static_cast<Channel>(c)));
+  std::vector<Channel> of_hoppers = RecordedChannels();
+  std::erase_if(of_hoppers, IsRobotChannel);
+  for (const Channel channel : of_hoppers) known.emplace_back(NameOf(channel));
   const auto wanted = Option<std::optional<std::vector<std::string>>>(options, "channels");
   if (wanted) {
     for (const std::string& name : *wanted) {
-      const std::optional<Channel> channel = FindChannel(name);
+      const std::optional<Channel> channel = ChannelFromName(name);
       if (!channel)
         throw InputError({"channels", Printable(name), "is no channel", DidYouMean(name, known)});
       channels.push_back(*channel);
     }
     return channels;
   }
-  for (int c = 0; c < kChannelCount; ++c) {
-    const auto channel = static_cast<Channel>(c);
+  for (const Channel channel : of_hoppers) {
     const bool of_every_mechanism = channel <= Channel::kBodyVy || channel == Channel::kContact;
     if (of_every_mechanism || mechanism != MechanismKind::kBall) channels.push_back(channel);
   }

@@ -12,8 +12,8 @@ constexpr std::array kLegChannels = {Channel::kContactX, Channel::kContactY, Cha
 
 std::vector<Channel> AllChannels(int robot_legs) {
   std::vector<Channel> channels;
-  for (int c = 0; c < kChannelCount; ++c)
-    if (static_cast<Channel>(c) != Channel::kContactX) channels.push_back(static_cast<Channel>(c));
+  for (const Channel c : RecordedChannels())
+    if (c != Channel::kContactX && !IsRobotChannel(c)) channels.push_back(c);
   if (robot_legs > 0) channels.push_back(Channel::kBodyPitch);
   for (const Channel first : {Channel::kLegAngle1, Channel::kHipTorque1, Channel::kContact1})
     for (int leg = 0; leg < robot_legs; ++leg) channels.push_back(OfLeg(first, leg));

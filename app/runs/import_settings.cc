@@ -78,7 +78,7 @@ void AddShift(const std::string& text, TraceOptions* options) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos)
     throw UsageError("--shift: " + Printable(text) + "; must be CHANNEL=NUMBER:UNIT, as y=-35:mm");
-  const std::optional<ChannelId> channel = ChannelOfWord(text.substr(0, equals), "--shift");
+  const std::optional<Channel> channel = ChannelOfWord(text.substr(0, equals), "--shift");
   const std::string amount = text.substr(equals + 1);
   const std::size_t colon = std::min(amount.find(':'), amount.size());
   const std::string number(Trim(std::string_view(amount).substr(0, colon)));

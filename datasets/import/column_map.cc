@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/channel.h"
 #include "base/input_error.h"
 #include "base/text.h"
 #include "datasets/import/guess_columns.h"
@@ -10,39 +11,27 @@
 namespace hoplab {
 namespace {
 
-using Target = std::optional<ChannelId>;
+using Target = std::optional<Channel>;
 
 struct Word {
-  const char* text;
+  std::string_view text;
   Target target;
 };
 
 const std::vector<Word>& Words() {
-  static const std::vector<Word> kWords = {
-      {"t", std::nullopt},
-      {"time", std::nullopt},
-      {"time_s", std::nullopt},
-      {"x", ChannelId::kBodyX},
-      {"y", ChannelId::kBodyY},
-      {"vx", ChannelId::kBodyVx},
-      {"vy", ChannelId::kBodyVy},
-      {"leg_angle", ChannelId::kLegAngle},
-      {"leg_length", ChannelId::kLegLength},
-      {"fx", ChannelId::kGroundForceX},
-      {"fy", ChannelId::kGroundForceY},
-      {"torque", ChannelId::kHipTorque},
-      {"contact", ChannelId::kContact},
-      {"ax", ChannelId::kBodyAx},
-      {"ay", ChannelId::kBodyAy},
-      {"imu_ax", ChannelId::kImuAx},
-      {"imu_ay", ChannelId::kImuAy},
-      {"contact_x", ChannelId::kContactX},
-  };
+  static const std::vector<Word> kWords = [] {
+    std::vector<Word> words = {
+        {"t", std::nullopt}, {"time", std::nullopt}, {"time_s", std::nullopt}};
+    for (const Channel channel : RecordedChannels())
+      if (const std::string_view word = InfoOf(channel).word; !word.empty())
+        words.push_back({word, channel});
+    return words;
+  }();
   return kWords;
 }
 
 // "body_y" of "body_y_m".
-std::string WithoutUnit(ChannelId id) { return SplitTitle(ChannelName(id)).stem; }
+std::string WithoutUnit(Channel id) { return SplitTitle(ChannelName(id)).stem; }
 
 std::string Shown(const Table& table) {
   std::vector<std::string> names;
@@ -176,13 +165,13 @@ void CheckTwice(const ColumnMap& map) {
 
 }  // namespace
 
-std::optional<ChannelId> ChannelOfWord(const std::string& word, const std::string& place) {
+std::optional<Channel> ChannelOfWord(const std::string& word, const std::string& place) {
   std::vector<std::string> known;
   for (const Word& w : Words()) {
     if (word == w.text) return w.target;
     known.emplace_back(w.text);
   }
-  for (const ChannelId id : kAllChannels)
+  for (const Channel id : RecordedChannels())
     if (word == ChannelName(id) || word == WithoutUnit(id)) return id;
   throw InputError({place, Printable(word), "is no channel",
                     "Known: " + Join(known) + ", and the names of the format, as body_y_m."});
@@ -208,11 +197,11 @@ std::optional<MapEntry> ParseMapEntry(const std::string& text) {
   return entry;
 }
 
-std::string TargetName(const std::optional<ChannelId>& channel) {
+std::string TargetName(const std::optional<Channel>& channel) {
   return channel ? ChannelName(*channel) : "time_s";
 }
 
-Dimension TargetDimension(const std::optional<ChannelId>& channel) {
+Dimension TargetDimension(const std::optional<Channel>& channel) {
   return channel ? DimensionOf(*channel) : Dimension::kTime;
 }
 
@@ -233,7 +222,7 @@ ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entrie
   }
   // Time first, then the height: guessed units of the others are told by them.
   const auto rank = [](const auto& s) {
-    return !s.first.channel ? 0 : s.first.channel == ChannelId::kBodyY ? 1 : 2;
+    return !s.first.channel ? 0 : s.first.channel == Channel::kBodyY ? 1 : 2;
   };
   std::stable_sort(said.begin(), said.end(),
                    [&](const auto& a, const auto& b) { return rank(a) < rank(b); });

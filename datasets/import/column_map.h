@@ -10,8 +10,8 @@ namespace hoplab {
 
 /// What the user says of one channel: `y=-Z:mm`.
 struct MapEntry {
-  std::optional<ChannelId> channel;  // absent: time
-  std::string column;                // as the file has it, its title without unit, or #3
+  std::optional<Channel> channel;  // absent: time
+  std::string column;              // as the file has it, its title without unit, or #3
   bool negate = false;
   std::string unit;  // empty: as the file says
 };
@@ -23,15 +23,15 @@ std::optional<MapEntry> ParseMapEntry(const std::string& text);
 
 /// A channel by a name of the command line: "y", "body_y", "body_y_m"; absent for time ("t").
 /// Throws InputError with `place` if there is none.
-std::optional<ChannelId> ChannelOfWord(const std::string& word, const std::string& place);
+std::optional<Channel> ChannelOfWord(const std::string& word, const std::string& place);
 /// "time_s" or the channel's name.
-std::string TargetName(const std::optional<ChannelId>& channel);
-Dimension TargetDimension(const std::optional<ChannelId>& channel);
+std::string TargetName(const std::optional<Channel>& channel);
+Dimension TargetDimension(const std::optional<Channel>& channel);
 
 /// One channel and where its samples come from.
 struct MappedColumn {
-  std::optional<ChannelId> channel;  // absent: time
-  std::size_t column = 0;            // of the table
+  std::optional<Channel> channel;  // absent: time
+  std::size_t column = 0;          // of the table
   bool negate = false;
   Unit unit;
   bool guessed = false;  // the column or its unit is neither in the file nor said by the user

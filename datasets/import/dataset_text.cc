@@ -32,7 +32,7 @@ class Writer {
            "mechanism." + needed.key, needed.hint);
     }
     text_ += "channels:\n";
-    for (const ChannelId channel : dataset_.channels)
+    for (const Channel channel : dataset_.channels)
       text_ += std::string("  ") + ChannelName(channel) +
                (IsContact(channel) ? ": {}\n" : ": {sigma: estimate}\n");
     text_ += "trials:\n";

@@ -17,7 +17,7 @@ struct DatasetText {
   std::string name;
   std::string note;  // of the source
   MechanismType type = MechanismType::kCLeg;
-  std::vector<ChannelId> channels;
+  std::vector<Channel> channels;
   std::vector<Trial> trials;
   std::vector<std::pair<std::string, std::string>> values;  // by dotted key
 };

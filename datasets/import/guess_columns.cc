@@ -92,28 +92,6 @@ std::string ThingOf(const std::string& lower_stem) {
   return lower_stem.substr(0, indexed ? lower_stem.find_last_of("([") : lower_stem.size() - 1);
 }
 
-struct NamedChannel {
-  ChannelId channel;
-  std::vector<std::string_view> names;
-};
-
-// Names that leave no doubt, the format's own among them. Positions are told by how they move.
-const std::vector<NamedChannel>& NamedChannels() {
-  static const std::vector<NamedChannel> kNamed = {
-      {ChannelId::kBodyX, {"body_x"}},
-      {ChannelId::kBodyY, {"body_y", "height"}},
-      {ChannelId::kBodyVx, {"body_vx", "vx", "v_x", "vel_x", "velocity_x", "xdot"}},
-      {ChannelId::kBodyVy, {"body_vy", "vy", "v_y", "vel_y", "velocity_y", "ydot"}},
-      {ChannelId::kLegAngle, {"leg_angle", "leg angle"}},
-      {ChannelId::kLegLength, {"leg_length", "leg length"}},
-      {ChannelId::kGroundForceX, {"ground_force_x", "ground_force_vx", "fx", "grf_x", "f_x"}},
-      {ChannelId::kGroundForceY, {"ground_force_y", "ground_force_vy", "fy", "grf_y", "f_y"}},
-      {ChannelId::kHipTorque, {"hip_torque", "hip torque"}},
-      {ChannelId::kContact, {"contact", "in_contact", "stance"}},
-  };
-  return kNamed;
-}
-
 struct Height {
   std::size_t column = 0;
   Unit unit;
@@ -129,15 +107,16 @@ class ChannelGuesser {
   }
 
   std::vector<MappedColumn> Guess() {
-    for (const NamedChannel& named : NamedChannels()) GuessNamed(named);
-    const bool has_height = Has(ChannelId::kBodyY);
+    // Titles that leave no doubt, the format's own among them. Positions are told by how they move.
+    for (const Channel channel : RecordedChannels()) GuessNamed(channel);
+    const bool has_height = Has(Channel::kBodyY);
     if (!has_height) GuessHeight();
-    if (!Has(ChannelId::kBodyX) && height_) GuessForward();
+    if (!Has(Channel::kBodyX) && height_) GuessForward();
     return std::move(guesses_);
   }
 
  private:
-  bool Has(ChannelId channel) const {
+  bool Has(Channel channel) const {
     return std::any_of(guesses_.begin(), guesses_.end(),
                        [&](const MappedColumn& g) { return g.channel == channel; });
   }
@@ -162,20 +141,21 @@ class ChannelGuesser {
     guesses_.push_back(std::move(guess));
   }
 
-  void GuessNamed(const NamedChannel& named) {
+  void GuessNamed(Channel channel) {
+    const auto& titles = InfoOf(channel).titles;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       const std::string stem = LowerStem(table_.columns[i].name);
       const bool match =
-          std::find(named.names.begin(), named.names.end(), stem) != named.names.end();
+          !stem.empty() && std::find(titles.begin(), titles.end(), stem) != titles.end();
       if (!match || !Free(i)) continue;
-      const Dimension dimension = DimensionOf(named.channel);
+      const Dimension dimension = DimensionOf(channel);
       const bool other_kind = !table_.columns[i].unit.empty() && !StatedUnit(i, dimension) &&
                               dimension != Dimension::kNone;
       if (other_kind) continue;
       // The format's own name with its own unit is no guess.
-      const bool exact = table_.columns[i].name == ChannelName(named.channel);
+      const bool exact = table_.columns[i].name == ChannelName(channel);
       used_.push_back(i);
-      MappedColumn guess{named.channel, i};
+      MappedColumn guess{channel, i};
       guess.guessed = !exact;
       guess.why = exact ? "the format's own name" : "is called so";
       guesses_.push_back(std::move(guess));
@@ -214,7 +194,7 @@ class ChannelGuesser {
     }
     if (!height_) return;
     const bool stated = StatedUnit(height_->column, Dimension::kLength).has_value();
-    MappedColumn guess{ChannelId::kBodyY, height_->column, height_->negate};
+    MappedColumn guess{Channel::kBodyY, height_->column, height_->negate};
     if (!stated) guess.unit = height_->unit;
     guess.why = std::string(height_->negate ? "upside down it " : "") + "falls at " +
                 Rounded(height_->fall) + " m/s^2 in flight" +
@@ -240,7 +220,7 @@ class ChannelGuesser {
     const std::string& name = table_.columns[height_->column].name;
     const std::string thing = ThingOf(LowerStem(name));
     double furthest = 0;
-    MappedColumn guess{ChannelId::kBodyX};
+    MappedColumn guess{Channel::kBodyX};
     for (const std::size_t i : Positions()) {
       if (ThingOf(LowerStem(table_.columns[i].name)) != thing) continue;
       const Travel travel = TravelOf(i);
@@ -332,7 +312,7 @@ std::optional<GuessedUnit> GuessUnit(const Table& table, const ColumnMap& map,
     return std::nullopt;
   }
   if (TargetDimension(mapped.channel) != Dimension::kLength) return std::nullopt;
-  if (mapped.channel == ChannelId::kBodyY) {
+  if (mapped.channel == Channel::kBodyY) {
     const double per_unit = Fall(table, mapped.column, Times(table, map));
     for (const char* name : {"m", "mm", "cm"}) {
       const Unit unit = *FindUnit(name);

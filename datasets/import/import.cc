@@ -104,7 +104,7 @@ class Importer {
   // A channel may be missing in some logs, not in all.
   void CheckSamples() const {
     for (std::size_t i = 0; i < result_.columns.size(); ++i) {
-      const std::optional<ChannelId>& channel = result_.map.columns[i].channel;
+      const std::optional<Channel>& channel = result_.map.columns[i].channel;
       if (!channel) continue;
       const bool found =
           std::any_of(result_.logs.begin(), result_.logs.end(), [&](const ImportedLog& log) {

@@ -92,45 +92,9 @@ const char* DimensionName(Dimension dimension) {
   return kNames[static_cast<std::size_t>(dimension)];
 }
 
-Dimension DimensionOf(ChannelId channel) {
-  switch (channel) {
-    case ChannelId::kBodyX:
-    case ChannelId::kBodyY:
-    case ChannelId::kLegLength:
-    case ChannelId::kContactX:
-      return Dimension::kLength;
-    case ChannelId::kBodyVx:
-    case ChannelId::kBodyVy:
-      return Dimension::kVelocity;
-    case ChannelId::kLegAngle:
-    case ChannelId::kBodyPitch:
-    case ChannelId::kLegAngle1:
-    case ChannelId::kLegAngle2:
-    case ChannelId::kLegAngle3:
-    case ChannelId::kLegAngle4:
-      return Dimension::kAngle;
-    case ChannelId::kGroundForceX:
-    case ChannelId::kGroundForceY:
-      return Dimension::kForce;
-    case ChannelId::kHipTorque:
-    case ChannelId::kHipTorque1:
-    case ChannelId::kHipTorque2:
-    case ChannelId::kHipTorque3:
-    case ChannelId::kHipTorque4:
-      return Dimension::kTorque;
-    case ChannelId::kBodyAx:
-    case ChannelId::kBodyAy:
-    case ChannelId::kImuAx:
-    case ChannelId::kImuAy:
-      return Dimension::kAcceleration;
-    case ChannelId::kContact:
-    case ChannelId::kContact1:
-    case ChannelId::kContact2:
-    case ChannelId::kContact3:
-    case ChannelId::kContact4:
-      break;
-  }
-  return Dimension::kNone;
+Dimension DimensionOf(Channel channel) {
+  const std::optional<Unit> unit = FindUnit(ChannelUnit(channel));
+  return unit ? unit->dimension : Dimension::kNone;
 }
 
 std::optional<Unit> FindUnit(std::string_view text) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "datasets/channel.h"
+#include "base/channel.h"
 
 namespace hoplab {
 
@@ -14,7 +14,7 @@ enum class Dimension { kTime, kLength, kVelocity, kAngle, kForce, kTorque, kAcce
 
 /// "a length".
 const char* DimensionName(Dimension dimension);
-Dimension DimensionOf(ChannelId channel);
+Dimension DimensionOf(Channel channel);
 
 /// A unit a log may be in: SI value = value * factor * 10^power_of_ten. Metric ones have the factor
 /// 1, so that a change of unit is a shift of the decimal point.

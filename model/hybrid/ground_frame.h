@@ -40,11 +40,9 @@ class GroundFrame {
     Turn(sin_, seen[Channel::kBodyX], seen[Channel::kBodyY]);
     Turn(sin_, seen[Channel::kBodyVx], seen[Channel::kBodyVy]);
   }
-  /// Accelerations.
-  void AccelerationsToWorld(Observation<T>& seen) const {
-    if (level_) return;
-    Turn(sin_, seen[Channel::kBodyAx], seen[Channel::kBodyAy]);
-    Turn(sin_, seen[Channel::kImuAx], seen[Channel::kImuAy]);
+  /// A vector.
+  void VectorToWorld(T& x, T& y) const {
+    if (!level_) Turn(sin_, x, y);
   }
   /// A force in W to the frame of the ground.
   void ForceFromWorld(T& x, T& y) const {

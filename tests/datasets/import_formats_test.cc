@@ -52,7 +52,7 @@ TEST_F(ImportFormats, AHiddenMarkerOfATrcIsAMissingSample) {
   std::string text = testing::FallTrc(fall_);
   text.replace(text.find("\t5.20\t299.92\t"), 13, "\t5.20\t\t");
   const ImportResult result = ImportFile(Write("drop.trc", text), {"x=R.HIP.X", "y=R.HIP.Y"});
-  EXPECT_EQ(result.logs[0].trace.missing.at(ChannelId::kBodyY), 1u);
+  EXPECT_EQ(result.logs[0].trace.missing.at(Channel::kBodyY), 1u);
   EXPECT_NE(CsvOf(result).find("\n0.004,0.00520,\n"), std::string::npos);
 }
 
@@ -89,7 +89,7 @@ TEST_F(ImportFormats, AStorageOfQuaternionsGivesItsComponentsAndItsTurns) {
   const ImportResult turn = ImportFile(file, {"leg_angle=leg_imu.angle_Z"});
   const Trace trace = ParseTraceCsv(CsvOf(turn), "imu.csv");
   for (std::size_t i = 0; i < angles.size(); ++i)
-    EXPECT_NEAR((*trace.Find(ChannelId::kLegAngle))[i], angles[i], 1e-12) << i;
+    EXPECT_NEAR((*trace.Find(Channel::kLegAngle))[i], angles[i], 1e-12) << i;
   EXPECT_FALSE(turn.map.HasGuesses());
   const std::string still = CsvOf(ImportFile(file, {"leg_angle=trunk_imu.angle_Z"}));
   EXPECT_NE(still.find("\n0.03,0\n"), std::string::npos) << still;
@@ -272,7 +272,7 @@ TEST_F(ImportFormats, TheResultIsADatasetOnceItsBlanksAreFilled) {
   EXPECT_TRUE(result.blanks.empty());
   const Dataset dataset = ReadDatasetText(result.files.at("dataset.yaml"), result.files, "drop");
   EXPECT_EQ(dataset.mechanism.body_mass_kg, 0.0027);
-  EXPECT_EQ(dataset.trials.at(0).trace.Find(ChannelId::kBodyY)->front(), 0.3);
+  EXPECT_EQ(dataset.trials.at(0).trace.Find(Channel::kBodyY)->front(), 0.3);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ class ImportMap : public ::testing::Test {
 
 TEST(ImportMapEntry, SignAndUnitAreTakenOff) {
   const MapEntry entry = ParseMapEntry("y=-hip Z:mm").value();
-  EXPECT_EQ(entry.channel, ChannelId::kBodyY);
+  EXPECT_EQ(entry.channel, Channel::kBodyY);
   EXPECT_EQ(entry.column, "hip Z");
   EXPECT_EQ(entry.unit, "mm");
   EXPECT_TRUE(entry.negate);
@@ -241,7 +241,7 @@ TEST_F(ImportMap, TimeMustIncreaseWithinTheCutAlone) {
 
 TEST_F(ImportMap, AShiftIsExact) {
   TraceOptions options;
-  options.shifts[ChannelId::kBodyY] = "-0.0350";
+  options.shifts[Channel::kBodyY] = "-0.0350";
   options.shifts[std::nullopt] = "-12";
   const auto file = Log("t [s],z [mm]\n12.001,335.1\n12.003,\n");
   EXPECT_EQ(CsvOf(ImportFile(file, {"t=t", "y=z"}, options)),

@@ -108,7 +108,7 @@ TEST(ReadDataset, ASigmaToBeEstimatedIsAbsent) {
 TEST(ReadDataset, AContactChannelNeedsNoSigma) {
   const std::string yaml = Replace(kYaml, "channels:\n", "channels:\n  contact: {}\n");
   const Dataset dataset = Read(yaml, "time_s,body_x_m,body_y_m,contact\n0,0,0.3,0\n1,0,0.2,1\n");
-  EXPECT_EQ(dataset.channels[0].id, ChannelId::kContact);
+  EXPECT_EQ(dataset.channels[0].id, Channel::kContact);
   EXPECT_FALSE(dataset.channels[0].sigma);
 }
 
@@ -200,7 +200,7 @@ TEST(ReadDataset, TakesSmallHonestAliases) {
 
 TEST(ReadDataset, AnEmptyCellAndNanAreMissingSamples) {
   const Dataset dataset = Read(kYaml, "time_s,body_x_m,body_y_m\n0,,0.3\n1,NaN,0.2\n2,0.5,0.1\n");
-  const std::vector<double>& x = *dataset.trials[0].trace.Find(ChannelId::kBodyX);
+  const std::vector<double>& x = *dataset.trials[0].trace.Find(Channel::kBodyX);
   EXPECT_TRUE(std::isnan(x[0]));
   EXPECT_TRUE(std::isnan(x[1]));
   EXPECT_EQ(x[2], 0.5);
@@ -213,7 +213,7 @@ TEST(ReadDataset, KeepsColumnsThatAreNoChannel) {
 
 TEST(ReadDataset, AChannelMayBeMissingInSomeTrials) {
   const Dataset dataset = Read(kYaml, "time_s,body_x_m\n0,0\n");
-  EXPECT_EQ(dataset.trials[0].trace.Find(ChannelId::kBodyY), nullptr);
+  EXPECT_EQ(dataset.trials[0].trace.Find(Channel::kBodyY), nullptr);
 }
 
 TEST(ReadDataset, TakesUnevenSteps) {

@@ -186,7 +186,7 @@ TEST(ReadScenario, ReadsTheTrialsToGenerateOverItsOwnValues) {
   const GenerateSpec generate = *Document().Read().dataset;
   EXPECT_EQ(generate.name, "made");
   EXPECT_EQ(generate.sample_rate_hz, 500);
-  EXPECT_EQ(generate.channels, (std::vector<ChannelSpec>{{ChannelId::kBodyX, 0.001}}));
+  EXPECT_EQ(generate.channels, (std::vector<ChannelSpec>{{Channel::kBodyX, 0.001}}));
   ASSERT_EQ(generate.trials.size(), 2u);
   EXPECT_EQ(generate.trials[0].file, "train-1.csv");
   EXPECT_EQ(generate.trials[0].touchdown_angle_rad, DegToRad(25));

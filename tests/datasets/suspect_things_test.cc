@@ -22,8 +22,8 @@ Dataset Bouncing() {
   dataset.mechanism.body_mass_kg = 1;
   dataset.mechanism.gravity_m_per_s2 = kGravity;
   dataset.mechanism.ball = {0.02, 1, 0};
-  dataset.channels = {{ChannelId::kBodyX, kSigma_m, {"hops/dataset.yaml:10"}},
-                      {ChannelId::kBodyY, kSigma_m, {"hops/dataset.yaml:11"}}};
+  dataset.channels = {{Channel::kBodyX, kSigma_m, {"hops/dataset.yaml:10"}},
+                      {Channel::kBodyY, kSigma_m, {"hops/dataset.yaml:11"}}};
   for (int i = 0; i < 2; ++i) {
     RandomStream random(7, static_cast<std::uint64_t>(i));
     Trial trial;

@@ -12,9 +12,9 @@ namespace {
 
 TEST(Trace, FindsAColumnByChannelAndByName) {
   const Trace trace = ParseTraceCsv("time_s,body_y_m,extra\n0,0.3,7\n", "a.csv");
-  EXPECT_EQ(trace.Find(ChannelId::kBodyY)->at(0), 0.3);
+  EXPECT_EQ(trace.Find(Channel::kBodyY)->at(0), 0.3);
   EXPECT_EQ(trace.Find("extra")->at(0), 7);
-  EXPECT_EQ(trace.Find(ChannelId::kBodyX), nullptr);
+  EXPECT_EQ(trace.Find(Channel::kBodyX), nullptr);
 }
 
 TEST(Trace, TakesQuotedCells) {
@@ -48,7 +48,10 @@ TEST(Trace, ComesBackExactlyFromItsOwnText) {
 }
 
 TEST(Channel, EveryNameLeadsBackToItsChannel) {
-  for (const ChannelId id : kAllChannels) EXPECT_EQ(ChannelFromName(ChannelName(id)), id);
+  for (const Channel c : RecordedChannels()) EXPECT_EQ(ChannelFromName(ChannelName(c)), c);
+  EXPECT_EQ(NameOf(Channel::kBodyPitch), "body_pitch_rad");
+  EXPECT_EQ(NameOf(Channel::kLegForceY4), "leg_force_y_4_N");  // rows stand as the enumerators
+  EXPECT_FALSE(ChannelFromName("leg_force_y_4_N")) << "no trace has it";
   EXPECT_FALSE(ChannelFromName("body_z_m"));
 }
 

@@ -85,7 +85,7 @@ Dataset AnyDataset(std::uint64_t seed) {
   const auto type = static_cast<MechanismType>(seed % 3);
   dataset.mechanism = AnyMechanism(type, &random);
   dataset.controller = AnyController(&random);
-  dataset.channels = {{ChannelId::kBodyY, Any(&random)}, {ChannelId::kBodyX, std::nullopt}};
+  dataset.channels = {{Channel::kBodyY, Any(&random)}, {Channel::kBodyX, std::nullopt}};
   for (int i = 0; i < 4; ++i) {
     Trial trial;
     trial.file = "run " + std::to_string(i) + ".csv";

@@ -148,8 +148,8 @@ TEST(DrivenFit, ARecordThatBeginsInStanceIsFitted) {
     t.mechanism.c_leg.E_Pa = 20e9;
     t.mechanism.c_leg.damping_N_s_per_m = 1.0;
   }
-  dataset.channels.push_back({ChannelId::kBodyVx, 0.05});
-  dataset.channels.push_back({ChannelId::kBodyVy, 0.05});
+  dataset.channels.push_back({Channel::kBodyVx, 0.05});
+  dataset.channels.push_back({Channel::kBodyVy, 0.05});
   // Each trial cut to begin well within its first stance: the true state there.
   for (Trial& t : dataset.trials) {
     SimulationRequest q;

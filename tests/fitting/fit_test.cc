@@ -88,7 +88,7 @@ TEST(Fit, SurvivesMissingSamples) {
 TEST(Fit, ContactTimesAloneDetermineTheModulus) {
   Scenario s = testing::HopScenario(3);
   s.dataset->sample_rate_hz = 2000.0;
-  s.dataset->channels = {{ChannelId::kContact, 1.0}};
+  s.dataset->channels = {{Channel::kContact, 1.0}};
   GenerateOptions options;
   Dataset d = GenerateDataset(s, options).dataset;
   for (Trial& t : d.trials) t.mechanism.c_leg.E_Pa = 21e9;

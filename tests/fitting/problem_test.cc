@@ -17,11 +17,6 @@ std::string MessageOf(const Dataset& d, const ProblemOptions& o) {
   return testing::InputErrorOf([&] { MakeProblem(d, o); });
 }
 
-TEST(Problem, EveryChannelOfTheFormatIsOneOfTheSimulator) {
-  static_assert(kChannelIdCount == kChannelCount + kRobotChannelCount);
-  for (const ChannelId id : kAllChannels) EXPECT_EQ(NameOf(ChannelOfSpec(id)), ChannelName(id));
-}
-
 TEST(Problem, FreesModulusAndDampingOfACLegByDefault) {
   const FitProblem p = MakeProblem(SmallDataset(), {});
   EXPECT_EQ(p.shared_names(), (std::vector<std::string>{"E", "d"}));
@@ -147,7 +142,7 @@ TEST(Problem, MissingSamplesAreNotCounted) {
 
 TEST(Problem, ContactColumnsGiveSwitchingTimes) {
   Dataset d = SmallDataset();
-  d.channels = {{ChannelId::kContact, 1.0}};
+  d.channels = {{Channel::kContact, 1.0}};
   TraceColumn contact{"contact", {}};
   for (std::size_t i = 0; i < d.trials[0].trace.time_s.size(); ++i)
     contact.values.push_back(i >= 10 && i < 15 ? 1.0 : 0.0);

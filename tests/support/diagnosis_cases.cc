@@ -173,7 +173,7 @@ Scenario DiagnosisScenario(Law law) {
   s.stop.hops = kind == MechanismKind::kCLeg ? 2 : kind == MechanismKind::kBall ? 3 : 2;
   GenerateSpec& d = s.dataset.emplace();
   d.sample_rate_hz = 100.0;
-  d.channels = {{ChannelId::kBodyX, kSigma}, {ChannelId::kBodyY, kSigma}};
+  d.channels = {{Channel::kBodyX, kSigma}, {Channel::kBodyY, kSigma}};
   d.initial_sigma = kStartSigma;
   const auto& plans = kind == MechanismKind::kCLeg          ? kCLegPlans
                       : kind == MechanismKind::kStraightLeg ? kStraightPlans

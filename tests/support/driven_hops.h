@@ -34,8 +34,8 @@ inline Dataset DrivenDataset(const DrivenHops& hops, std::uint64_t seed) {
   dataset.mechanism = scenario.mechanism;
   dataset.mechanism.c_leg.E_Pa = 20e9;
   dataset.mechanism.c_leg.damping_N_s_per_m = 1.0;
-  dataset.channels = {{ChannelId::kBodyX, hops.position_noise_m},
-                      {ChannelId::kBodyY, hops.position_noise_m}};
+  dataset.channels = {{Channel::kBodyX, hops.position_noise_m},
+                      {Channel::kBodyY, hops.position_noise_m}};
   InputSpec torque;
   torque.id = InputId::kHipTorque;
   torque.column = "motor_torque_N_m";

@@ -2,6 +2,7 @@
 // scratch tree, whatever else is in it is a link to the project or built already.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -117,6 +118,7 @@ class Adding : public ::testing::Test {
     LinkFolder("model/laws/legs", tree_->path());
     LinkFolder("app/commands", tree_->path());
     LinkFolder("app/reports/texts", tree_->path());
+    LinkFolder("model/channels", tree_->path());
     fs::create_directories(tree_->path() / "experiments");
     fs::create_symlink(kSource / "experiments/three-drops.yaml",
                        tree_->path() / "experiments/three-drops.yaml");
@@ -131,10 +133,11 @@ class Adding : public ::testing::Test {
     WriteFiles("effect.md", "cpp", tree_->path());
     WriteFiles("mechanism.md", "cpp", tree_->path());
     WriteFiles("law.md", "cpp", tree_->path());
+    WriteFiles("channel.md", "cpp", tree_->path());
     WriteFiles("command.md", "cpp", tree_->path());
     WriteFiles("experiment.md", "yaml", tree_->path());
     WriteFiles("formula.md", "yaml", tree_->path());
-    log_ = ChangeFiles("law.md", tree_->path());
+    for (const char* page : {"law.md", "channel.md"}) log_ += ChangeFiles(page, tree_->path());
     if (!log_.empty()) return;
     const std::vector<std::vector<std::string>> steps = {
         {HOPLAB_CMAKE, "-S", ".", "-B", "build", "-G", HOPLAB_GENERATOR,
@@ -259,6 +262,42 @@ TEST_F(Adding, ALawHoldsAgainstItsOracleAndIsKnownEverywhere) {
       Run("hoplab", {"simulate", "experiments/three-drops.yaml", "--law", "even_stiffness",
                      "--with", "leg_hardening:beta=0.1", "--out", (tree() / "hard").string()});
   EXPECT_EQ(refused.exit_code, 65) << refused.out << refused.err;
+}
+
+// The cells of a table's line.
+std::vector<std::string> CellsOf(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream text(line);
+  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+TEST_F(Adding, AChannelIsTheSpeedAndIsGeneratedCheckedAndFitted) {
+  const std::vector<std::string> printed = RunCommands("channel.md");
+  ASSERT_EQ(printed.size(), 4u);
+  std::istringstream table(ReadText(tree() / "runs/speed/trajectory.csv"));
+  std::string line;
+  std::getline(table, line);
+  const std::vector<std::string> titles = CellsOf(line);
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(titles.begin(), titles.end(), name) - titles.begin());
+  };
+  const std::size_t vx = column("body_vx_m_per_s"), vy = column("body_vy_m_per_s"),
+                    speed = column("body_speed_m_per_s");
+  ASSERT_LT(speed, titles.size()) << line;
+  int rows = 0;
+  for (; std::getline(table, line); ++rows) {
+    const std::vector<std::string> cells = CellsOf(line);
+    EXPECT_NEAR(std::stod(cells[speed]), std::hypot(std::stod(cells[vx]), std::stod(cells[vy])),
+                1e-12)
+        << line;
+  }
+  EXPECT_GT(rows, 100);
+  EXPECT_NE(printed[2].find("body_speed_m_per_s"), std::string::npos) << printed[2];
+  const auto fit = nlohmann::json::parse(ReadText(tree() / "runs/with-speed/run.json"));
+  EXPECT_EQ(fit.at("channels").size(), 3u) << fit.at("channels");
+  const double chi2 = fit.at("chi2_per_dof");
+  EXPECT_NEAR(chi2, 1.0, 0.1);  // the noise that was added, in all three
 }
 
 TEST_F(Adding, ACommandPrintsWhatStandsThere) {

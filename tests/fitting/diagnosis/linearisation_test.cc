@@ -219,12 +219,12 @@ TEST(RowLabels, SayHowMuchOfItsModeHasGoneBy) {
 
 TEST(RowLabels, TellSamplesContactTimesAndPriorsApart) {
   Dataset d = testing::DatasetOf({});
-  d.channels.push_back({ChannelId::kContact, std::nullopt});
+  d.channels.push_back({Channel::kContact, std::nullopt});
   for (Trial& t : d.trials) {
     // A contact column that switches where the body is low.
     std::vector<double> contact;
-    for (double y : *t.trace.Find(ChannelId::kBodyY)) contact.push_back(y < 0.16 ? 1.0 : 0.0);
-    t.trace.columns.push_back({ChannelName(ChannelId::kContact), contact});
+    for (double y : *t.trace.Find(Channel::kBodyY)) contact.push_back(y < 0.16 ? 1.0 : 0.0);
+    t.trace.columns.push_back({ChannelName(Channel::kContact), contact});
   }
   const NullFit fit(d);
   const Linearisation at = fit.With(kTested);
