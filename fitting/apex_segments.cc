@@ -6,6 +6,7 @@
 
 #include "fitting/trial_evaluator.h"
 #include "model/leg_compliance.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
@@ -15,13 +16,6 @@ struct Apex {
   int row;
   Eigen::Vector4d state;
 };
-
-double UnloadedContactHeight(const FitProblem& problem, const TrialProblem& trial) {
-  const Parameters<double>& p = trial.parameters;
-  if (problem.law == Law::kBall) return p.radius;
-  if (problem.law == Law::kStraightLeg) return p.l0 * std::cos(p.theta_td);
-  return p.theta_td > 0.0 ? p.r * (1.0 + std::cos(p.theta_td)) : 2.0 * p.r * std::cos(p.theta_td);
-}
 
 int ColumnOf(const FitProblem& problem, Channel channel) {
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
@@ -54,13 +48,13 @@ bool FitLine(const TrialProblem& trial, int column, int width, int a, int b, dou
 }  // namespace
 
 std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProblem& trial) {
-  // A robot's legs land one after the other, and its pitch at an apex is no column's alone.
-  if (problem.law == Law::kRobot) return {};
+  const MechanismTraits& traits = TraitsOf(problem.law);
+  if (traits.lands_leg_by_leg) return {};
   const int width = static_cast<int>(problem.channels.size());
   const int y_column = ColumnOf(problem, Channel::kBodyY);
   const int x_column = ColumnOf(problem, Channel::kBodyX);
   if (y_column < 0) return {};
-  const double contact = UnloadedContactHeight(problem, trial);
+  const double contact = traits.touchdown_height(trial.parameters);
   const int rows = static_cast<int>(trial.row_times.size());
   const auto y = [&](int row) {
     return trial.data[static_cast<std::size_t>(row) * width + y_column];

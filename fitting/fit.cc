@@ -9,6 +9,7 @@
 #include "fitting/apex_segments.h"
 #include "fitting/growing_horizon.h"
 #include "fitting/threshold.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
@@ -196,9 +197,9 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
   StartRecord record;
   record.from = shared;
   SolveResult result;
-  // A robot's trace shows no apexes to shoot from.
-  const bool grows = options.strategy == FitStrategy::kGrowingHorizon ||
-                     (options.strategy == FitStrategy::kApexShooting && problem.law == Law::kRobot);
+  const bool grows =
+      options.strategy == FitStrategy::kGrowingHorizon ||
+      (options.strategy == FitStrategy::kApexShooting && TraitsOf(problem.law).lands_leg_by_leg);
   const auto grow = [&](const Eigen::VectorXd& from) {
     SolveRequest request = RequestFor(problem, trials, options, start_number, "growing horizon");
     request.shared = from;

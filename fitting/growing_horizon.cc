@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fitting/trial_evaluator.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
@@ -39,7 +40,7 @@ SolveResult GrowHorizon(SolveRequest request) {
     const std::vector<TrialProblem> cut = CutToFraction(*request.problem, whole, fraction);
     request.trials = &cut;
     request.max_iterations = kIterations;
-    if (request.problem->law == Law::kRobot)
+    if (TraitsOf(request.problem->law).has_costly_runs)
       request.function_tolerance = std::max(tolerance, kRobotRound);
     SolveResult next = Solve(request);
     if (next.status == SolveStatus::kInterrupted) return next;

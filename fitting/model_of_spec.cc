@@ -244,7 +244,7 @@ int RobotLegsOfSpec(const MechanismSpec& mechanism) {
 void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place,
                   InputSet inputs, int robot_legs) {
   if (AppliesTo(effect, law, mass, inputs, robot_legs)) return;
-  if (law == Law::kRobot && effect.info.robot_leg > robot_legs) {
+  if (robot_legs > 0 && effect.info.robot_leg > robot_legs) {
     throw InputError({place, "effect " + std::string(effect.info.name),
                       "is of a leg this robot does not have",
                       "Legs are counted from the hindmost, 1."});

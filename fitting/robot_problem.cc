@@ -30,7 +30,7 @@ void AddStart(const char* name, int place, double scale, double value,
 }  // namespace
 
 void ChooseModuli(const ProblemOptions& options, FitProblem& problem) {
-  if (problem.law != Law::kRobot) return;
+  if (problem.robot_legs() == 0) return;
   const auto is_own = [](const std::string& name) { return name.starts_with("E_"); };
   const bool shared =
       options.legs_alike || RobotOf(problem).legs == 1 ||
@@ -44,7 +44,7 @@ void ChooseModuli(const ProblemOptions& options, FitProblem& problem) {
 }
 
 bool IsOfRobot(ParameterId id, const FitProblem& problem) {
-  if (problem.law != Law::kRobot) return true;
+  if (problem.robot_legs() == 0) return true;
   if (id == ParameterId::kE) return !RobotOf(problem).own_moduli;
   if (id < ParameterId::kE1 || id > ParameterId::kE4) return true;
   return static_cast<int>(id) - static_cast<int>(ParameterId::kE1) < RobotOf(problem).legs;

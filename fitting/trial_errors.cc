@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "fitting/growing_horizon.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
@@ -44,13 +45,13 @@ OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
   request.function_tolerance = 1e-10;  // of thousands: far below one standard error
   request.loss = options.loss;
   request.stop = options.stop;
-  const bool robot = problem.law == Law::kRobot;
-  SolveResult best = robot ? GrowHorizon(request) : Solve(request);
+  const bool grows = TraitsOf(problem.law).lands_leg_by_leg;
+  SolveResult best = grows ? GrowHorizon(request) : Solve(request);
   const auto is_poor = [&trial](const SolveResult& r) {
     return !r.complete || r.cost > kPoorCost * static_cast<double>(trial.sample_count);
   };
   RandomStream random(options.seed, 0);
-  for (int k = 0; k < kMoreStarts && robot && is_poor(best); ++k) {
+  for (int k = 0; k < kMoreStarts && grows && is_poor(best); ++k) {
     request.starts = {DrawnStart(trial, random)};
     SolveResult other = GrowHorizon(request);
     if (other.starts.empty()) continue;

@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 
@@ -72,7 +73,7 @@ void TrialEvaluations::Run(bool jacobians, Point& point) {
 // Whether the columns of held shared values would take the simulator another run.
 bool TrialEvaluations::HoldsManyShared(int trial) const {
   const int own = trials_[static_cast<std::size_t>(trial)].own_count();
-  return request_.hold_shared && problem_.law == Law::kRobot && own <= kWideJet &&
+  return request_.hold_shared && TraitsOf(problem_.law).has_costly_runs && own <= kWideJet &&
          own + problem_.shared_count() > kWideJet;
 }
 

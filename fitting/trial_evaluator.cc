@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fitting/driven_trial.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
@@ -217,7 +218,8 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
     }
     return complete || request.fly_on;
   };
-  const EventKind down = problem_->law == Law::kBall ? EventKind::kBounce : EventKind::kTouchdown;
+  const EventKind down =
+      TraitsOf(problem_->law).has_stance ? EventKind::kTouchdown : EventKind::kBounce;
   if (!add_times(down, trial_->contact.touchdown_s, trial_->contact.touchdown_sigma_s)) return;
   if (!add_times(EventKind::kLiftoff, trial_->contact.liftoff_s, trial_->contact.liftoff_sigma_s))
     return;

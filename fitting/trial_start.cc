@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "fitting/model_of_spec.h"
 #include "fitting/robot_problem.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
@@ -63,7 +64,7 @@ void LineFit(const TrialProblem& t, const std::vector<double>& values, std::size
 
 // Start of a trial that states none: a parabola through the first flight, line in x.
 OwnValues StartFromTrace(const Trial& trial, const FitProblem& problem, const TrialProblem& t) {
-  if (problem.law == Law::kRobot) {
+  if (TraitsOf(problem.law).has_pitch) {
     throw InputError({trial.origin.place, "initial", "is absent, and a robot needs it",
                       "State initial: {x_m, y_m, vx_m_per_s, vy_m_per_s, pitch_rad, "
                       "pitch_rate_rad_per_s} of the first row."});
@@ -112,7 +113,7 @@ void SetStart(const Trial& trial, const FitProblem& problem, TrialProblem& t) {
       t.own[i].scale = std::min(t.own[i].scale, t.own[i].prior_sigma);
     }
   }
-  if (problem.law == Law::kRobot) AddPitch(trial, t);
+  if (TraitsOf(problem.law).has_pitch) AddPitch(trial, t);
   if (trial.initial && trial.initial->mode != StartMode::kFlight) SetContact(trial, t);
   // Without a channel that knows where the hopper is along the ground, x is a free choice.
   if (!Sees(problem, Channel::kBodyX) && std::isinf(t.own[0].prior_sigma)) t.own[0].free = false;

@@ -70,57 +70,6 @@ constexpr std::array kRobotParameters = {
 constexpr std::array kClockParameters = {kClockPeriod, kClockDuty,   kClockSweep,  kClockOffset,
                                          kClockPhase1, kClockPhase2, kClockPhase3, kClockPhase4};
 
-struct LawRow {
-  Law law;
-  MechanismKind mechanism;
-  std::string_view name;
-  std::string_view sentence;
-};
-// Of each mechanism the default comes first.
-constexpr auto kLaws = std::to_array<LawRow>({
-    {Law::kElastica, MechanismKind::kCLeg, "elastica",
-     "c_leg, default: static equilibrium of an inextensible elastic arc, exact for any load; "
-     "conserves energy."},
-    {Law::kLargeDeflection, MechanismKind::kCLeg, "large_deflection",
-     "c_leg: static equilibrium of the elastic arc with the next term of the elastica; conserves "
-     "energy."},
-    {Law::kConsistent, MechanismKind::kCLeg, "consistent",
-     "c_leg: static equilibrium of the elastic arc, first-order bending with tip rotation; "
-     "conserves energy."},
-    {Law::kNoSlip, MechanismKind::kCLeg, "no_slip",
-     "c_leg: half circle of varying radius, the contact advances by the arc laid on the ground."},
-    {Law::kThesis, MechanismKind::kCLeg, "thesis",
-     "c_leg: half circle of varying radius, the law of the published tables; does not conserve "
-     "energy."},
-    {Law::kStraightLeg, MechanismKind::kStraightLeg, "straight_leg",
-     "straight_leg: linear spring and damper on a fixed toe."},
-    {Law::kBall, MechanismKind::kBall, "ball",
-     "ball: ballistic flight, restitution and tangential loss at each bounce."},
-    {Law::kRobot, MechanismKind::kRobot, "robot",
-     "robot: a body with pitch on up to four legs, each an exact elastic arc clamped to its "
-     "motor."},
-});
-
-const LawRow& RowOf(Law law) {
-  return *std::find_if(kLaws.begin(), kLaws.end(),
-                       [&](const LawRow& row) { return row.law == law; });
-}
-
-constexpr std::size_t CountOf(MechanismKind mechanism) {
-  std::size_t count = 0;
-  for (const LawRow& row : kLaws) count += row.mechanism == mechanism ? 1 : 0;
-  return count;
-}
-template <MechanismKind kMechanism>
-constexpr auto kLawsOf = [] {
-  std::array<Law, CountOf(kMechanism)> laws{};
-  std::size_t count = 0;
-  for (const LawRow& row : kLaws) {
-    if (row.mechanism == kMechanism) laws[count++] = row.law;
-  }
-  return laws;
-}();
-
 }  // namespace
 
 std::span<const ParameterInfo> AllParameters() { return kParameters; }
@@ -154,47 +103,6 @@ std::span<const ParameterId> ToeParameters() { return kToeParameters; }
 
 std::span<const ParameterId> FreeByDefault(MechanismKind mechanism) {
   return ParametersOf(mechanism).first(2);
-}
-
-std::span<const Law> LawsOf(MechanismKind mechanism) {
-  switch (mechanism) {
-    case MechanismKind::kCLeg:
-      return kLawsOf<MechanismKind::kCLeg>;
-    case MechanismKind::kStraightLeg:
-      return kLawsOf<MechanismKind::kStraightLeg>;
-    case MechanismKind::kBall:
-      return kLawsOf<MechanismKind::kBall>;
-    case MechanismKind::kRobot:
-      return kLawsOf<MechanismKind::kRobot>;
-  }
-  return {};
-}
-
-MechanismKind MechanismOf(Law law) { return RowOf(law).mechanism; }
-
-std::string_view NameOf(Law law) { return RowOf(law).name; }
-
-std::string_view SentenceOf(Law law) { return RowOf(law).sentence; }
-
-std::string_view NameOf(MechanismKind mechanism) {
-  switch (mechanism) {
-    case MechanismKind::kCLeg:
-      return "c_leg";
-    case MechanismKind::kStraightLeg:
-      return "straight_leg";
-    case MechanismKind::kBall:
-      return "ball";
-    case MechanismKind::kRobot:
-      return "robot";
-  }
-  return "";
-}
-
-std::optional<Law> FindLaw(std::string_view name) {
-  for (const LawRow& row : kLaws) {
-    if (row.name == name) return row.law;
-  }
-  return std::nullopt;
 }
 
 }  // namespace hoplab

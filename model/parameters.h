@@ -179,6 +179,56 @@ std::span<const ParameterId> ToeParameters();
 /// Parameters that are free unless asked otherwise.
 std::span<const ParameterId> FreeByDefault(MechanismKind mechanism);
 
+/// The field `id` of a robot.
+template <class T>
+T& RobotField(RobotParameters<T>& robot, ParameterId id) {
+  const auto place = [id](ParameterId first) {
+    return static_cast<std::size_t>(id) - static_cast<std::size_t>(first);
+  };
+  switch (id) {
+    case ParameterId::kPitchInertia:
+      return robot.pitch_inertia;
+    case ParameterId::kComX:
+      return robot.com_x;
+    case ParameterId::kComY:
+      return robot.com_y;
+    case ParameterId::kRotorInertia:
+      return robot.rotor_inertia;
+    case ParameterId::kMotorKp:
+      return robot.motor_kp;
+    case ParameterId::kMotorKd:
+      return robot.motor_kd;
+    case ParameterId::kFriction:
+      return robot.friction;
+    case ParameterId::kLegDamping:
+      return robot.damping;
+    case ParameterId::kE1:
+    case ParameterId::kE2:
+    case ParameterId::kE3:
+    case ParameterId::kE4:
+      return robot.E[place(ParameterId::kE1)];
+    case ParameterId::kClockPeriod:
+      return robot.period;
+    case ParameterId::kClamp:
+      return robot.clamp;
+    case ParameterId::kLegMass:
+      return robot.leg_mass;
+    case ParameterId::kClockDuty:
+      return robot.duty;
+    case ParameterId::kClockSweep:
+      return robot.sweep;
+    case ParameterId::kClockOffset:
+      return robot.offset;
+    case ParameterId::kClockPhase1:
+    case ParameterId::kClockPhase2:
+    case ParameterId::kClockPhase3:
+    case ParameterId::kClockPhase4:
+      return robot.phase[place(ParameterId::kClockPhase1)];
+    default:
+      return robot.pitch_inertia;  // unreachable: the others are not of a robot
+  }
+}
+
 /// The field `id` of `p`; one of a robot only where `p` has one.
 template <class T>
 T& Field(Parameters<T>& p, ParameterId id) {
@@ -223,47 +273,9 @@ T& Field(Parameters<T>& p, ParameterId id) {
       return p.kp_place;
     case ParameterId::kKdPlace:
       return p.kd_place;
-    case ParameterId::kPitchInertia:
-      return p.robot->pitch_inertia;
-    case ParameterId::kComX:
-      return p.robot->com_x;
-    case ParameterId::kComY:
-      return p.robot->com_y;
-    case ParameterId::kRotorInertia:
-      return p.robot->rotor_inertia;
-    case ParameterId::kMotorKp:
-      return p.robot->motor_kp;
-    case ParameterId::kMotorKd:
-      return p.robot->motor_kd;
-    case ParameterId::kFriction:
-      return p.robot->friction;
-    case ParameterId::kLegDamping:
-      return p.robot->damping;
-    case ParameterId::kE1:
-    case ParameterId::kE2:
-    case ParameterId::kE3:
-    case ParameterId::kE4:
-      return p.robot->E[static_cast<std::size_t>(id) - static_cast<std::size_t>(ParameterId::kE1)];
-    case ParameterId::kClockPeriod:
-      return p.robot->period;
-    case ParameterId::kClamp:
-      return p.robot->clamp;
-    case ParameterId::kLegMass:
-      return p.robot->leg_mass;
-    case ParameterId::kClockDuty:
-      return p.robot->duty;
-    case ParameterId::kClockSweep:
-      return p.robot->sweep;
-    case ParameterId::kClockOffset:
-      return p.robot->offset;
-    case ParameterId::kClockPhase1:
-    case ParameterId::kClockPhase2:
-    case ParameterId::kClockPhase3:
-    case ParameterId::kClockPhase4:
-      return p.robot->phase[static_cast<std::size_t>(id) -
-                            static_cast<std::size_t>(ParameterId::kClockPhase1)];
+    default:
+      return RobotField(*p.robot, id);
   }
-  return p.m;  // unreachable: every enumerator is listed above
 }
 template <class T>
 const T& Field(const Parameters<T>& p, ParameterId id) {
@@ -274,13 +286,24 @@ const T& Field(const Parameters<T>& p, ParameterId id) {
 template <class To, class From>
 Parameters<To> ConvertParameters(const Parameters<From>& from);
 
+/// What is said of a law once: of a leg's law in its file in model/laws/legs.
+struct LawInfo {
+  Law law;
+  MechanismKind mechanism;
+  int place;  // among the laws of its mechanism; the first is the default
+  std::string_view name;
+  std::string_view sentence;           // what it assumes, for `hoplab laws`
+  std::string_view equation, meaning;  // what it computes, when to use it, for `hoplab explain`
+  bool takes_terms = true;             // the leg knows the terms that effects bring in (LawTerms)
+};
+const LawInfo& InfoOf(Law law);
+
 /// Laws a mechanism can use; the first is its default.
 std::span<const Law> LawsOf(MechanismKind mechanism);
-MechanismKind MechanismOf(Law law);
-std::string_view NameOf(Law law);
+inline MechanismKind MechanismOf(Law law) { return InfoOf(law).mechanism; }
+inline std::string_view NameOf(Law law) { return InfoOf(law).name; }
+inline std::string_view SentenceOf(Law law) { return InfoOf(law).sentence; }
 std::string_view NameOf(MechanismKind mechanism);
-/// One sentence on what the law assumes, for `hoplab laws`.
-std::string_view SentenceOf(Law law);
 std::optional<Law> FindLaw(std::string_view name);
 
 }  // namespace hoplab

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/mechanism_traits.h"
 #include "optimize/stride_map.h"
 #include "optimize/stride_search.h"
 
@@ -190,14 +191,12 @@ std::string_view NameOf(PointVerdict verdict) {
 }
 
 double TouchdownHeightOf(const Hopper& hopper) {
-  const Parameters<double>& p = hopper.request.parameters;
-  const double cosine = std::cos(p.theta_td);
-  if (MechanismOf(hopper.request.law) == MechanismKind::kStraightLeg) return p.l0 * cosine;
-  return p.theta_td > 0.0 ? p.r * (1.0 + cosine) : 2.0 * p.r * cosine;
+  const auto height = TraitsOf(hopper.request.law).touchdown_height;
+  return height ? height(hopper.request.parameters) : kMissing;
 }
 
 FixedPoint SteadyHop(const Hopper& hopper, const std::optional<ApexState>& near) {
-  if (hopper.request.law == Law::kRobot)
+  if (TraitsOf(hopper.request.law).lands_leg_by_leg)
     return HasStrides(hopper) ? FindSteadyStride(hopper).point : FixedPoint();
   ApexMap map(hopper);
   const auto& s = hopper.request.initial;

@@ -60,7 +60,7 @@ double MiddleOfLongestGap(const std::vector<double>& sorted) {
 }  // namespace
 
 bool HasStrides(const Hopper& hopper) {
-  return hopper.request.law == Law::kRobot && RobotOf(hopper).control == MotorControl::kClock;
+  return hopper.request.parameters.robot && RobotOf(hopper).control == MotorControl::kClock;
 }
 
 StrideMap::StrideMap(Hopper hopper, double phase, std::vector<Foot> feet)

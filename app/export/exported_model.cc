@@ -1,5 +1,7 @@
 #include "app/export/exported_model.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/terminal/quantity.h"
@@ -104,19 +106,9 @@ std::vector<ExportedStart> StartsOf(const RecordReader& record) {
 
 // Whether the templates of export/c say this law.
 bool IsWritten(Law law) {
-  switch (law) {
-    case Law::kThesis:
-    case Law::kNoSlip:
-    case Law::kConsistent:
-    case Law::kLargeDeflection:
-    case Law::kElastica:
-    case Law::kStraightLeg:
-      return true;
-    case Law::kBall:
-    case Law::kRobot:
-      return false;
-  }
-  return false;
+  static constexpr std::array kWritten = {Law::kThesis,          Law::kNoSlip,   Law::kConsistent,
+                                          Law::kLargeDeflection, Law::kElastica, Law::kStraightLeg};
+  return std::find(kWritten.begin(), kWritten.end(), law) != kWritten.end();
 }
 
 // The part of the record that tells the model: of a diagnosis the one with its causes.

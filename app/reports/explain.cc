@@ -17,8 +17,6 @@
 namespace hoplab {
 namespace {
 
-constexpr std::string_view kLawKeys[] = {"law", "equation", "meaning"};
-
 // "spectral radius", "Spectral_Radius": as the glossary writes it.
 std::string Key(const std::string& text) {
   std::string key(Trim(text));
@@ -92,15 +90,11 @@ Explanation ExplanationOf(const Effect& effect) {
 }
 
 Explanation ExplanationOf(Law law) {
-  static const std::vector<TextEntry> kAdvice = EntriesOf("laws.txt", kLawKeys);
-  const auto advice = std::find_if(kAdvice.begin(), kAdvice.end(), [law](const TextEntry& entry) {
-    return entry[0] == NameOf(law);
-  });
-  HOPLAB_CHECK(advice != kAdvice.end());
   // Its sentence begins with the mechanism.
   const std::string sentence(SentenceOf(law));
   return {Explanation::Kind::kLaw, std::string(NameOf(law)),
-          fmt::format("A law of the mechanism {} {}", sentence, (*advice)[1]), (*advice)[2]};
+          fmt::format("A law of the mechanism {} {}", sentence, InfoOf(law).equation),
+          std::string(InfoOf(law).meaning)};
 }
 
 std::optional<Explanation> FindExplanation(const std::string& text) {

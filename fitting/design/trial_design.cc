@@ -9,6 +9,7 @@
 
 #include "base/input_error.h"
 #include "base/text.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
@@ -207,9 +208,9 @@ DesignSpace PlainSpace(const FitProblem& problem, const std::vector<TrialProblem
     height.Add(trial.start[1]);
     speed.Add(std::abs(trial.start[2]));
   }
-  if (problem.law == Law::kRobot) {
+  if (TraitsOf(problem.law).lands_leg_by_leg) {
     AddRobotRanges(train, space.ranges);
-  } else if (problem.law != Law::kBall && !Fits(problem, ParameterId::kThetaTd)) {
+  } else if (TraitsOf(problem.law).has_placed_leg && !Fits(problem, ParameterId::kThetaTd)) {
     space.ranges.push_back({DesignSetting::kAngle, std::max(angle.low - kMostTurn, 0.0),
                             std::min(angle.high + kMostTurn, std::max(kSteepest, angle.high))});
   }

@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/text.h"
 #include "fitting/discovery/factor.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
@@ -17,11 +18,12 @@ constexpr double kExpected = 0.05;
 
 class Library {
  public:
-  Library(const FitProblem& problem, const NaturalScales& scales) : problem_(problem), s_(scales) {}
+  Library(const FitProblem& problem, const NaturalScales& scales)
+      : problem_(problem), s_(scales), has_stance_(TraitsOf(problem.law).has_stance) {}
 
   std::vector<Term> Build() {
     BodyForces();
-    if (problem_.law == Law::kBall) {
+    if (!has_stance_) {
       Impacts();
     } else {
       ChordForces();
@@ -85,7 +87,7 @@ class Library {
   // ---- places -------------------------------------------------------------------------------
 
   std::vector<Phase> FlightAndStance() const {
-    if (problem_.law == Law::kBall) return {{}};
+    if (!has_stance_) return {{}};
     return {{}, {"(1 - in_stance)", "in flight"}, {"in_stance", "in stance"}};
   }
 
@@ -277,13 +279,12 @@ class Library {
                                       [](const TrialProblem& t) { return t.parameters.on_guide; });
     if (!on_guide) add("body_force_x", "x", force, s_.x, "the place");
     add("body_force_y", "y", force, s_.y, "the height");
-    if (problem_.law != Law::kBall)
-      add("chord_force", "s", 2.0 * force, {0.0, 0.2}, "the compression");
+    if (has_stance_) add("chord_force", "s", 2.0 * force, {0.0, 0.2}, "the compression");
   }
 
   // Something shakes the body, in step with the start of each trial.
   void Vibrations() {
-    if (problem_.law == Law::kBall) return;
+    if (!has_stance_) return;
     constexpr int kMostPeriods = 12;  // in a trial
     std::vector<double> lengths;
     for (const TrialProblem& t : problem_.trials)
@@ -313,6 +314,7 @@ class Library {
 
   const FitProblem& problem_;
   const NaturalScales& s_;
+  bool has_stance_;
   std::set<std::string> seen_;
   std::vector<Term> terms_;
 };

@@ -27,23 +27,6 @@ std::optional<int> Effect::FindParameter(std::string_view name) const {
 
 namespace {
 
-// Whether the leg of this law knows the terms that effects bring into a law (ExtendedLeg).
-bool TakesLawTerms(Law law) {
-  switch (law) {
-    case Law::kThesis:
-    case Law::kNoSlip:
-    case Law::kConsistent:
-    case Law::kLargeDeflection:
-    case Law::kElastica:
-    case Law::kStraightLeg:
-      return true;
-    case Law::kBall:
-    case Law::kRobot:
-      return false;  // they have no such leg
-  }
-  return false;
-}
-
 bool BringsLawTerms(const Effect& effect) {
   if (effect.formula != nullptr || effect.hooks0.add_joint_torque != nullptr) return true;
   if (effect.hooks0.change_parameters == nullptr) return false;
@@ -64,7 +47,8 @@ bool AppliesTo(const Effect& effect, Law law, LegMass mass, InputSet inputs, int
   if (MechanismOf(law) == MechanismKind::kRobot)
     return info.for_robot && info.robot_leg <= robot_legs;
   if (!(MechanismOf(law) == MechanismKind::kBall ? info.for_ball : info.for_legs)) return false;
-  if (MechanismOf(law) != MechanismKind::kBall && !TakesLawTerms(law) && BringsLawTerms(effect))
+  if (MechanismOf(law) != MechanismKind::kBall && !InfoOf(law).takes_terms &&
+      BringsLawTerms(effect))
     return false;
   return info.only_laws.empty() ||
          std::find(info.only_laws.begin(), info.only_laws.end(), law) != info.only_laws.end();

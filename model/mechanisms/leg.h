@@ -67,7 +67,7 @@ using LegStorage = InPlace<Leg<T>, 2048 + 128 * sizeof(T)>;
 
 /// A law of a leg in every scalar type: what its file registers.
 struct LegLaw {
-  Law law;
+  LawInfo info;
   Mechanism body;  // a point mass on one such leg
   void (*make0)(const Parameters<double>& p, LegStorage<double>& leg);
   void (*make1)(const Parameters<Jet<1>>& p, LegStorage<Jet<1>>& leg);
@@ -90,5 +90,6 @@ struct LegLaw {
 /// The leg of a law; one entry per file in model/laws/legs (cmake writes the list). The law of no
 /// leg is a bug.
 const LegLaw& LegLawOf(Law law);
+std::span<const LegLaw* const> AllLegLaws();
 
 }  // namespace hoplab

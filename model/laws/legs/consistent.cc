@@ -9,6 +9,13 @@ template <class T>
 using ConsistentLeg = CLeg<T, ConsistentLaw>;
 
 namespace leg_laws {
-extern constexpr LegLaw consistent = MakeLegLaw<ConsistentLeg>(Law::kConsistent);
+extern constexpr LegLaw consistent = MakeLegLaw<ConsistentLeg>(
+    {Law::kConsistent, MechanismKind::kCLeg, 2, "consistent",
+     "c_leg: static equilibrium of the elastic arc, first-order bending with tip rotation;"
+     " conserves energy.",
+     "The chord of length l carries F with l = l0 - F C (M9); the loaded tip turns by F "
+     "C'/2 (M10), C [m/N] the arc's compliance (M2), C' [1/N] its slope along the arc.",
+     "Use it for small deflections, or to see what large_deflection adds. A modulus fitted"
+     " with it comes out too low where the leg bends far."});
 }
 }  // namespace hoplab

@@ -6,8 +6,8 @@ namespace hoplab {
 
 /// The registry entry of a law whose leg is LegT.
 template <template <class> class LegT>
-constexpr LegLaw MakeLegLaw(Law law) {
-  return {law,
+constexpr LegLaw MakeLegLaw(const LawInfo& info) {
+  return {info,
           {[](const auto& setup, auto& to) {
              to.template Emplace<LeggedBody<double, LegT<double>>>(setup);
            },
