@@ -108,8 +108,8 @@ inline constexpr double kAtZero = 1e-11;
 
 /// Four legs of a robot that roll and slide, their motors limited, have 29.
 inline constexpr int kMaxGuards = 29;
-/// Most states of a mechanism, and of what a stepper integrates: with eight sensitivities of each. A
-/// robot on four legs with mass whose motors lag has 26.
+/// Most states of a mechanism, and of what a stepper integrates: with eight sensitivities of each.
+/// A robot on four legs with mass whose motors lag has 26.
 inline constexpr int kMaxStates = 26;
 
 }  // namespace hoplab

@@ -122,6 +122,9 @@ class Robot final : public HybridSystem<T> {
   LegMotion<T> MotionOf(int leg, const Hip& hip, const T* z) const;
   Vector2<T> PressOf(int leg, const LegPlace& at, const T* z) const;
   LegMotion<T> LoadOf(int leg, const LegPlace& at, const LegInertia& inertia, const T* z) const;
+  struct Rows;  // the equations of motion as they are solved
+  void AddLegRows(int leg, const LegPlace& at, const LegInertia& inertia, const Sides& sides,
+                  Rows& rows) const;
   void SolveMotion(const Vector2<T>& com, const std::array<LegPlace, kMaxLegs>& at,
                    const std::array<LegInertia, kMaxLegs>& legs, const Sides& sides, T* dz) const;
   void AddMomentum(const Vector2<T>& com, const T* z, Sides& sides) const;

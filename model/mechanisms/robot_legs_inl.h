@@ -218,8 +218,63 @@ struct Robot<T>::Sides {
   }
 };
 
-// Feet and motors are eliminated, each from its own row; then three equations are left, of the
-// reference point and the pitch. Gives what the sides do to the rates, in the places of dz.
+/// Rows of x, y, pitch and of the motors; the last column is the right side.
+template <class T>
+struct Robot<T>::Rows {
+  T a[3][4];
+  T motor[kMaxLegs][4], over[kMaxLegs];
+};
+
+// A leg's foot and motor are eliminated, each from its own row.
+template <class T>
+void Robot<T>::AddLegRows(int i, const LegPlace& at, const LegInertia& leg, const Sides& sides,
+                          Rows& rows) const {
+  const bool locked = robot_.control == MotorControl::kLocked;
+  const T zero(0.0);
+  const Hip& p = at.hip;
+  const LegMatrix<T>& k = leg.mass;
+  // Of the hip along and up and the base; the last column is the right side.
+  T e[3][4] = {{k.xx, k.xy, k.xb, zero}, {k.xy, k.yy, k.yb, zero}, {k.xb, k.yb, k.bb, zero}};
+  if (leg.foot) {
+    const LegMotion<T>& row = leg.row;
+    const T of = 1.0 / row[3];
+    const T share[3] = {k.xf * of, k.yf * of, k.bf * of};
+    for (int j = 0; j < 3; ++j) {
+      for (int l = 0; l < 3; ++l) e[j][l] -= share[j] * row[l];
+      e[j][3] = -share[j] * sides.foot[i];
+    }
+  }
+  const T own = locked ? T(1.0) : T(1.0 / (robot_.rotor_inertia + e[2][2]));
+  rows.over[i] = own;
+  // The pitch moves hip and base.
+  for (int j = 0; j < 3; ++j) {
+    const T base = e[j][2];
+    e[j][2] += p.x * e[j][1] - p.y * e[j][0];
+    const T share = locked ? zero : T(base * own);
+    if (j < 2) {
+      for (int l = 0; l < 4; ++l) rows.a[j][l] += e[j][l];
+      for (int l = 0; l < 4; ++l) rows.a[2][l] += (j == 0 ? T(-p.y) : p.x) * e[j][l];
+    } else {
+      for (int l = 0; l < 4; ++l) rows.a[2][l] += e[2][l];
+    }
+    rows.motor[i][j] = share;
+  }
+  if (locked) return;
+  // The motor's row, and what it takes from the others.
+  const T turn = p.x * rows.motor[i][1] - p.y * rows.motor[i][0] + rows.motor[i][2];
+  const T right = e[2][3] + sides.motor[i];
+  const T share_x = rows.motor[i][0], share_y = rows.motor[i][1];
+  const T row[4] = {e[2][0], e[2][1], e[2][2], right};
+  for (int l = 0; l < 4; ++l) {
+    rows.a[0][l] -= share_x * row[l];
+    rows.a[1][l] -= share_y * row[l];
+    rows.a[2][l] -= turn * row[l];
+    rows.motor[i][l] = row[l];
+  }
+}
+
+// Three equations are left, of the reference point and the pitch. Gives what the sides do to the
+// rates, in the places of dz.
 template <class T>
 void Robot<T>::SolveMotion(const Vector2<T>& com, const std::array<LegPlace, kMaxLegs>& at,
                            const std::array<LegInertia, kMaxLegs>& legs, const Sides& sides,
@@ -227,71 +282,31 @@ void Robot<T>::SolveMotion(const Vector2<T>& com, const std::array<LegPlace, kMa
   const bool locked = robot_.control == MotorControl::kLocked;
   const T& m = p_.m;
   const T zero(0.0);
-  // Rows of x, y, pitch; the last column is the right side.
-  T a[3][4] = {{m, zero, -m * com.y, sides.x},
-               {zero, m, m * com.x, sides.y},
-               {-m * com.y, m * com.x, robot_.pitch_inertia + m * (com.x * com.x + com.y * com.y),
-                sides.pitch}};
-  T motor[kMaxLegs][4], over[kMaxLegs];  // rows of the motors
-  for (int i = 0; i < legs_; ++i) {
-    const Hip& p = at[i].hip;
-    const LegMatrix<T>& k = legs[i].mass;
-    // Of the hip along and up and the base; the last column is the right side.
-    T e[3][4] = {{k.xx, k.xy, k.xb, zero}, {k.xy, k.yy, k.yb, zero}, {k.xb, k.yb, k.bb, zero}};
-    if (legs[i].foot) {
-      const LegMotion<T>& row = legs[i].row;
-      const T of = 1.0 / row[3];
-      const T share[3] = {k.xf * of, k.yf * of, k.bf * of};
-      for (int j = 0; j < 3; ++j) {
-        for (int l = 0; l < 3; ++l) e[j][l] -= share[j] * row[l];
-        e[j][3] = -share[j] * sides.foot[i];
-      }
-    }
-    const T own = locked ? T(1.0) : T(1.0 / (robot_.rotor_inertia + e[2][2]));
-    over[i] = own;
-    // The pitch moves hip and base.
-    for (int j = 0; j < 3; ++j) {
-      const T base = e[j][2];
-      e[j][2] += p.x * e[j][1] - p.y * e[j][0];
-      const T share = locked ? zero : T(base * own);
-      if (j < 2) {
-        for (int l = 0; l < 4; ++l) a[j][l] += e[j][l];
-        for (int l = 0; l < 4; ++l) a[2][l] += (j == 0 ? T(-p.y) : p.x) * e[j][l];
-      } else {
-        for (int l = 0; l < 4; ++l) a[2][l] += e[2][l];
-      }
-      motor[i][j] = share;
-    }
-    if (locked) continue;
-    // The motor's row, and what it takes from the others.
-    const T turn = p.x * motor[i][1] - p.y * motor[i][0] + motor[i][2];
-    const T right = e[2][3] + sides.motor[i];
-    const T share_x = motor[i][0], share_y = motor[i][1];
-    const T row[4] = {e[2][0], e[2][1], e[2][2], right};
-    for (int l = 0; l < 4; ++l) {
-      a[0][l] -= share_x * row[l];
-      a[1][l] -= share_y * row[l];
-      a[2][l] -= turn * row[l];
-      motor[i][l] = row[l];
-    }
-  }
+  Rows rows{{{m, zero, -m * com.y, sides.x},
+             {zero, m, m * com.x, sides.y},
+             {-m * com.y, m * com.x, robot_.pitch_inertia + m * (com.x * com.x + com.y * com.y),
+              sides.pitch}},
+            {},
+            {}};
+  for (int i = 0; i < legs_; ++i) AddLegRows(i, at[i], legs[i], sides, rows);
   for (int j = 0; j < 2; ++j) {
-    const T of = 1.0 / a[j][j];
+    const T of = 1.0 / rows.a[j][j];
     for (int k = j + 1; k < 3; ++k) {
-      const T share = a[k][j] * of;
-      for (int l = j + 1; l < 4; ++l) a[k][l] -= share * a[j][l];
+      const T share = rows.a[k][j] * of;
+      for (int l = j + 1; l < 4; ++l) rows.a[k][l] -= share * rows.a[j][l];
     }
   }
-  const T spin = a[2][3] / a[2][2], ay = (a[1][3] - a[1][2] * spin) / a[1][1],
-          ax = (a[0][3] - a[0][1] * ay - a[0][2] * spin) / a[0][0];
+  const T spin = rows.a[2][3] / rows.a[2][2],
+          ay = (rows.a[1][3] - rows.a[1][2] * spin) / rows.a[1][1],
+          ax = (rows.a[0][3] - rows.a[0][1] * ay - rows.a[0][2] * spin) / rows.a[0][0];
   dz[kVx] = ax;
   dz[kVy] = ay;
   dz[Pitch() + 1] = spin;
   for (int i = 0; i < legs_; ++i) {
-    const T turn =
-        locked
-            ? zero
-            : T((motor[i][3] - motor[i][0] * ax - motor[i][1] * ay - motor[i][2] * spin) * over[i]);
+    const T turn = locked ? zero
+                          : T((rows.motor[i][3] - rows.motor[i][0] * ax - rows.motor[i][1] * ay -
+                               rows.motor[i][2] * spin) *
+                              rows.over[i]);
     dz[Rate(i)] = turn;
     if (!foot_has_inertia_) continue;
     const LegMotion<T>& row = legs[i].row;
