@@ -12,8 +12,6 @@ namespace {
 
 using namespace testing;
 
-constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx, Channel::kBodyVy};
-
 TEST(HipViscousFriction, AnswersToTheRateOfTheLegAngle) {
   for (Law law : kAllLaws) {
     if (law == Law::kBall) continue;
