@@ -4,20 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 
 #include "fitting/diagnosis/linearise_at.h"
+#include "fitting/diagnosis/pairs.h"
 #include "fitting/diagnosis/pool.h"
 #include "fitting/diagnosis/refits.h"
+#include "fitting/diagnosis/remainder.h"
 
 namespace hoplab {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Models settled at each step of the search.
-constexpr int kSingleWidth = 4, kForwardWidth = 3, kPairWidth = 6, kPairsSettled = 2;
+constexpr int kSingleWidth = 4, kForwardWidth = 3, kPairsSettled = 2;
 constexpr std::size_t kScoreWidth = 4;
 // Nats a further cause must promise by the linear model to be tried.
 constexpr double kWorthATry = 4.0;
@@ -49,7 +50,7 @@ class Search {
     }
     const CandidateSet single = refits_.Better({}, Singles(), kSingleWidth, BestScored());
     CandidateSet current = single;
-    current = refits_.Better(current, PairsFromNull(), kPairsSettled);
+    current = refits_.Better(current, Pairs(), kPairsSettled);
     if (!current.empty())
       current = refits_.Better(current, BeyondThresholds(single), kPairsSettled);
     while (!current.empty() && static_cast<int>(current.size()) < options_.max_effects &&
@@ -81,7 +82,6 @@ class Search {
  private:
   bool Stopped() const { return options_.stop && *options_.stop; }
 
-  bool IsLocal(int i) const { return !naming_.candidates[i].candidate.only_recording.empty(); }
   bool SameEffect(int i, int j) const {
     return naming_.candidates[i].candidate.effect == naming_.candidates[j].candidate.effect;
   }
@@ -199,49 +199,9 @@ class Search {
     return std::min(kLeastShare * std::max(misfit, 0.0), kLeastPerSample * null_at_.samples);
   }
 
-  // The pairs that promise most by the linear model at the null fit.
-  std::vector<CandidateSet> PairsFromNull() const {
+  std::vector<CandidateSet> Pairs() const {
     if (options_.max_effects < 2) return {};
-    const Eigen::MatrixXd gram = null_at_.columns.transpose() * null_at_.columns;
-    const Eigen::VectorXd b = -(null_at_.columns.transpose() * null_at_.r);
-    struct Pair {
-      double gain;
-      CandidateSet set;
-    };
-    std::vector<Pair> pairs;
-    std::vector<int> first;
-    int columns = 0;
-    for (const CandidateResult& c : naming_.candidates) {
-      first.push_back(columns);
-      if (c.candidate.only_recording.empty()) columns += c.candidate.parameter_count();
-    }
-    const int globals = static_cast<int>(naming_.candidates.size());
-    for (int i = 0; i < globals; ++i) {
-      for (int j = i + 1; j < globals; ++j) {
-        const CandidateResult &ci = naming_.candidates[i], &cj = naming_.candidates[j];
-        if (!ci.separable || !cj.separable || IsLocal(i) || IsLocal(j)) continue;
-        if (ci.candidate.parameter_count() + cj.candidate.parameter_count() > 2) continue;
-        const double a = gram(first[i], first[i]), d = gram(first[j], first[j]);
-        const double off = gram(first[i], first[j]), det = a * d - off * off;
-        if (!(det > 1e-6 * a * d)) continue;
-        const double x = (d * b[first[i]] - off * b[first[j]]) / det;
-        const double y = (a * b[first[j]] - off * b[first[i]]) / det;
-        if (!Allowed(ci, x) || !Allowed(cj, y)) continue;
-        pairs.push_back({0.5 * (x * b[first[i]] + y * b[first[j]]), {i, j}});
-      }
-    }
-    std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const Pair& p, const Pair& q) { return p.gain > q.gain; });
-    std::vector<CandidateSet> sets;
-    for (const Pair& p : pairs) {
-      if (static_cast<int>(sets.size()) >= kPairWidth || p.gain < 3.0 * kWorthATry) break;
-      sets.push_back(p.set);
-    }
-    return sets;
-  }
-  static bool Allowed(const CandidateResult& c, double size) {
-    const EffectParameter& p = c.candidate.Parameter(0);
-    return size > 0.0 ? p.upper > p.null : p.lower < p.null;
+    return PairsFromNull(naming_.candidates, null_at_, 3.0 * kWorthATry);
   }
 
   // Backward elimination and swaps, until neither helps.
@@ -338,7 +298,7 @@ class Search {
   }
 
   void Judge(const CandidateSet& model) {
-    const Remainder left = LeftBeside(model);
+    const Remainder left = LeftBeside(naming_, refits_.At(model), model, train_, options_.jobs);
     std::set<int> doubtful, members(model.begin(), model.end());
     for (const std::vector<int>& group : naming_.groups) {
       if (group.size() > 1) doubtful.insert(group.begin(), group.end());
@@ -360,44 +320,6 @@ class Search {
     }
   }
 
-  // The accepted model linearised, with the columns of what is not in it.
-  struct Remainder {
-    Linearisation at;
-    std::vector<Hypothesis> hypotheses;
-    std::map<int, std::size_t> places;  // of candidates among them
-  };
-  Remainder LeftBeside(const CandidateSet& model) const {
-    Remainder left;
-    std::vector<Candidate> tested;
-    for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
-      const CandidateResult& c = naming_.candidates[static_cast<std::size_t>(i)];
-      if (!c.separable || std::find(model.begin(), model.end(), i) != model.end()) continue;
-      left.places[i] = tested.size();
-      tested.push_back(c.candidate);
-    }
-    left.at = LineariseAt(refits_.At(model), tested, train_, options_.jobs);
-    left.hypotheses = HypothesesOf(tested);
-    return left;
-  }
-  // What is left of a candidate once the accepted effects are in.
-  static void Bound(const Remainder& left, int candidate, CandidateResult& c) {
-    const Linearisation& at = left.at;
-    const Hypothesis& hypothesis = left.hypotheses[left.places.at(candidate)];
-    const Score score = ScoreOf(at, hypothesis);
-    for (int k = 0; k < hypothesis.count; ++k) {
-      // Of several parameters each is bounded with the others free.
-      const int column = hypothesis.first + k;
-      Eigen::VectorXd s = at.columns.col(column);
-      for (int other = hypothesis.first; other < hypothesis.first + hypothesis.count; ++other) {
-        const auto o = at.columns.col(other);
-        if (other != column && Information(at, other) > 0.0) s -= o * (o.dot(s) / o.squaredNorm());
-      }
-      const double V = s.squaredNorm();
-      if (Information(at, column) > 0.0 && V > kInseparable * at.length[column] * at.length[column])
-        c.bound95[k] = std::abs(score.size[k]) + 1.96 / std::sqrt(V);
-    }
-  }
-
   const Extension& null_;  // settled
   const Linearisation& null_at_;
   const std::vector<TrialProblem>& train_;
@@ -407,27 +329,6 @@ class Search {
 };
 
 }  // namespace
-
-std::string_view NameOf(CandidateStatus status) {
-  switch (status) {
-    case CandidateStatus::kSupported:
-      return "supported";
-    case CandidateStatus::kIndistinguishable:
-      return "indistinguishable";
-    case CandidateStatus::kExcluded:
-      return "excluded";
-    case CandidateStatus::kNotNeeded:
-      return "not_needed";
-    case CandidateStatus::kNotTested:
-      return "not_tested";
-  }
-  return "";
-}
-
-std::size_t Naming::MemberOf(int candidate) const {
-  return static_cast<std::size_t>(std::find(best_set.begin(), best_set.end(), candidate) -
-                                  best_set.begin());
-}
 
 Naming NameCauses(const NullFits& null, std::span<const Candidate> candidates,
                   const Linearisation& null_at, const std::vector<TrialProblem>& train,

@@ -293,7 +293,7 @@ TEST_F(Adding, AChannelIsTheSpeedAndIsGeneratedCheckedAndFitted) {
         << line;
   }
   EXPECT_GT(rows, 100);
-  EXPECT_NE(printed[2].find("body_speed_m_per_s"), std::string::npos) << printed[2];
+  EXPECT_NE(printed[2].find("body_speed    0.0100 m/s"), std::string::npos) << printed[2];
   const auto fit = nlohmann::json::parse(ReadText(tree() / "runs/with-speed/run.json"));
   EXPECT_EQ(fit.at("channels").size(), 3u) << fit.at("channels");
   const double chi2 = fit.at("chi2_per_dof");
