@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "model/effects/effect.h"
+#include "model/hybrid/engine_steps_inl.h"
 #include "model/hybrid/flat_state.h"
 #include "model/inputs.h"
 
@@ -44,7 +45,6 @@ Engine<T>::Engine(const Automaton<T>& automaton, const IntegratorOptions& option
       break;
   }
 }
-
 template <class T>
 void Engine<T>::Derivative(const void* engine, double t, const double* y, double* dy) {
   const Engine& self = *static_cast<const Engine*>(engine);
@@ -56,7 +56,6 @@ void Engine<T>::Derivative(const void* engine, double t, const double* y, double
     Pack(self.rate_, self.states_, dy);
   }
 }
-
 template <class T>
 void Engine<T>::Run(Mode mode, const T* z0) {
   Copy(z0, z_);
@@ -84,7 +83,6 @@ void Engine<T>::Run(Mode mode, const T* z0) {
   watch_.Flow(mode_, t_, out_.final_state.data(), out_.final_rate.data());
   system_.TellFeet(out_.final_feet);
 }
-
 template <class T>
 Outcome Engine<T>::Loop() {
   segment_begin_ = t_;
@@ -120,7 +118,6 @@ Outcome Engine<T>::Loop() {
   }
   return Outcome::kEventLimit;
 }
-
 // Passes what is due at t_ of what drives the mechanism: the flow before and after it meets at the
 // knot's own instant, which may move with the parameters (M17 of a reset that changes nothing). A
 // guard that a jump closes fires there.
@@ -151,7 +148,6 @@ GuardCrossing Engine<T>::PassKnots() {
     if (before.value[i] > kAtZero && after.value[i] < -kAtZero) return {i, t_};
   return {-1, t_};
 }
-
 // A guard that is at zero and coming down where its mode begins fires at once. An outcome where the
 // run ends instead. `begins`: the run does. A leg that would pull where it begins in stance lifts
 // off.
@@ -178,13 +174,11 @@ std::optional<Outcome> Engine<T>::FireAtOnce(const GuardRates& at_start, bool be
   }
   return std::nullopt;
 }
-
 // A section at the very place where the flow changed has not been passed before it.
 template <class T>
 bool Engine<T>::IsMissedSection() const {
   return flow_changed_ && !(t_ - section_time_ < kSimultaneous);
 }
-
 // Runs to the next crossing (or the horizon: no guard). False: the solver gave up.
 template <class T>
 bool Engine<T>::Advance(const GuardRates& at_start, GuardCrossing& crossing) {
@@ -192,7 +186,6 @@ bool Engine<T>::Advance(const GuardRates& at_start, GuardCrossing& crossing) {
   crossing = FlyBallistic();
   return true;
 }
-
 // M16 in duals; the value part is the last correction of the event time, below rounding.
 // `with_last_event`: the guard was closed by the last event, so that this one happens when that one
 // does.
@@ -205,7 +198,6 @@ T Engine<T>::EventTimeShift(int guard, double rate, double scale, bool with_last
   if (std::abs(Value(shift)) > kSimultaneous) shift = shift - Value(shift);
   return shift;
 }
-
 // The state at a crossing is in z_ at time t_ (both as values with the solver's accuracy).
 // Applies M16, the reset, M17; records the event.
 template <class T>
@@ -273,7 +265,6 @@ std::optional<Outcome> Engine<T>::Process(int guard, bool with_last_event) {
   CountHop(traits, result.is_hop);
   return result.end;
 }
-
 template <class T>
 bool Engine<T>::IsSimultaneous(int guard, const GuardRates& at) const {
   const int guards = system_.GuardCount(mode_);
@@ -287,7 +278,6 @@ bool Engine<T>::IsSimultaneous(int guard, const GuardRates& at) const {
   }
   return false;
 }
-
 template <class T>
 void Engine<T>::CountHop(const EventTraits& traits, bool is_hop) {
   if (traits.begins_hop) hopped_ = true;
@@ -296,115 +286,11 @@ void Engine<T>::CountHop(const EventTraits& traits, bool is_hop) {
     hopped_ = false;
   }
 }
-
 template <class T>
 void Engine<T>::FinishSegment() {
   if (t_ > segment_begin_ || out_.segments.empty())
     out_.segments.push_back({mode_, segment_begin_, t_});
 }
-
-// ---- flight in closed form ---------------------------------------------------------------
-
-template <class T>
-GuardCrossing Engine<T>::FlyBallistic() {
-  const BallisticFlight<T> flight = system_.Ballistic(z_);
-  const GuardCrossing crossing = flight.Next(t_, settings_.horizon, z_);
-  rows_.OnFlight(flight, mode_, t_, z_, crossing.time);
-  flight.Advance(T(crossing.time - t_), z_);
-  t_ = crossing.time;
-  return crossing;
-}
-
-// ---- modes that need a solver ------------------------------------------------------------
-
-template <class T>
-bool Engine<T>::Integrate(GuardRates before, GuardCrossing& crossing) {
-  const bool flight = mode_ == Mode::kFlight;
-  ArmedGuards armed = watch_.Arm(mode_, before);
-  const double knot = system_.NextKnot(mode_), end = std::min(settings_.horizon, knot);
-  const double remaining = end - t_;
-  if (remaining <= 0.0) return true;
-  double y[kMaxFlatSize];
-  Pack(z_, states_, y);
-  double first = system_.FirstStep(mode_, z_);
-  // A leg's stances resemble each other: begin with the step the last one began with.
-  if (!flight && stance_step_ > 0.0) first = stance_step_;
-  stepper_->Start(t_, y, std::min(first, remaining));
-  bool first_step = true;
-  const double longest = LongestStep();
-  while (true) {
-    double limit = std::min(end, stepper_->t1() + longest);
-    if (!stepper_->reads_inside_step()) limit = rows_.NextTime(stepper_->t1(), limit);
-    if (out_.steps >= max_steps_ || stepper_->Step(limit) == StepStatus::kFailed) {
-      TakeStepperState();
-      return false;
-    }
-    ++out_.steps;
-    // A step that a knot cuts short says nothing of the next stance's.
-    if (first_step && !flight && stepper_->t1() < knot)
-      stance_step_ = stepper_->t1() - stepper_->t0();
-    first_step = false;
-    const GuardRates after =
-        watch_.RatesAt(mode_, stepper_->t1(), stepper_->y1(), stepper_->rate1());
-    crossing = watch_.FirstCrossing(mode_, *stepper_, before, after, armed, out_.nearest_miss);
-    if (crossing.guard >= 0 && !watch_.Polish(mode_, *stepper_, crossing)) {
-      TakeStepperState();
-      return false;
-    }
-    EmitInsideStep(crossing.guard >= 0 ? crossing.time : stepper_->t1());
-    const bool done = crossing.guard >= 0 || stepper_->t1() >= end;
-    if (done) TakeStepperState();
-    if (crossing.guard >= 0 || !done)
-      out_.max_flexure = std::max(out_.max_flexure, watch_.DeflectionRatio(mode_, stepper_->y1()));
-    if (done) return true;
-    before = after;
-  }
-}
-
-template <class T>
-double Engine<T>::LongestStep() const {
-  if (explicit_ && kWidth > 0) return system_.LongestStep(mode_, T(t_), z_);
-  return std::numeric_limits<double>::infinity();
-}
-
-template <class T>
-void Engine<T>::TakeStepperState() {
-  Unpack(stepper_->y1(), states_, z_);
-  t_ = stepper_->t1();
-}
-
-template <class T>
-void Engine<T>::EmitInsideStep(double until) {
-  rows_.Through(mode_, until, [this](double t, T* z) {
-    double y[kMaxFlatSize];
-    if (t == stepper_->t1()) return Unpack(stepper_->y1(), states_, z);
-    stepper_->At(t, y);
-    Unpack(y, states_, z);
-  });
-}
-
-// Rows read before the start (a delay): the body is on the backward continuation of its flight.
-template <class T>
-void Engine<T>::RowsBeforeStart() {
-  const int before = rows_.BeforeStart();
-  if (before == 0) return;
-  if (system_.IsBallistic(mode_))
-    return rows_.OnFlight(system_.Ballistic(z_), mode_, 0.0, z_, Value(rows_.TimeOf(before - 1)));
-  double y[kMaxFlatSize];
-  T z[kMaxStates];
-  Pack(z_, states_, y);
-  stepper_->Start(0.0, y, -1e-3);
-  for (int row = before - 1; row >= 0; --row) {
-    const T time = rows_.TimeOf(row);
-    while (stepper_->t1() > Value(time)) {
-      if (stepper_->Step(Value(time)) == StepStatus::kFailed) break;
-    }
-    Unpack(stepper_->y1(), states_, z);
-    rows_.Emit(row, mode_, time, z);
-  }
-  rows_.Reset(before);
-}
-
 template class Engine<double>;
 template class Engine<Jet<1>>;
 template class Engine<Jet<kNarrowJet>>;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "model/mechanisms/legged_body_inl.h"
+#include "model/mechanisms/toe_mass_events_inl.h"
 
 namespace hoplab {
 
@@ -26,7 +27,6 @@ ToeMassBody<T>::ToeMassBody(const MechanismSetup<T>& setup)
   const T upright[] = {T(0.0), T(1.0), T(0.0), T(0.0), T(0.0)};
   length_ = swing_->RestChord(swing_->Load(Mode::kToe, upright));
 }
-
 template <class T>
 void ToeMassBody<T>::SaveDiscreteState(DiscreteState& to) const {
   body_.SaveDiscreteState(to);
@@ -41,13 +41,11 @@ void ToeMassBody<T>::LoadDiscreteState(DiscreteState& from) {
   flight_ = static_cast<Flight>(static_cast<int>(from.Take()));
   may_pull_ = from.Take() != 0.0;
 }
-
 template <class T>
 Mode ToeMassBody<T>::Begin(Mode mode, T* z) {
   Seat(mode, T(0.0), z);
   return mode;
 }
-
 template <class T>
 template <class Act>
 void ToeMassBody<T>::WithMotionsAt(Mode mode, const T& t, const T* z, const Act& act) const {
@@ -61,12 +59,10 @@ void ToeMassBody<T>::Seat(Mode mode, const T& t, const T* z) {
   if (body_.corner_count() == 0) return;
   WithMotionsAt(mode, t, z, [&](const Motions<T>& m) { body_.SeatCorners(m); });
 }
-
 template <class T>
 void ToeMassBody<T>::StartSearch(Mode mode, const double* z) {
   if (mode != Mode::kFlight) body_.StartSearch(mode, z);
 }
-
 template <class T>
 void ToeMassBody<T>::CompleteStart(T* z, int given) const {
   if (given >= kToeStateSize) return;
@@ -78,7 +74,6 @@ void ToeMassBody<T>::CompleteStart(T* z, int given) const {
   z[kToeVx] = z[kVx];
   z[kToeVy] = z[kVy];
 }
-
 template <class T>
 void ToeMassBody<T>::Derivative(Mode mode, const T& t, const T* z, T* dz) const {
   if (mode != Mode::kFlight) {
@@ -103,117 +98,10 @@ void ToeMassBody<T>::Derivative(Mode mode, const T& t, const T* z, T* dz) const 
   dz[kToeVx] = gravity_x_ - s.force.x / p_.m_toe;
   dz[kToeVy] = gravity_y_ - s.force.y / p_.m_toe;
 }
-
-// Guards in flight: touch-down (not while the hip rises after a lift-off), apex (not once it was
-// passed), fall by height, fall by angle; the ground alone where the hip falls below touch-down
-// height, the leg not placed. In stance those of the massless leg.
-template <class T>
-int ToeMassBody<T>::GuardCount(Mode mode) const {
-  if (mode != Mode::kFlight) return body_.GuardCount(mode);
-  return FlightGuardCount() + body_.corner_count();
-}
-template <class T>
-int ToeMassBody<T>::FlightGuardCount() const {
-  return std::array{4, 2, 3, 1}[static_cast<std::size_t>(flight_)];
-}
-
-template <class T>
-GuardSpec ToeMassBody<T>::Guard(Mode mode, int i) const {
-  if (mode != Mode::kFlight) {
-    GuardSpec spec = body_.Guard(mode, i);
-    if (spec.event != EventKind::kLiftoff) return spec;
-    spec.scale = Value(p_.m) * std::max(Value(p_.g), 1.0);
-    spec.if_closed = may_pull_ ? std::nullopt : std::optional(Outcome::kNoSupport);
-    return spec;
-  }
-  if (i >= FlightGuardCount()) return body_.CornerSpec(i - FlightGuardCount());
-  const double length = body_.leg().Size();
-  switch (FlightEvent(i)) {
-    case EventKind::kTouchdown:
-      return {EventKind::kTouchdown, length};
-    case EventKind::kApex:
-      return {EventKind::kApex, 1.0};
-    case EventKind::kFallHeight:
-      return {EventKind::kFallHeight, length, Outcome::kFellHeight};
-    default:
-      return {EventKind::kFallAngle, 1.0, Outcome::kFellAngle};
-  }
-}
-
-template <class T>
-void ToeMassBody<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
-  if (mode != Mode::kFlight) {
-    const LegLoad<T> load = body_.Load(mode, t, z);
-    g[0] = LiftoffGuard(load, t);
-    body_.StanceGuards(mode, load, t, z, g);
-    return;
-  }
-  using std::cos;
-  const int count = FlightGuardCount();
-  for (int i = 0; i < count; ++i) {
-    switch (FlightEvent(i)) {
-      case EventKind::kTouchdown:
-        g[i] = z[kY] - ReachDown(z);
-        break;
-      case EventKind::kApex:
-        g[i] = z[kVy];
-        break;
-      case EventKind::kFallHeight:
-        g[i] = z[kY] - body_.lowest_hip();
-        break;
-      default:
-        g[i] = cos(body_.leg().ChordAngle(LegAngle(z))) - kFallCosine;
-    }
-  }
-  if (body_.corner_count() > 0)
-    WithMotionsAt(mode, t, z, [&](const Motions<T>& m) { body_.CornerGuards(m, g + count); });
-}
-
-template <class T>
-ResetResult ToeMassBody<T>::Reset(Mode mode, int i, const T& t, T* z) {
-  const EventKind event = Guard(mode, i).event;
-  if (event == EventKind::kCorner) {
-    const int own = OwnGuardCount(mode);
-    WithMotionsAt(mode, t, z, [&](const Motions<T>& m) { body_.CrossCorner(i - own, m); });
-    return {mode};
-  }
-  const ResetResult result = ResetOwn(mode, i, t, z);
-  if (!TraitsOf(event).is_section && !result.end) Seat(result.next, t, z);
-  return result;
-}
-
-template <class T>
-ResetResult ToeMassBody<T>::ResetOwn(Mode mode, int i, const T& t, T* z) {
-  switch (Guard(mode, i).event) {
-    case EventKind::kTouchdown:
-      return TouchDown(t, z);
-    case EventKind::kLiftoff:
-      return LiftOff(mode, t, z);
-    case EventKind::kApex:
-      if (flight_ == Flight::kRising) flight_ = Flight::kFalling;
-      if (IsTooLow(z)) {
-        flight_ = Flight::kLost;
-        return {.next = mode, .is_hop = false};
-      }
-      return {mode};
-    case EventKind::kFallHeight:
-      return {mode, mode == Mode::kFlight && flight_ == Flight::kLost ? Outcome::kFellNoReturn
-                                                                      : Outcome::kFellHeight};
-    case EventKind::kFallAngle:
-      return {mode, Outcome::kFellAngle};
-    default: {
-      const ResetResult result = body_.Reset(mode, i, t, z);
-      if (result.next != mode) may_pull_ = false;
-      return result;
-    }
-  }
-}
-
 template <class T>
 bool ToeMassBody<T>::IsBallistic(Mode mode) const {
   return mode == Mode::kFlight && flight_ == Flight::kFirst && falls_freely_;
 }
-
 template <class T>
 BallisticFlight<T> ToeMassBody<T>::Ballistic(const T* z) const {
   return {.ax = gravity_x_,
@@ -221,7 +109,6 @@ BallisticFlight<T> ToeMassBody<T>::Ballistic(const T* z) const {
           .contact_height = body_.TouchdownHeight(z),
           .is_pair = true};
 }
-
 template <class T>
 double ToeMassBody<T>::FirstStep(Mode mode, const T* z) const {
   if (mode != Mode::kFlight) return body_.FirstStep(mode, z);
@@ -231,7 +118,6 @@ double ToeMassBody<T>::FirstStep(Mode mode, const T* z) const {
   if (Value(p_.d) > 0.0) step = std::min(step, 0.1 * toe / Value(p_.d));
   return step;
 }
-
 template <class T>
 double ToeMassBody<T>::LongestStep(Mode mode, const T& t, const T* z) const {
   if (mode != Mode::kFlight || flight_ != Flight::kFirst)
@@ -251,7 +137,6 @@ double ToeMassBody<T>::LongestStep(Mode mode, const T& t, const T* z) const {
   }
   return 1.0 / rate;
 }
-
 template <class T>
 Observation<T> ToeMassBody<T>::Observe(Mode mode, const T& t, const T* z) const {
   if (mode != Mode::kFlight) {
@@ -273,7 +158,6 @@ Observation<T> ToeMassBody<T>::Observe(Mode mode, const T& t, const T* z) const 
   seen[Channel::kContact] = T(0.0);
   return seen;
 }
-
 template <class T>
 T ToeMassBody<T>::Energy(Mode mode, const T* z) const {
   if (mode != Mode::kFlight) {
@@ -287,7 +171,6 @@ T ToeMassBody<T>::Energy(Mode mode, const T* z) const {
   return body_.inertia().Energy(z) + strain +
          p_.m_toe * (moving - gravity_x_ * z[kToeX] - gravity_y_ * z[kToeY]);
 }
-
 // The leg off the ground: nothing to sink into, to creep on or to bend it by a torque of stance.
 template <class T>
 Parameters<T> ToeMassBody<T>::InTheAir(Parameters<T> p) {
@@ -295,17 +178,6 @@ Parameters<T> ToeMassBody<T>::InTheAir(Parameters<T> p) {
   p.law_terms.torque_active = false;
   return p;
 }
-
-template <class T>
-EventKind ToeMassBody<T>::FlightEvent(int i) const {
-  using enum EventKind;
-  static constexpr EventKind kEvents[4][4] = {{kTouchdown, kApex, kFallHeight, kFallAngle},
-                                              {kApex, kFallAngle, kSwitch, kSwitch},
-                                              {kTouchdown, kFallHeight, kFallAngle, kSwitch},
-                                              {kFallHeight, kSwitch, kSwitch, kSwitch}};
-  return kEvents[static_cast<int>(flight_)][i];
-}
-
 template <class T>
 typename ToeMassBody<T>::HipOverToe ToeMassBody<T>::Relative(const T* z) const {
   HipOverToe hip = {T(0.0), z[kY] - z[kToeY], z[kVx] - z[kToeVx], z[kVy] - z[kToeVy],
@@ -313,7 +185,6 @@ typename ToeMassBody<T>::HipOverToe ToeMassBody<T>::Relative(const T* z) const {
   if (flight_ == Flight::kFirst) TakeRoundingOut(z, hip);
   return hip;
 }
-
 // A leg still relaxed to rounding is taken to be so: a sensitivity that is zero but for rounding
 // would otherwise be noise, which no step can follow.
 template <class T>
@@ -327,19 +198,16 @@ void ToeMassBody<T>::TakeRoundingOut(const T* z, HipOverToe& hip) const {
   }
   for (int i = 0; i < kLegStateSize; ++i) hip[i] = Chain(hip[i], rest[i], 1.0);
 }
-
 template <class T>
 LegLoad<T> ToeMassBody<T>::SwingLoad(const T& t, const HipOverToe& hip) const {
   if (extended_) return swing_->extended().Load(Mode::kToe, hip.data(), {t, T(0.0)});
   return swing_->Load(Mode::kToe, hip.data());
 }
-
 template <class T>
 T ToeMassBody<T>::LegAngle(const T* z) {
   using std::atan2;
   return atan2(z[kToeX] - z[kX], z[kY] - z[kToeY]);
 }
-
 template <class T>
 typename ToeMassBody<T>::Swing ToeMassBody<T>::SwingAt(const T& t, const T* z) const {
   using std::atan2;
@@ -357,7 +225,6 @@ typename ToeMassBody<T>::Swing ToeMassBody<T>::SwingAt(const T& t, const T* z) c
   s.force = {normal * load.y - chord * load.u, chord * load.y + normal * load.u};
   return s;
 }
-
 // How far below the hip the leg reaches at its angle and length [m]; M43.
 template <class T>
 T ToeMassBody<T>::ReachDown(const T* z) const {
@@ -365,44 +232,6 @@ T ToeMassBody<T>::ReachDown(const T* z) const {
   const T rest = body_.leg().TouchdownHeight(LegAngle(z));
   return body_.effects().ContactHeight(rest * load.l / length_);
 }
-
-// M45: the chord lifts the toe's weight.
-template <class T>
-T ToeMassBody<T>::LiftoffGuard(const LegLoad<T>& load, const T& t) const {
-  return body_.ChordForce(load, t) * load.y / load.l - p_.m_toe * gravity_y_;
-}
-
-// M44: the toe's velocity is lost, the contact is where the leg touches.
-template <class T>
-ResetResult ToeMassBody<T>::TouchDown(const T& t, T* z) {
-  using std::sin;
-  const T theta = LegAngle(z);
-  const LegLoad<T> load = SwingLoad(t, z);
-  const auto& leg = body_.leg();
-  const T stretch = load.l / length_ - 1.0;
-  const T ahead = stretch * leg.ShownLength(theta) * sin(leg.ChordAngle(theta));
-  const ResetResult landed = body_.Land(theta, t, z, ahead);
-  for (int i = kToeY; i < kToeStateSize; ++i) z[i] = T(0.0);
-  may_pull_ = true;
-  const LegLoad<T> now = body_.Load(landed.next, t, z);
-  if (Value(LiftoffGuard(now, t)) <= 0.0 && Value(now.damping_rate) >= 0.0)
-    return {landed.next, Outcome::kNoSupport};
-  return landed;
-}
-
-// M46: the toe leaves at rest from where it was held.
-template <class T>
-ResetResult ToeMassBody<T>::LiftOff(Mode mode, const T& t, T* z) {
-  const Vector2<T> toe = HeldToe(mode, t, z);
-  if (body_.effects().HasLiftoffVelocity()) body_.ApplyLiftoff(body_.Load(mode, t, z), z);
-  z[kToeX] = toe.x;
-  z[kToeY] = toe.y;
-  z[kToeVx] = z[kToeVy] = T(0.0);
-  flight_ = Value(z[kVy]) > 0.0 ? Flight::kRising : IsTooLow(z) ? Flight::kLost : Flight::kFalling;
-  swing_->StartSearch(Mode::kToe, nullptr);
-  return {Mode::kFlight};
-}
-
 // Where the toe is in stance: on the ground, or while rolling the tip of a half circle that
 // stands on the contact.
 template <class T>
@@ -411,7 +240,6 @@ Vector2<T> ToeMassBody<T>::HeldToe(Mode mode, const T& t, const T* z) const {
   if (mode != Mode::kRolling) return {z[kX] + load.u, T(0.0)};
   return {z[kX] + 2.0 * load.u, load.u * load.u / z[kY]};
 }
-
 template class ToeMassBody<double>;
 template class ToeMassBody<Jet<1>>;
 template class ToeMassBody<Jet<kNarrowJet>>;
