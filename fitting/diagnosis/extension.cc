@@ -67,7 +67,7 @@ std::vector<OwnValues> NominalStarts(const std::vector<TrialProblem>& trials) {
 struct Glance {
   std::vector<TrialProblem> trials;
   std::vector<OwnValues> starts;
-  bool of_hops = false;  // whose starts are held as read
+  bool of_hops = false;
 };
 Glance GlanceAt(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                 const std::vector<OwnValues>& starts) {
@@ -182,7 +182,6 @@ void RefitBeyondThresholds(Extension& model, const Extension& base, const RefitS
   const Glance glance = GlanceAt(model.problem, *settings.train, base.starts);
   request.trials = &glance.trials;
   request.starts = glance.starts;
-  request.hold_starts = glance.of_hops;
   request.max_iterations = kLook;
   request.shared = others;
   const SolveResult without = Solve(request);
