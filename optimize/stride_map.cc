@@ -91,9 +91,9 @@ Hop StrideMap::Read(std::span<const SensitivityDirection> parameters) const {
   for (const Event& event : run_.events)
     if (event.kind != EventKind::kApex) hop.events.push_back({event.kind, event.leg});
   // A heavy foot that slides has a speed that the section does not hold (M92).
-  const bool holds_all = RobotOf(hopper()).leg_mass == 0.0 ||
-                         std::all_of(feet_.begin(), feet_.end(),
-                                     [](const Foot& foot) { return foot.slides == 0; });
+  const bool holds_all =
+      RobotOf(hopper()).leg_mass == 0.0 ||
+      std::all_of(feet_.begin(), feet_.end(), [](const Foot& foot) { return foot.slides == 0; });
   hop.returned = run_.outcome == Outcome::kCompleted && run_.final_feet == feet_ && holds_all;
   if (!hop.ok()) return hop;
   const Eigen::Index n = static_cast<Eigen::Index>(run_.final_state.size()) - 1;
