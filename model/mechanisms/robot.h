@@ -103,35 +103,35 @@ class Robot final : public HybridSystem<T> {
   void MissJump(int leg, const T& jump, T* z) const;
   struct LegInertia;  // the mass of a leg in the way it is now
   struct Sides;       // forces or momenta of all motions
-  LegInertia InertiaOf(int leg, const LegPlace& at) const;
+  LegInertia InertiaOf(int i, const LegPlace& at) const;
   LegInertia RigidLeg(const LegPlace& at) const;
-  LegInertia StandingLeg(int leg, const LegPlace& at) const;
+  LegInertia StandingLeg(int i, const LegPlace& at) const;
   void LetFootMove(const LegPlace& at, double slides, LegInertia& leg) const;
   Vector2<T> BornBy(const LegPlace& at, const LegInertia& leg, const LegMotion<T>& u) const;
-  LegMotion<T> MotionUnder(int leg, const Hip& hip, const T* rates) const;
-  Vector2<T> GroundForce(const Frame& frame, int leg, const Push& push, const T* z,
+  LegMotion<T> MotionUnder(int i, const Hip& hip, const T* rates) const;
+  Vector2<T> GroundForce(const Frame& frame, int i, const Push& push, const T* z,
                          const T* dz) const;
-  void AddLegMomentum(int leg, const LegPlace& at, const LegInertia& inertia, const LegMotion<T>& u,
+  void AddLegMomentum(int i, const LegPlace& at, const LegInertia& leg, const LegMotion<T>& u,
                       Sides& sides) const;
   void GroundForces(const Frame& frame, const T& t, const T* z,
                     std::array<ClampedLoad<T>, kMaxLegs>& loads,
                     std::array<Vector2<T>, kMaxLegs>& ground) const;
-  void SlideOutsideCone(int leg, double went, const T& t, const T* z);
+  void SlideOutsideCone(int i, double went, const T& t, const T* z);
   void TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& told, const T& t, T* z);
   void AskCones(int except, const T& t, const T* z);
-  LegMotion<T> MotionOf(int leg, const Hip& hip, const T* z) const;
-  Vector2<T> PressOf(int leg, const LegPlace& at, const T* z) const;
-  LegMotion<T> LoadOf(int leg, const LegPlace& at, const LegInertia& inertia, const T* z) const;
+  LegMotion<T> MotionOf(int i, const Hip& hip, const T* z) const;
+  Vector2<T> PressOf(int i, const LegPlace& at, const T* z) const;
+  LegMotion<T> LoadOf(int i, const LegPlace& at, const LegInertia& leg, const T* z) const;
   struct Rows;  // the equations of motion as they are solved
-  void AddLegRows(int leg, const LegPlace& at, const LegInertia& inertia, const Sides& sides,
+  void AddLegRows(int i, const LegPlace& at, const LegInertia& leg, const Sides& sides,
                   Rows& rows) const;
   void SolveMotion(const Vector2<T>& com, const std::array<LegPlace, kMaxLegs>& at,
                    const std::array<LegInertia, kMaxLegs>& legs, const Sides& sides, T* dz) const;
   void AddMomentum(const Vector2<T>& com, const T* z, Sides& sides) const;
   void PutRates(const T* rates, T* z) const;
-  void Blow(int leg, T* z);
-  void SpringOff(int leg, T* z);
-  void ChangeStance(int leg, Stance to, T* z);
+  void Blow(int i, T* z);
+  void SpringOff(int i, T* z);
+  void ChangeStance(int i, Stance to, T* z);
   ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const;
   /// The same from the end of the clamp.
   ClampedPlace<T> PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const;
