@@ -10,7 +10,7 @@ namespace hoplab {
 const char* const kTouchdownAngleHint =
     "toe ahead positive: from the set-up or a still of the film";
 
-const std::vector<NeededValue>& NeededValues(MechanismType type) {
+const std::vector<NeededValue>& NeededValues(MechanismKind type) {
   static const std::vector<NeededValue> kCLeg = {
       {"body_mass_kg", "all that the leg carries, itself included: weigh it"},
       {"gravity_m_per_s2", "9.81, less under a counterweight"},
@@ -46,18 +46,17 @@ const std::vector<NeededValue>& NeededValues(MechanismType type) {
       {"leg.E_Pa", "of the strip, the start of the fit: a data sheet will do"},
       {"leg.material_damping_s", "the start of the fit: 0.0004 will do"},
   };
-  if (type == MechanismType::kRobot) return kRobot;
-  return type == MechanismType::kCLeg ? kCLeg : type == MechanismType::kBall ? kBall : kStraight;
+  if (type == MechanismKind::kRobot) return kRobot;
+  return type == MechanismKind::kCLeg ? kCLeg : type == MechanismKind::kBall ? kBall : kStraight;
 }
 
 namespace {
 
-std::optional<MechanismType> TypeOf(const YamlNode& mechanism) {
+std::optional<MechanismKind> TypeOf(const YamlNode& mechanism) {
   const YamlNode* type = mechanism.Find("type");
   if (type == nullptr) return std::nullopt;
-  for (const MechanismType t : {MechanismType::kCLeg, MechanismType::kStraightLeg,
-                                MechanismType::kBall, MechanismType::kRobot})
-    if (type->text == MechanismTypeName(t)) return t;
+  for (const MechanismKind t : kMechanisms)
+    if (type->text == NameOf(t)) return t;
   return std::nullopt;
 }
 
@@ -77,7 +76,7 @@ bool IsBlank(const YamlNode* node) {
 std::vector<BlankValue> FindBlankValues(const YamlNode& dataset) {
   std::vector<BlankValue> blanks;
   const YamlNode* mechanism = dataset.Find("mechanism");
-  const std::optional<MechanismType> type =
+  const std::optional<MechanismKind> type =
       mechanism == nullptr ? std::nullopt : TypeOf(*mechanism);
   if (!type) return blanks;
   for (const NeededValue& needed : NeededValues(*type)) {
@@ -85,7 +84,7 @@ std::vector<BlankValue> FindBlankValues(const YamlNode& dataset) {
     if (IsBlank(node)) blanks.push_back({node->place, "mechanism." + needed.key, needed.hint});
   }
   const YamlNode* trials = dataset.Find("trials");
-  if (trials == nullptr || *type == MechanismType::kBall || *type == MechanismType::kRobot)
+  if (trials == nullptr || *type == MechanismKind::kBall || *type == MechanismKind::kRobot)
     return blanks;
   for (std::size_t i = 0; i < trials->items.size(); ++i) {
     const YamlNode* angle = trials->items[i].Find("touchdown_angle_deg");

@@ -15,7 +15,7 @@ struct NeededValue {
 };
 
 /// The needed values of a mechanism, in the order of the format.
-const std::vector<NeededValue>& NeededValues(MechanismType type);
+const std::vector<NeededValue>& NeededValues(MechanismKind type);
 /// What `touchdown_angle_deg` of a trial is.
 extern const char* const kTouchdownAngleHint;
 

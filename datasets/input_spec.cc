@@ -5,28 +5,13 @@
 namespace hoplab {
 namespace {
 
-struct InputRow {
-  const char* name;
-  Range range;
-};
-
-const InputRow& Row(InputId id) {
-  static const std::array<InputRow, kAllInputs.size()> kRows = {{
-      {"hip_torque_N_m", Within(1e6, "N m")},
-      {"leg_angle_rad", Within(1e3, "rad")},
-      {"body_force_x_N", Within(1e6, "N")},
-      {"body_force_y_N", Within(1e6, "N")},
-  }};
-  return kRows[static_cast<std::size_t>(id)];
-}
-
 constexpr Range kDelay = Within(1, "s");
 constexpr Range kScale = Within(1e6, "");
 
-InputSpec ReadInput(InputId id, const YamlCursor& block) {
+InputSpec ReadInput(InputKind id, const YamlCursor& block) {
   InputSpec input;
   input.id = id;
-  input.column = InputName(id);
+  input.column = InfoOf(id).key;
   input.origin.place = block.place();
   // `hip_torque_N_m:` with nothing behind it is all defaults.
   if (block.node().kind == YamlNode::Kind::kNull) return input;
@@ -44,27 +29,12 @@ InputSpec ReadInput(InputId id, const YamlCursor& block) {
 
 }  // namespace
 
-const char* InputName(InputId id) { return Row(id).name; }
-Range InputRange(InputId id) { return Row(id).range; }
-
-std::vector<std::string> InputNames() {
-  std::vector<std::string> names;
-  for (const InputId id : kAllInputs) names.emplace_back(InputName(id));
-  return names;
-}
-
-std::optional<InputId> InputFromName(std::string_view name) {
-  for (const InputId id : kAllInputs)
-    if (name == InputName(id)) return id;
-  return std::nullopt;
-}
-
 std::vector<InputSpec> ReadInputs(const YamlCursor& cursor) {
   std::vector<InputSpec> inputs;
   for (const auto& [name, block] : cursor.Entries(0)) {
-    const std::optional<InputId> id = InputFromName(name);
+    const std::optional<InputKind> id = InputFromKey(name);
     if (!id) {
-      const KeyAdvice advice = UnknownKeyAdvice(name, InputNames());
+      const KeyAdvice advice = UnknownKeyAdvice(name, InputKeys());
       block.FailAtKey(
           advice.rule == "unknown key" ? "is nothing that can drive a simulation" : advice.rule,
           advice.remedy);
@@ -96,7 +66,7 @@ std::vector<ClockSpec> ReadClocks(const YamlCursor& cursor) {
   return clocks;
 }
 
-const InputSpec* FindInput(const std::vector<InputSpec>& inputs, InputId id) {
+const InputSpec* FindInput(const std::vector<InputSpec>& inputs, InputKind id) {
   for (const InputSpec& input : inputs)
     if (input.id == id) return &input;
   return nullptr;

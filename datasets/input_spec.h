@@ -1,33 +1,18 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "base/range.h"
+#include "base/input_kind.h"
 #include "datasets/origin.h"
 #include "datasets/yaml_cursor.h"
 
 namespace hoplab {
 
-/// What a logged column can drive in a simulation: the hip torque in place of the controller's, the
-/// leg angle commanded in flight, a force on the body in the world's axes.
-enum class InputId { kHipTorque, kLegAngle, kBodyForceX, kBodyForceY };
-inline constexpr std::array<InputId, 4> kAllInputs = {InputId::kHipTorque, InputId::kLegAngle,
-                                                      InputId::kBodyForceX, InputId::kBodyForceY};
-
-/// "hip_torque_N_m": the key of the file, and its column unless another one is named.
-const char* InputName(InputId id);
-/// What a sample may be, with its unit.
-Range InputRange(InputId id);
-std::vector<std::string> InputNames();
-std::optional<InputId> InputFromName(std::string_view name);
-
 /// A column that drives the simulation: scale u(t - delay), u the column.
 struct InputSpec {
-  InputId id = InputId::kHipTorque;
+  InputKind id = InputKind::kHipTorque;
   std::string column;  // of the trace
   bool held = false;   // between rows: held from the row before; else linear
   double delay_s = 0;
@@ -54,6 +39,6 @@ std::vector<InputSpec> ReadInputs(const YamlCursor& cursor);
 /// The block `clocks`: {motor: {offset_s: 0, sigma_s: 0.002, per: trial}}.
 std::vector<ClockSpec> ReadClocks(const YamlCursor& cursor);
 
-const InputSpec* FindInput(const std::vector<InputSpec>& inputs, InputId id);
+const InputSpec* FindInput(const std::vector<InputSpec>& inputs, InputKind id);
 
 }  // namespace hoplab

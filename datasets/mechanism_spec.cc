@@ -7,15 +7,15 @@ namespace hoplab {
 double TouchdownHeight(const MechanismSpec& mechanism, double touchdown_angle_rad) {
   const double cosine = std::cos(touchdown_angle_rad);
   switch (mechanism.type) {
-    case MechanismType::kCLeg: {
+    case MechanismKind::kCLeg: {
       const double radius = mechanism.c_leg.rest_radius_m;
       return touchdown_angle_rad > 0 ? radius * (1 + cosine) : 2 * radius * cosine;
     }
-    case MechanismType::kStraightLeg:
+    case MechanismKind::kStraightLeg:
       return mechanism.straight_leg.rest_length_m * cosine;
-    case MechanismType::kBall:
+    case MechanismKind::kBall:
       return mechanism.ball.radius_m;
-    case MechanismType::kRobot:
+    case MechanismKind::kRobot:
       break;  // each of its legs has its own
   }
   return std::nan("");

@@ -3,17 +3,13 @@
 #include <optional>
 #include <vector>
 
+#include "base/mechanism_kind.h"
 #include "base/thesis_variant.h"
 
 namespace hoplab {
 
 // What a dataset or a scenario says about the hopper, in SI units and radians. Plain values: the
 // simulator makes its own mechanism from them.
-
-enum class MechanismType { kCLeg, kStraightLeg, kBall, kRobot };
-
-/// When a leg leaves the ground: at zero chord force, or when it is back at its rest length.
-enum class LiftoffSpec { kZeroForce, kRestLength };
 
 /// Half-circular compliant leg.
 struct CLegSpec {
@@ -87,10 +83,10 @@ struct RobotSpec {
 /// One mechanism. Of `c_leg`, `straight_leg`, `ball` and `robot` only the one that `type` names
 /// means anything; the others keep their defaults.
 struct MechanismSpec {
-  MechanismType type = MechanismType::kCLeg;
+  MechanismKind type = MechanismKind::kCLeg;
   double body_mass_kg = 0;
   double gravity_m_per_s2 = 0;
-  LiftoffSpec liftoff = LiftoffSpec::kZeroForce;
+  LiftoffRule liftoff = LiftoffRule::kZeroForce;
   std::optional<double> fall_height_m;  // absent: the mechanism's own default
   std::optional<double> toe_mass_kg;    // absent: massless leg
   std::optional<PlacementSpec> placement;
@@ -103,10 +99,9 @@ struct MechanismSpec {
   bool operator==(const MechanismSpec&) const = default;
 };
 
-/// What the motors of a robot follow: an angle each, locked or held by its controller, or a clock.
+/// What the motors of a robot follow.
 struct MotorsSpec {
-  enum class Kind { kLocked, kHeld, kClock };
-  Kind kind = Kind::kHeld;
+  MotorControl kind = MotorControl::kHeld;
   std::vector<double> angles_rad;  // locked, held: one a leg
   double period_s = 0;             // clock
   double duty = 0;

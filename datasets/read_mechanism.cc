@@ -26,27 +26,27 @@ bool Has(const YamlCursor& cursor, const Names& keys) {
                      [&](const std::string& key) { return cursor.Optional(key).has_value(); });
 }
 
-const Names& LegKeys(MechanismType type) {
+const Names& LegKeys(MechanismKind type) {
   static const Names kCLeg = {
       "rest_radius_m",    "E_Pa",    "G_Pa",         "width_m",           "thickness_m",
       "second_moment_m4", "area_m2", "shear_factor", "damping_N_s_per_m", "variant"};
   static const Names kStraight = {"rest_length_m", "stiffness_N_per_m", "damping_N_s_per_m",
                                   "variant"};
   static const Names kBall = {"radius_m", "restitution", "tangential_loss"};
-  return type == MechanismType::kCLeg ? kCLeg : type == MechanismType::kBall ? kBall : kStraight;
+  return type == MechanismKind::kCLeg ? kCLeg : type == MechanismKind::kBall ? kBall : kStraight;
 }
 
 // Says so when an unknown key of a leg or ball block is one of another mechanism.
-void AllowKeysOf(MechanismType type, const YamlCursor& cursor) {
+void AllowKeysOf(MechanismKind type, const YamlCursor& cursor) {
   for (const auto& [key, value] : cursor.Entries(0)) {
     const Names& own = LegKeys(type);
     if (std::find(own.begin(), own.end(), key) != own.end()) continue;
-    for (const MechanismType other :
-         {MechanismType::kCLeg, MechanismType::kStraightLeg, MechanismType::kBall}) {
+    for (const MechanismKind other :
+         {MechanismKind::kCLeg, MechanismKind::kStraightLeg, MechanismKind::kBall}) {
       const Names& names = LegKeys(other);
       if (std::find(names.begin(), names.end(), key) != names.end())
-        value.FailAtKey(std::string("unknown key: it belongs to a ") + MechanismTypeName(other) +
-                            " and this mechanism is a " + MechanismTypeName(type),
+        value.FailAtKey(std::string("unknown key: it belongs to a ") + NameOf(other) +
+                            " and this mechanism is a " + NameOf(type),
                         "Known: " + Join(own) + ".");
     }
   }
@@ -108,7 +108,7 @@ BallSpec ReadBall(const YamlCursor& cursor) {
 }
 
 // The readings of the published law under `variant` of a leg's block.
-ThesisVariant ReadVariant(const YamlCursor& leg, MechanismType type) {
+ThesisVariant ReadVariant(const YamlCursor& leg, MechanismKind type) {
   ThesisVariant variant;
   const std::optional<YamlCursor> block = leg.Optional("variant");
   if (!block) return variant;
@@ -118,7 +118,7 @@ ThesisVariant ReadVariant(const YamlCursor& leg, MechanismType type) {
   for (const VariantKey& key : VariantKeys()) {
     const std::optional<YamlCursor> value = block->Optional(key.key);
     if (!value) continue;
-    if (type == MechanismType::kStraightLeg && key.key != "torque_sign")
+    if (type == MechanismKind::kStraightLeg && key.key != "torque_sign")
       value->FailAtKey("a straight leg neither rolls nor bends: it has no such variant",
                        "Remove it; a straight leg knows torque_sign alone.");
     key.set(variant, static_cast<int>(value->Choice({key.words.begin(), key.words.end()})));
@@ -128,10 +128,10 @@ ThesisVariant ReadVariant(const YamlCursor& leg, MechanismType type) {
 
 void ReadLegOptions(const YamlCursor& cursor, MechanismSpec* mechanism) {
   if (const auto liftoff = cursor.Optional("liftoff"))
-    mechanism->liftoff = static_cast<LiftoffSpec>(liftoff->Choice({"zero_force", "rest_length"}));
+    mechanism->liftoff = static_cast<LiftoffRule>(liftoff->Choice({"zero_force", "rest_length"}));
   mechanism->fall_height_m = cursor.OptionalNumber("fall_height_m", NonNegative(100, "m"));
   mechanism->toe_mass_kg = cursor.OptionalNumber("toe_mass_kg", NonNegative(1e6, "kg"));
-  if (mechanism->toe_mass_kg.value_or(0) > 0 && mechanism->liftoff == LiftoffSpec::kRestLength)
+  if (mechanism->toe_mass_kg.value_or(0) > 0 && mechanism->liftoff == LiftoffRule::kRestLength)
     cursor.Required("liftoff", "")
         .Fail(
             "is a rule for massless legs: a toe with a mass leaves the ground when the leg lifts "
@@ -163,25 +163,12 @@ YamlNode MergeMechanism(const YamlNode& base, const YamlNode& overlay) {
   return MergeYaml(std::move(merged_base), overlay);
 }
 
-}  // namespace
-
-const char* MechanismTypeName(MechanismType type) {
-  static const char* const kNames[] = {"c_leg", "straight_leg", "ball", "robot"};
-  return kNames[static_cast<std::size_t>(type)];
-}
-
-const char* LiftoffName(LiftoffSpec rule) {
-  return rule == LiftoffSpec::kZeroForce ? "zero_force" : "rest_length";
-}
-
-namespace {
-
 MechanismSpec ReadRobotMechanism(const YamlCursor& cursor) {
   Names known = {"type", "body_mass_kg", "gravity_m_per_s2"};
   known.insert(known.end(), RobotKeys().begin(), RobotKeys().end());
   cursor.AllowOnly(known);
   MechanismSpec mechanism;
-  mechanism.type = MechanismType::kRobot;
+  mechanism.type = MechanismKind::kRobot;
   mechanism.body_mass_kg = cursor.RequiredNumber("body_mass_kg", Positive(1e6, "kg"));
   mechanism.gravity_m_per_s2 = cursor.RequiredNumber("gravity_m_per_s2", Positive(1e3, "m/s^2"));
   mechanism.fall_height_m = cursor.OptionalNumber("fall_height_m", NonNegative(100, "m"));
@@ -194,10 +181,10 @@ MechanismSpec ReadRobotMechanism(const YamlCursor& cursor) {
 MechanismSpec ReadMechanism(const YamlCursor& cursor) {
   MechanismSpec mechanism;
   mechanism.type =
-      static_cast<MechanismType>(cursor.Required("type", "c_leg, straight_leg, ball or robot")
+      static_cast<MechanismKind>(cursor.Required("type", "c_leg, straight_leg, ball or robot")
                                      .Choice({"c_leg", "straight_leg", "ball", "robot"}));
-  if (mechanism.type == MechanismType::kRobot) return ReadRobotMechanism(cursor);
-  const bool is_ball = mechanism.type == MechanismType::kBall;
+  if (mechanism.type == MechanismKind::kRobot) return ReadRobotMechanism(cursor);
+  const bool is_ball = mechanism.type == MechanismKind::kBall;
   const std::string block_key = is_ball ? "ball" : "leg";
   Names known = {"type", "body_mass_kg", "gravity_m_per_s2", "guide", block_key};
   if (!is_ball) known.insert(known.end(), {"liftoff", "fall_height_m", "toe_mass_kg", "placement"});
@@ -210,16 +197,16 @@ MechanismSpec ReadMechanism(const YamlCursor& cursor) {
       cursor.Required(block_key, "a block with " + Join(LegKeys(mechanism.type)));
   AllowKeysOf(mechanism.type, block);
   switch (mechanism.type) {
-    case MechanismType::kCLeg:
+    case MechanismKind::kCLeg:
       mechanism.c_leg = ReadCLeg(block);
       break;
-    case MechanismType::kStraightLeg:
+    case MechanismKind::kStraightLeg:
       mechanism.straight_leg = ReadStraightLeg(block);
       break;
-    case MechanismType::kBall:
+    case MechanismKind::kBall:
       mechanism.ball = ReadBall(block);
       break;
-    case MechanismType::kRobot:
+    case MechanismKind::kRobot:
       break;  // read above
   }
   if (!is_ball) {

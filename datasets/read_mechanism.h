@@ -8,11 +8,6 @@ namespace hoplab {
 // The block of a mechanism. Throws InputError for a missing, unknown or misspelt key, a value of
 // the wrong type or outside its range.
 
-/// "c_leg", "straight_leg", "ball".
-const char* MechanismTypeName(MechanismType type);
-/// "zero_force", "rest_length".
-const char* LiftoffName(LiftoffSpec rule);
-
 MechanismSpec ReadMechanism(const YamlCursor& cursor);
 /// The mechanism of a trial: `base`, read from `base_node`, with the values under `mechanism` of
 /// `item` over it. One way of giving the section replaces the other. Throws if the trial changes

@@ -93,7 +93,7 @@ void CheckAngles(Trial& trial, const std::string& trace_place) {
 }
 
 void CheckInputColumn(const InputSpec& input, const Trace& trace, const std::string& trace_place) {
-  const std::string key = std::string("inputs.") + InputName(input.id);
+  const std::string key = std::string("inputs.") + InfoOf(input.id).key;
   const std::vector<double>* values = trace.Find(input.column);
   if (values == nullptr) {
     std::vector<std::string> names;
@@ -103,10 +103,10 @@ void CheckInputColumn(const InputSpec& input, const Trace& trace, const std::str
         {input.origin.place, key, trace_place + " has no column " + Printable(input.column),
          nearest
              ? "Did you mean " + Printable(*nearest) + "? Say column: " + Printable(*nearest) + "."
-             : "Add the column, or write " + std::string(InputName(input.id)) +
+             : "Add the column, or write " + std::string(InfoOf(input.id).key) +
                    ": null under `inputs` of the trial."});
   }
-  const Range range = InputRange(input.id);
+  const Range range = InfoOf(input.id).range;
   std::size_t samples = 0;
   for (std::size_t row = 0; row < values->size(); ++row) {
     const double value = (*values)[row];
@@ -115,13 +115,13 @@ void CheckInputColumn(const InputSpec& input, const Trace& trace, const std::str
     if (!range.Contains(value))
       throw InputError({trace_place + ", row " + std::to_string(row + 1),
                         Printable(input.column) + " = " + FormatDouble(value),
-                        "must be in " + range.Text() + " to drive " + InputName(input.id),
+                        "must be in " + range.Text() + " to drive " + InfoOf(input.id).key,
                         RangeRemedy(value, range)});
   }
   if (samples == 0)
     throw InputError({input.origin.place, key,
                       trace_place + " has no sample in the column " + Printable(input.column),
-                      "Fill it in, or write " + std::string(InputName(input.id)) +
+                      "Fill it in, or write " + std::string(InfoOf(input.id).key) +
                           ": null under `inputs` of the trial."});
 }
 
@@ -139,10 +139,10 @@ void CheckClock(const Dataset& dataset, const std::string& clock, const std::str
 }  // namespace
 
 void ReadTouchdownAngles(const YamlCursor& item, Trial& trial) {
-  const MechanismType type = trial.mechanism.type;
+  const MechanismKind type = trial.mechanism.type;
   const std::optional<YamlCursor> angle = item.Optional(kAngle);
   const std::optional<YamlCursor> sigma = item.Optional(kSigma);
-  if (FindInput(trial.inputs, InputId::kLegAngle) != nullptr) {
+  if (FindInput(trial.inputs, InputKind::kLegAngle) != nullptr) {
     for (const std::optional<YamlCursor>& given : {angle, sigma})
       if (given)
         given->FailAtKey("the input leg_angle_rad says at which angle the leg touches down",
@@ -150,7 +150,7 @@ void ReadTouchdownAngles(const YamlCursor& item, Trial& trial) {
     return;
   }
   const Kind kind = angle ? angle->node().kind : Kind::kScalar;
-  const bool has_angle = type != MechanismType::kBall && type != MechanismType::kRobot;
+  const bool has_angle = type != MechanismKind::kBall && type != MechanismKind::kRobot;
   if (has_angle && kind == Kind::kSequence) {
     ReadAngleList(*angle, trial);
   } else if (has_angle && kind == Kind::kMap) {
@@ -162,7 +162,7 @@ void ReadTouchdownAngles(const YamlCursor& item, Trial& trial) {
   }
   if (!sigma) return;
   if (!has_angle)
-    sigma->FailAtKey(std::string("a ") + MechanismTypeName(type) +
+    sigma->FailAtKey(std::string("a ") + NameOf(type) +
                          " has no leg that could touch down at an angle of its own",
                      "Remove it.");
   trial.touchdown_angle_sigma_rad = DegToRad(sigma->Number(Positive(90, "deg")));
@@ -182,7 +182,7 @@ std::vector<ScenarioInput> ReadScenarioInputs(const YamlCursor& cursor,
     input.spec = ReadInputs(YamlCursor(one, cursor.key_path())).front();
     if (!input.spec.clock.empty())
       block.Required("clock", "").Fail("a scenario has no clocks", "Say delay_s.");
-    const Range sigma{0, 1e6, false, false, InputRange(input.spec.id).unit};
+    const Range sigma{0, 1e6, false, false, InfoOf(input.spec.id).range.unit};
     input.sigma = block.OptionalNumber("sigma", sigma).value_or(0);
     const YamlCursor file = block.Required("file", "the CSV file with its samples");
     const std::filesystem::path path = folder / file.Name();
@@ -205,7 +205,7 @@ std::vector<ScenarioInput> ReadScenarioInputs(const YamlCursor& cursor,
 
 bool DrivesAngle(const std::vector<ScenarioInput>& inputs) {
   return std::any_of(inputs.begin(), inputs.end(), [](const ScenarioInput& input) {
-    return input.spec.id == InputId::kLegAngle;
+    return input.spec.id == InputKind::kLegAngle;
   });
 }
 
@@ -223,18 +223,18 @@ void CheckDriven(const YamlCursor& item, const Trial& trial) {
   const std::string path = item.key_path().empty() ? "" : item.key_path() + ".";
   const auto fail = [&](const InputSpec& input, const std::string& rule,
                         const std::string& remedy) {
-    throw InputError({input.origin.place, path + "inputs." + InputName(input.id), rule, remedy});
+    throw InputError({input.origin.place, path + "inputs." + InfoOf(input.id).key, rule, remedy});
   };
   for (const InputSpec& input : trial.inputs) {
-    if (trial.mechanism.type == MechanismType::kRobot)
+    if (trial.mechanism.type == MechanismKind::kRobot)
       fail(input, "a robot's motors follow its controller", "Remove it.");
-    const bool of_leg = input.id == InputId::kHipTorque || input.id == InputId::kLegAngle;
-    if (of_leg && trial.mechanism.type == MechanismType::kBall)
+    const bool of_leg = input.id == InputKind::kHipTorque || input.id == InputKind::kLegAngle;
+    if (of_leg && trial.mechanism.type == MechanismKind::kBall)
       fail(input, "a ball has no leg to drive", "Remove it.");
     if (trial.mechanism.toe_mass_kg.value_or(0) > 0)
       fail(input, "a leg with a toe mass is moved by its placement, not by a log",
            "Remove toe_mass_kg or this input.");
-    if (input.id == InputId::kHipTorque && trial.controller)
+    if (input.id == InputKind::kHipTorque && trial.controller)
       fail(input, "the hip torque comes from the log, and a controller is given too",
            "Remove one of the two; `controller: null` in a trial takes it away there.");
   }
@@ -252,7 +252,7 @@ void CheckRoles(const Dataset& dataset) {
                std::string("channels.") + ChannelName(channel.id));
   for (const Trial& trial : dataset.trials) {
     for (const InputSpec& input : trial.inputs) {
-      const std::string key = std::string("inputs.") + InputName(input.id);
+      const std::string key = std::string("inputs.") + InfoOf(input.id).key;
       CheckClock(dataset, input.clock, input.origin.place, key);
       const bool measured = std::any_of(
           dataset.channels.begin(), dataset.channels.end(),

@@ -102,9 +102,9 @@ RobotSpec ReadRobot(const YamlCursor& mechanism) {
 
 MotorsSpec ReadMotors(const YamlCursor& cursor) {
   MotorsSpec motors;
-  motors.kind = static_cast<MotorsSpec::Kind>(
+  motors.kind = static_cast<MotorControl>(
       cursor.Required("type", "locked, held or clock").Choice({"locked", "held", "clock"}));
-  if (motors.kind != MotorsSpec::Kind::kClock) {
+  if (motors.kind != MotorControl::kClock) {
     cursor.AllowOnly({"type", "angles_rad"});
     motors.angles_rad =
         ReadNumbers(cursor.Required("angles_rad", "a list, one angle a leg"), kAngle);
@@ -123,7 +123,7 @@ MotorsSpec ReadMotors(const YamlCursor& cursor) {
 void CheckMotors(const YamlCursor& owner, const MechanismSpec& mechanism,
                  const std::optional<ControllerSpec>& controller,
                  const std::optional<StateSpec>& initial) {
-  const bool robot = mechanism.type == MechanismType::kRobot;
+  const bool robot = mechanism.type == MechanismKind::kRobot;
   const bool motors = controller && controller->motors;
   if (robot && !motors)
     owner.Fail("a robot needs a controller that says what its motors do",
@@ -135,8 +135,7 @@ void CheckMotors(const YamlCursor& owner, const MechanismSpec& mechanism,
     owner.Fail("only a robot pitches", "Remove pitch_rad and pitch_rate_rad_per_s of initial.");
   if (!robot) return;
   const MotorsSpec& m = *controller->motors;
-  const std::size_t given =
-      m.kind == MotorsSpec::Kind::kClock ? m.phases.size() : m.angles_rad.size();
+  const std::size_t given = m.kind == MotorControl::kClock ? m.phases.size() : m.angles_rad.size();
   if (given != mechanism.robot.legs.size())
     owner.Fail("the controller has " + std::to_string(given) + " angles or phases, and the robot " +
                    std::to_string(mechanism.robot.legs.size()) + " legs",

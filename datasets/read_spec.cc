@@ -43,15 +43,15 @@ StateSpec ReadState(const YamlCursor& cursor) {
   return state;
 }
 
-void CheckStart(const YamlCursor& owner, const StateSpec& start, MechanismType type) {
+void CheckStart(const YamlCursor& owner, const StateSpec& start, MechanismKind type) {
   if (start.mode == StartMode::kFlight) return;
-  const std::string rule = type == MechanismType::kBall ? "a ball has no stance to begin in"
+  const std::string rule = type == MechanismKind::kBall ? "a ball has no stance to begin in"
                                                         : "a straight leg neither rolls nor has "
                                                           "another toe: its one mode is stance";
-  const bool own_modes = type == MechanismType::kCLeg || start.mode == StartMode::kStance;
-  if (type == MechanismType::kBall || !own_modes)
+  const bool own_modes = type == MechanismKind::kCLeg || start.mode == StartMode::kStance;
+  if (type == MechanismKind::kBall || !own_modes)
     owner.Fail(
-        rule, type == MechanismType::kBall ? "Begin the record in flight." : "Write mode: stance.");
+        rule, type == MechanismKind::kBall ? "Begin the record in flight." : "Write mode: stance.");
 }
 
 const std::vector<std::string>& StartModeNames() {
@@ -74,21 +74,21 @@ StateSpec ReadStateSigma(const YamlCursor& cursor) {
   return known;
 }
 
-Range TouchdownAngleRange(MechanismType type) {
+Range TouchdownAngleRange(MechanismKind type) {
   // A C-leg's angle is that of its tangent at the hip and reaches far beyond the upright; a
   // straight leg at 90 degrees lies on the ground.
-  return {-90, type == MechanismType::kStraightLeg ? 90.0 : 180.0, true, true, "deg"};
+  return {-90, type == MechanismKind::kStraightLeg ? 90.0 : 180.0, true, true, "deg"};
 }
 
-double ReadTouchdownAngle(const YamlCursor& owner, MechanismType type) {
+double ReadTouchdownAngle(const YamlCursor& owner, MechanismKind type) {
   const Range range = TouchdownAngleRange(type);
   const char* const key = "touchdown_angle_deg";
-  if (type == MechanismType::kRobot) {
+  if (type == MechanismKind::kRobot) {
     if (const auto given = owner.Optional(key))
       given->FailAtKey("the angles of a robot's legs are said by its controller", "Remove it.");
     return 0;
   }
-  if (type == MechanismType::kBall) return DegToRad(owner.OptionalNumber(key, range).value_or(0));
+  if (type == MechanismKind::kBall) return DegToRad(owner.OptionalNumber(key, range).value_or(0));
   return DegToRad(owner.RequiredNumber(key, range));
 }
 

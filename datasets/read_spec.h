@@ -22,11 +22,11 @@ StateSpec ReadStateSigma(const YamlCursor& cursor);
 /// "flight", "rolling", "toe", "stance", in the order of StartMode.
 const std::vector<std::string>& StartModeNames();
 /// Throws, at `owner`, for a start in a mode the mechanism does not have.
-void CheckStart(const YamlCursor& owner, const StateSpec& start, MechanismType type);
+void CheckStart(const YamlCursor& owner, const StateSpec& start, MechanismKind type);
 /// What an angle of a touch-down may be.
-Range TouchdownAngleRange(MechanismType type);
+Range TouchdownAngleRange(MechanismKind type);
 /// `touchdown_angle_deg` of `owner`, in rad; required but for a ball (0 without).
-double ReadTouchdownAngle(const YamlCursor& owner, MechanismType type);
+double ReadTouchdownAngle(const YamlCursor& owner, MechanismKind type);
 /// The channels of a block such as `{body_x_m: {sigma: 0.001}}`, at least one.
 std::vector<ChannelSpec> ReadChannels(const YamlCursor& cursor);
 /// `train` or `test`.

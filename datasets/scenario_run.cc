@@ -92,10 +92,10 @@ StopSpec ReadStop(const YamlCursor& cursor) {
 std::optional<double> ReadStartAngle(const YamlCursor& owner, const Scenario& scenario) {
   const std::optional<YamlCursor> given = owner.Optional("start_angle_deg");
   if (!given) return std::nullopt;
-  const MechanismType type = scenario.mechanism.type;
-  if (type == MechanismType::kBall)
+  const MechanismKind type = scenario.mechanism.type;
+  if (type == MechanismKind::kBall)
     given->Fail("is the angle of a leg, and a ball has none", "Remove it.");
-  if (type == MechanismType::kRobot)
+  if (type == MechanismKind::kRobot)
     given->Fail("is the angle of a hopper's leg; a robot's follow its controller", "Remove it.");
   if (!scenario.touchdown_angles_rad.empty() || DrivesAngle(scenario.inputs))
     given->Fail("is told by touchdown_angle_deg or the log, which say every landing's",
@@ -112,12 +112,12 @@ std::vector<NamedNumber> ReadNamedNumbers(const YamlCursor& cursor, std::size_t 
   return numbers;
 }
 
-void ReadAngles(const YamlCursor& owner, MechanismType type, double* angle,
+void ReadAngles(const YamlCursor& owner, MechanismKind type, double* angle,
                 std::vector<double>* angles) {
   const std::optional<YamlCursor> given = owner.Optional("touchdown_angle_deg");
   angles->clear();
-  if (!given || given->node().kind != Kind::kSequence || type == MechanismType::kBall ||
-      type == MechanismType::kRobot) {
+  if (!given || given->node().kind != Kind::kSequence || type == MechanismKind::kBall ||
+      type == MechanismKind::kRobot) {
     *angle = ReadTouchdownAngle(owner, type);
     return;
   }

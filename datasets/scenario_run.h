@@ -15,7 +15,7 @@ void CheckRoot(const YamlCursor& root);
 /// Mechanism, controller, start and effects: all that a single run needs.
 Scenario ReadRun(const YamlCursor& root);
 /// touchdown_angle_deg: an angle, or a list of them.
-void ReadAngles(const YamlCursor& owner, MechanismType type, double* angle,
+void ReadAngles(const YamlCursor& owner, MechanismKind type, double* angle,
                 std::vector<double>* angles);
 /// Numbers by their names, at least `min_size`.
 std::vector<NamedNumber> ReadNamedNumbers(const YamlCursor& cursor, std::size_t min_size);

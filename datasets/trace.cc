@@ -84,8 +84,8 @@ class TraceParser {
   void ReadHeader() {
     std::vector<std::string> known = ChannelNames();
     known.insert(known.begin(), "time_s");
-    for (const InputId id : {InputId::kBodyForceX, InputId::kBodyForceY})
-      known.emplace_back(InputName(id));
+    for (const InputKind id : {InputKind::kBodyForceX, InputKind::kBodyForceY})
+      known.emplace_back(InfoOf(id).key);
     if (cells_[0] != "time_s") {
       std::string remedy = "The first row names the columns, time in seconds first.";
       if (cells_.size() == 1 && cells_[0].find_first_of(";\t") != std::string_view::npos)

@@ -41,7 +41,7 @@ YamlFields ClockFields(const ClockSpec& clock) {
 YamlFields InputFields(const std::vector<InputSpec>& inputs) {
   YamlFields fields;
   for (const InputSpec& input : inputs) {
-    const std::string name = InputName(input.id);
+    const std::string name = InfoOf(input.id).key;
     const auto optional = [](const std::optional<double>& value) {
       return value ? FormatDouble(*value) : std::string("null");
     };
@@ -58,8 +58,8 @@ YamlFields InputFields(const std::vector<InputSpec>& inputs) {
 
 // The lines of a trial's touch-down angles; those read from a column are read again.
 std::string AnglesText(const Trial& trial) {
-  if (FindInput(trial.inputs, InputId::kLegAngle) != nullptr) return "";
-  if (trial.mechanism.type == MechanismType::kRobot) return "";
+  if (FindInput(trial.inputs, InputKind::kLegAngle) != nullptr) return "";
+  if (trial.mechanism.type == MechanismKind::kRobot) return "";
   std::string angle = FormatDegrees(trial.touchdown_angle_rad);
   const std::vector<double>& each = trial.touchdown_angles_rad;
   const bool alike = std::all_of(each.begin(), each.end(),
@@ -97,7 +97,7 @@ void AppendTrial(const Trial& trial, const Dataset& dataset, std::string* text) 
     YamlFields inputs = InputFields(trial.inputs);
     for (const InputSpec& input : dataset.inputs)
       if (FindInput(trial.inputs, input.id) == nullptr)
-        inputs.insert(inputs.begin(), {"", InputName(input.id), "null"});
+        inputs.insert(inputs.begin(), {"", InfoOf(input.id).key, "null"});
     *text += "    inputs: " + Flow(inputs) + "\n";
   }
   if (trial.initial) *text += "    initial: " + Flow(StateFields(*trial.initial)) + "\n";

@@ -79,9 +79,8 @@ void AddRobot(const MechanismSpec& m, YamlFields* fields) {
 }
 
 YamlFields MotorsFields(const MotorsSpec& motors) {
-  static const char* const kKinds[] = {"locked", "held", "clock"};
-  YamlFields fields = {{"", "type", kKinds[static_cast<std::size_t>(motors.kind)]}};
-  if (motors.kind != MotorsSpec::Kind::kClock) {
+  YamlFields fields = {{"", "type", NameOf(motors.kind)}};
+  if (motors.kind != MotorControl::kClock) {
     fields.push_back({"", "angles_rad", ListText(motors.angles_rad)});
     return fields;
   }
@@ -107,24 +106,24 @@ void AddOptional(YamlFields* fields, const std::string& group, const std::string
 }
 
 YamlFields MechanismFields(const MechanismSpec& m) {
-  YamlFields fields = {{"", "type", MechanismTypeName(m.type)},
+  YamlFields fields = {{"", "type", NameOf(m.type)},
                        {"", "body_mass_kg", FormatDouble(m.body_mass_kg)},
                        {"", "gravity_m_per_s2", FormatDouble(m.gravity_m_per_s2)}};
   if (m.on_guide) fields.push_back({"", "guide", "vertical"});
-  if (m.type == MechanismType::kBall) {
+  if (m.type == MechanismKind::kBall) {
     fields.push_back({"ball", "radius_m", FormatDouble(m.ball.radius_m)});
     fields.push_back({"ball", "restitution", FormatDouble(m.ball.restitution)});
     fields.push_back({"ball", "tangential_loss", FormatDouble(m.ball.tangential_loss)});
     return fields;
   }
-  if (m.type == MechanismType::kRobot) {
+  if (m.type == MechanismKind::kRobot) {
     AddRobot(m, &fields);
     return fields;
   }
-  fields.push_back({"", "liftoff", LiftoffName(m.liftoff)});
+  fields.push_back({"", "liftoff", NameOf(m.liftoff)});
   AddOptional(&fields, "", "fall_height_m", m.fall_height_m);
   AddOptional(&fields, "", "toe_mass_kg", m.toe_mass_kg);
-  if (m.type == MechanismType::kCLeg) {
+  if (m.type == MechanismKind::kCLeg) {
     AddCLeg(m.c_leg, &fields);
   } else {
     const StraightLegSpec& leg = m.straight_leg;
@@ -133,7 +132,7 @@ YamlFields MechanismFields(const MechanismSpec& m) {
     fields.push_back({"leg", "damping_N_s_per_m", FormatDouble(leg.damping_N_s_per_m)});
   }
   if (m.variant != ThesisVariant()) {
-    const bool is_c_leg = m.type == MechanismType::kCLeg;
+    const bool is_c_leg = m.type == MechanismKind::kCLeg;
     fields.push_back(
         {"leg", "variant", is_c_leg ? VariantText(m.variant) : TorqueSignText(m.variant)});
   }

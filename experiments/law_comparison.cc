@@ -6,14 +6,13 @@ namespace hoplab {
 
 std::vector<Variant> AllLaws(const Dataset& dataset) {
   std::vector<Variant> variants;
-  for (Law law : LawsOf(MechanismOfSpec(dataset.mechanism)))
-    variants.push_back({std::string(NameOf(law)), {}});
+  for (Law law : LawsOf(dataset.mechanism.type)) variants.push_back({std::string(NameOf(law)), {}});
   return variants;
 }
 
 LawComparison CompareLaws(const Dataset& dataset, const std::vector<Variant>& variants,
                           const ProblemOptions& problem_options, const FitOptions& fit_options,
-                          FitSpan span, const std::function<void(int done)>& progress) {
+                          Segmentation span, const std::function<void(int done)>& progress) {
   LawComparison comparison;
   for (const Variant& variant : variants) {
     if (fit_options.stop && *fit_options.stop) break;

@@ -33,7 +33,7 @@ struct LawComparison {
 /// `progress` is called after each.
 LawComparison CompareLaws(const Dataset& dataset, const std::vector<Variant>& variants,
                           const ProblemOptions& problem_options, const FitOptions& fit_options,
-                          FitSpan span = FitSpan::kWholeElseHops,
+                          Segmentation span = Segmentation::kAuto,
                           const std::function<void(int done)>& progress = nullptr);
 
 /// Every law of the dataset's mechanism, the default first, without effects.

@@ -11,11 +11,10 @@ Hopper HopperOfScenario(const Scenario& scenario, const IntegratorOptions& integ
   Scenario stopping = scenario;
   if (!stopping.stop.time_s && !stopping.stop.hops) stopping.stop.time_s = kUsualHorizon;
   Hopper hopper;
-  hopper.effects =
-      ResolveEffects(scenario.effects,
-                     ResolveLaw(scenario.law.value_or(""), MechanismOfSpec(scenario.mechanism),
-                                scenario.law_origin.place),
-                     LegMassOfSpec(scenario.mechanism));
+  hopper.effects = ResolveEffects(
+      scenario.effects,
+      ResolveLaw(scenario.law.value_or(""), scenario.mechanism.type, scenario.law_origin.place),
+      LegMassOfSpec(scenario.mechanism));
   hopper.request = RequestOfScenario(stopping, hopper.effects);
   hopper.request.effects = {};  // the hopper's own are put in place where it runs
   hopper.request.integrator = integrator;
@@ -23,13 +22,13 @@ Hopper HopperOfScenario(const Scenario& scenario, const IntegratorOptions& integ
 }
 
 Hopper LeggedHopperOfScenario(const Scenario& scenario, const IntegratorOptions& integrator) {
-  if (scenario.mechanism.type == MechanismType::kBall) {
+  if (scenario.mechanism.type == MechanismKind::kBall) {
     throw InputError({scenario.origin.place, "mechanism.type = ball",
                       "has no gait: what bounces has no steady hop to come back to",
                       "Use c_leg or straight_leg."});
   }
-  if (scenario.mechanism.type == MechanismType::kRobot &&
-      scenario.controller->motors->kind != MotorsSpec::Kind::kClock) {
+  if (scenario.mechanism.type == MechanismKind::kRobot &&
+      scenario.controller->motors->kind != MotorControl::kClock) {
     throw InputError({scenario.origin.place, "controller.type",
                       "a robot whose motors stand still makes no strides: nothing drives it",
                       "Use type: clock, or look at its runs with simulate and sweep."});

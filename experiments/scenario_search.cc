@@ -94,7 +94,7 @@ Objective ObjectiveOf(ObjectiveKind kind) {
 
 // An objective and constraints that the mechanism has.
 void CheckProblem(const SearchProblem& problem, const Scenario& scenario) {
-  const bool robot = scenario.mechanism.type == MechanismType::kRobot;
+  const bool robot = scenario.mechanism.type == MechanismKind::kRobot;
   const auto refuse = [&](const std::string& key, const char* rule, const char* remedy) {
     throw InputError({scenario.search->origin.place, key, rule, remedy});
   };

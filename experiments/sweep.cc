@@ -44,7 +44,7 @@ SweepPlan::SweepPlan(const ScenarioDocument& document, const IntegratorOptions& 
   }
   for (const OutputName& output : scenario.sweep->outputs)
     outputs_.push_back(&ResolveSweepOutput(output.name, output.origin.place));
-  const bool ball = scenario.mechanism.type == MechanismType::kBall;
+  const bool ball = scenario.mechanism.type == MechanismKind::kBall;
   const auto gait = std::find_if(outputs_.begin(), outputs_.end(),
                                  [](const SweepOutput* o) { return o->needs_fixed_point; });
   if (ball && gait != outputs_.end())

@@ -19,10 +19,8 @@ constexpr double kLongestDelay = 1.0;  // s
 // An offset is searched this many sigmas about what is stated.
 constexpr double kClockReach = 10.0;
 
-InputKind KindOf(InputId id) { return static_cast<InputKind>(id); }
-
 std::string InputParameter(InputKind kind, bool delay) {
-  return "input." + std::string(NameOf(kind)) + (delay ? ".delay" : ".scale");
+  return "input." + std::string(InfoOf(kind).name) + (delay ? ".delay" : ".scale");
 }
 std::string ClockParameter(const std::string& clock) { return "clock." + clock + ".offset"; }
 
@@ -41,7 +39,7 @@ const DrivenColumn* FindColumn(const FitProblem& problem, InputKind kind) {
 }
 
 DrivenColumn ColumnOf(const InputSpec& input, const Trace& trace, const FitProblem& problem) {
-  DrivenColumn column{KindOf(input.id)};
+  DrivenColumn column{input.id};
   column.held = input.held;
   column.delay = input.delay_s;
   column.scale = input.scale;
@@ -172,7 +170,7 @@ void FreeWhatIsUncertain(const Dataset& dataset, const std::map<std::string, dou
   std::vector<InputKind> done;
   for (const Trial& trial : dataset.trials) {
     for (const InputSpec& input : trial.inputs) {
-      const InputKind kind = KindOf(input.id);
+      const InputKind kind = input.id;
       if (std::find(done.begin(), done.end(), kind) != done.end()) continue;
       done.push_back(kind);
       if (input.delay_sigma_s) free(InputParameter(kind, true), *input.delay_sigma_s);

@@ -9,20 +9,20 @@
 
 namespace hoplab {
 
-std::string_view NameOf(FitSpan span) {
+std::string_view NameOf(Segmentation span) {
   switch (span) {
-    case FitSpan::kWholeElseHops:
+    case Segmentation::kAuto:
       return "whole_else_hops";
-    case FitSpan::kWhole:
+    case Segmentation::kWhole:
       return "whole";
-    case FitSpan::kHops:
+    case Segmentation::kHops:
       return "hops";
   }
   return "";
 }
 
-std::optional<FitSpan> FindSpan(std::string_view name) {
-  for (FitSpan span : {FitSpan::kWholeElseHops, FitSpan::kWhole, FitSpan::kHops}) {
+std::optional<Segmentation> FindSpan(std::string_view name) {
+  for (Segmentation span : {Segmentation::kAuto, Segmentation::kWhole, Segmentation::kHops}) {
     if (NameOf(span) == name) return span;
   }
   return std::nullopt;
@@ -54,7 +54,7 @@ std::string Disagreement(const FitProblem& problem, const FitResult& fit) {
 }  // namespace
 
 DatasetFit FitDataset(const Dataset& dataset, const ProblemOptions& problem_options,
-                      const FitOptions& fit_options, FitSpan span) {
+                      const FitOptions& fit_options, Segmentation span) {
   return FitTraces(MakeProblem(dataset, problem_options), fit_options, span);
 }
 
@@ -92,8 +92,9 @@ FitResult FitWhatCanBeSimulated(FitProblem& problem, const FitOptions& options,
   return fit;
 }
 
-std::string WhyByHop(const DatasetFit& whole, FitSpan span) {
-  if (span == FitSpan::kHops) return "fitted hop by hop, as asked: each hop has a start of its own";
+std::string WhyByHop(const DatasetFit& whole, Segmentation span) {
+  if (span == Segmentation::kHops)
+    return "fitted hop by hop, as asked: each hop has a start of its own";
   const std::string so = ", so it was fitted hop by hop, each hop with a start of its own";
   const FitResult& r = whole.result;
   if (!r.ok || !r.stop.complete)
@@ -121,33 +122,34 @@ void AddDiscrepancy(DatasetFit& fit, const FitOptions& options) {
   fit.problem.noise = result.discrepancy->noise;
 }
 
-DatasetFit FitUnderWhiteNoise(FitProblem problem, const FitOptions& fit_options, FitSpan span) {
+DatasetFit FitUnderWhiteNoise(FitProblem problem, const FitOptions& fit_options,
+                              Segmentation span) {
   DatasetFit fit;
   fit.problem = std::move(problem);
-  if (span != FitSpan::kHops) {
+  if (span != Segmentation::kHops) {
     fit.result = Fit(fit.problem, fit_options);
     fit.note = Disagreement(fit.problem, fit.result);
     // Where whole traces pull a value far from what their hops say, they fit the model's error.
     const bool done = fit.result.ok && fit.result.stop.IsMinimum() && fit.note.empty();
-    if (done || fit.result.interrupted || span == FitSpan::kWhole) return fit;
+    if (done || fit.result.interrupted || span == Segmentation::kWhole) return fit;
   }
   DatasetFit pieces;
   pieces.problem = SplitIntoHops(fit.problem);
   pieces.by_hop = pieces.problem.trials.size() > fit.problem.trials.size();
   // Without apexes to cut at a trial is the only piece of itself.
-  if (!pieces.by_hop && span != FitSpan::kHops && fit.result.ok && fit.result.stop.complete)
+  if (!pieces.by_hop && span != Segmentation::kHops && fit.result.ok && fit.result.stop.complete)
     return fit;
   pieces.result = FitWhatCanBeSimulated(pieces.problem, fit_options, pieces.left_out);
   const bool usable = pieces.result.ok && pieces.result.stop.IsMinimum();
   const bool whole_is_better = fit.result.ok && (fit.result.stop.IsMinimum() || !pieces.result.ok);
-  if (!usable && span != FitSpan::kHops && whole_is_better) return fit;
+  if (!usable && span != Segmentation::kHops && whole_is_better) return fit;
   if (pieces.by_hop) pieces.note = WhyByHop(fit, span);
   return pieces;
 }
 
 }  // namespace
 
-DatasetFit FitTraces(FitProblem problem, const FitOptions& fit_options, FitSpan span) {
+DatasetFit FitTraces(FitProblem problem, const FitOptions& fit_options, Segmentation span) {
   DatasetFit fit = FitUnderWhiteNoise(std::move(problem), fit_options, span);
   AddDiscrepancy(fit, fit_options);
   return fit;

@@ -9,13 +9,13 @@
 namespace hoplab {
 
 /// What one residual block spans.
-enum class FitSpan {
-  kWholeElseHops,  // whole traces; where none of them can be simulated to its end, single hops
-  kWhole,          // whole traces or nothing
-  kHops            // single hops, each with a start of its own
+enum class Segmentation {
+  kAuto,   // whole traces; where none of them can be simulated to its end, single hops
+  kWhole,  // whole traces or nothing
+  kHops    // single hops, each with a start of its own
 };
-std::string_view NameOf(FitSpan span);
-std::optional<FitSpan> FindSpan(std::string_view name);
+std::string_view NameOf(Segmentation span);
+std::optional<Segmentation> FindSpan(std::string_view name);
 
 struct DatasetFit {
   FitProblem problem;  // the one that was fitted: trials are hops if `by_hop`
@@ -31,10 +31,10 @@ struct DatasetFit {
 /// said; hops (or trials without apexes) that it cannot carry either are left out and named. What
 /// a fit's end is worth is `result.stop`. Throws InputError as MakeProblem does.
 DatasetFit FitDataset(const Dataset& dataset, const ProblemOptions& problem_options,
-                      const FitOptions& fit_options, FitSpan span = FitSpan::kWholeElseHops);
+                      const FitOptions& fit_options, Segmentation span = Segmentation::kAuto);
 
 /// The same of a problem that is set up already.
 DatasetFit FitTraces(FitProblem problem, const FitOptions& fit_options,
-                     FitSpan span = FitSpan::kWholeElseHops);
+                     Segmentation span = Segmentation::kAuto);
 
 }  // namespace hoplab

@@ -59,7 +59,7 @@ std::vector<InputSpec> WrittenInputs(const Scenario& scenario) {
   std::vector<InputSpec> inputs;
   for (const ScenarioInput& input : scenario.inputs) {
     InputSpec written = input.spec;
-    written.column = InputName(written.id);
+    written.column = InfoOf(written.id).key;
     written.delay_s = 0.0;
     written.scale = 1.0;
     inputs.push_back(std::move(written));
@@ -72,7 +72,7 @@ void WriteInputs(const Scenario& scenario, const std::vector<DrivenInput>& input
                  RandomStream random, Trial& trial) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     InputSignal<double> logged(inputs[i], 0.0, 1.0);
-    TraceColumn column{InputName(scenario.inputs[i].spec.id), {}};
+    TraceColumn column{InfoOf(scenario.inputs[i].spec.id).key, {}};
     for (const double t : trial.trace.time_s) {
       logged.Seek(t);
       const double noise =
@@ -117,7 +117,7 @@ InputSet KindsOf(const std::vector<DrivenInput>& inputs) {
 std::vector<DrivenInput> DrivenInputsOf(const Scenario& scenario) {
   std::vector<DrivenInput> inputs;
   for (const ScenarioInput& input : scenario.inputs)
-    inputs.push_back({.kind = static_cast<InputKind>(input.spec.id),
+    inputs.push_back({.kind = input.spec.id,
                       .times = input.time_s,
                       .values = input.values,
                       .held = input.spec.held,
@@ -140,10 +140,10 @@ SimulationRequest RequestOfScenario(const Scenario& scenario,
                                     const std::vector<EffectSetting>& effects,
                                     const std::vector<DrivenInput>& inputs) {
   SimulationRequest request;
-  const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
+  const MechanismKind mechanism = scenario.mechanism.type;
   request.law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
   CheckVariant(scenario.mechanism.variant, request.law, scenario.origin.place);
-  request.liftoff = LiftoffOfSpec(scenario.mechanism);
+  request.liftoff = scenario.mechanism.liftoff;
   request.parameters =
       ParametersOfSpec(scenario.mechanism, scenario.controller, scenario.touchdown_angle_rad);
   if (scenario.start_angle_rad) request.parameters.start_angle = *scenario.start_angle_rad;
@@ -177,7 +177,7 @@ struct Recording {
 
 Recording RecordingOf(const Scenario& scenario, const GenerateOptions& options,
                       const std::vector<GenerateTrial>& trials) {
-  const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
+  const MechanismKind mechanism = scenario.mechanism.type;
   Recording r{.scenario = scenario,
               .options = options,
               .law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place)};
@@ -222,7 +222,7 @@ Trajectory RunOf(const Recording& r, const GenerateTrial& plan, const StateSpec&
   SimulationRequest request;
   request.law = r.law;
   CheckVariant(plan.mechanism.variant, r.law, r.scenario.origin.place);
-  request.liftoff = LiftoffOfSpec(plan.mechanism);
+  request.liftoff = plan.mechanism.liftoff;
   request.parameters = ParametersOfSpec(plan.mechanism, plan.controller, plan.touchdown_angle_rad);
   request.effects = r.effects;
   request.initial = InitialOf(truth);

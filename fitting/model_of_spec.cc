@@ -39,10 +39,10 @@ RobotParameters<double> RobotOfSpec(const RobotSpec& spec,
   }
   if (!controller || !controller->motors) return p;
   const MotorsSpec& motors = *controller->motors;
-  p.control = static_cast<MotorControl>(motors.kind);
+  p.control = motors.kind;
   std::copy(motors.angles_rad.begin(), motors.angles_rad.end(), p.angle.begin());
   std::copy(motors.phases.begin(), motors.phases.end(), p.phase.begin());
-  if (motors.kind == MotorsSpec::Kind::kClock) {
+  if (motors.kind == MotorControl::kClock) {
     p.period = motors.period_s;
     p.duty = motors.duty;
     p.sweep = motors.sweep_rad;
@@ -74,7 +74,7 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
     p.kd_place = mechanism.placement->kd_N_m_s_per_rad;
   }
   switch (mechanism.type) {
-    case MechanismType::kCLeg:
+    case MechanismKind::kCLeg:
       p.r = mechanism.c_leg.rest_radius_m;
       p.E = mechanism.c_leg.E_Pa;
       p.G = mechanism.c_leg.G_Pa;
@@ -83,17 +83,17 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
       p.kappa = mechanism.c_leg.shear_factor;
       p.d = mechanism.c_leg.damping_N_s_per_m;
       break;
-    case MechanismType::kStraightLeg:
+    case MechanismKind::kStraightLeg:
       p.l0 = mechanism.straight_leg.rest_length_m;
       p.k = mechanism.straight_leg.stiffness_N_per_m;
       p.d = mechanism.straight_leg.damping_N_s_per_m;
       break;
-    case MechanismType::kBall:
+    case MechanismKind::kBall:
       p.radius = mechanism.ball.radius_m;
       p.restitution = mechanism.ball.restitution;
       p.tangential_loss = mechanism.ball.tangential_loss;
       break;
-    case MechanismType::kRobot:
+    case MechanismKind::kRobot:
       p.r = mechanism.robot.rest_radius_m;
       p.E = mechanism.robot.E_Pa;
       p.I = mechanism.robot.second_moment_m4;
@@ -103,35 +103,16 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
   return p;
 }
 
-LiftoffRule LiftoffOfSpec(const MechanismSpec& mechanism) {
-  return mechanism.liftoff == LiftoffSpec::kRestLength ? LiftoffRule::kRestLength
-                                                       : LiftoffRule::kZeroForce;
-}
-
 LegMass LegMassOfSpec(const MechanismSpec& mechanism) {
   return mechanism.toe_mass_kg.value_or(0.0) > 0.0 ? LegMass::kAtToe : LegMass::kNone;
-}
-
-MechanismKind MechanismOfSpec(const MechanismSpec& mechanism) {
-  switch (mechanism.type) {
-    case MechanismType::kCLeg:
-      return MechanismKind::kCLeg;
-    case MechanismType::kStraightLeg:
-      return MechanismKind::kStraightLeg;
-    case MechanismType::kBall:
-      return MechanismKind::kBall;
-    case MechanismType::kRobot:
-      return MechanismKind::kRobot;
-  }
-  return MechanismKind::kCLeg;
 }
 
 Eigen::Vector4d StateOfSpec(const StateSpec& s) {
   return {s.x_m, s.y_m, s.vx_m_per_s, s.vy_m_per_s};
 }
 StateSpec SpecOfState(const Eigen::Vector4d& s) { return {s[0], s[1], s[2], s[3]}; }
-Mode ModeOfSpec(StartMode mode, MechanismType type) {
-  const bool c_leg = type == MechanismType::kCLeg;
+Mode ModeOfSpec(StartMode mode, MechanismKind type) {
+  const bool c_leg = type == MechanismKind::kCLeg;
   switch (mode) {
     case StartMode::kRolling:
       return c_leg ? Mode::kRolling : Mode::kStance;

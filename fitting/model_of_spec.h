@@ -14,13 +14,11 @@ namespace hoplab {
 Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
                                     const std::optional<ControllerSpec>& controller,
                                     double touchdown_angle_rad);
-LiftoffRule LiftoffOfSpec(const MechanismSpec& mechanism);
 LegMass LegMassOfSpec(const MechanismSpec& mechanism);
-MechanismKind MechanismOfSpec(const MechanismSpec& mechanism);
 Eigen::Vector4d StateOfSpec(const StateSpec& state);
 StateSpec SpecOfState(const Eigen::Vector4d& state);
 /// The mode a record begins in.
-Mode ModeOfSpec(StartMode mode, MechanismType type);
+Mode ModeOfSpec(StartMode mode, MechanismKind type);
 /// The same as a simulation begins with.
 std::vector<double> InitialOf(const StateSpec& state);
 

@@ -21,7 +21,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 class Builder {
  public:
   Builder(const Dataset& dataset, const ProblemOptions& options)
-      : dataset_(dataset), options_(options), mechanism_(MechanismOfSpec(dataset.mechanism)) {}
+      : dataset_(dataset), options_(options), mechanism_(dataset.mechanism.type) {}
 
   FitProblem Build() {
     problem_.law = ResolveLaw(options_.law, mechanism_, "--law");
@@ -47,7 +47,7 @@ class Builder {
       t.role = trial.role;
       t.parameters = ParametersOfSpec(trial.mechanism, trial.controller, trial.touchdown_angle_rad);
       CheckVariant(trial.mechanism.variant, problem_.law, dataset_.origin.place);
-      t.liftoff = LiftoffOfSpec(trial.mechanism);
+      t.liftoff = trial.mechanism.liftoff;
       const std::vector<double>& time = trial.trace.time_s;
       t.begin_s = time.front();
       t.row_times.reserve(time.size());

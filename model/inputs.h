@@ -8,23 +8,10 @@
 #include <span>
 #include <string_view>
 
+#include "base/input_kind.h"
 #include "model/jet.h"
 
 namespace hoplab {
-
-/// What a logged column can drive: the hip torque in place of the controller's, the leg angle
-/// commanded in flight, a force on the body along the axes of world W.
-enum class InputKind { kHipTorque, kLegAngle, kBodyForceX, kBodyForceY };
-inline constexpr int kInputKinds = 4;
-
-/// A set of kinds, one bit each.
-using InputSet = unsigned;
-constexpr InputSet BitOf(InputKind kind) { return 1u << static_cast<unsigned>(kind); }
-inline constexpr InputSet kEveryInput = 0xF;
-
-/// "hip_torque", as in input.hip_torque.delay; its unit.
-std::string_view NameOf(InputKind kind);
-std::string_view UnitOf(InputKind kind);
 
 /// A logged column, M50: u(t) = scale c(t - delay), c linear between its samples or held from the
 /// one before, constant before the first and after the last.

@@ -14,10 +14,10 @@ double OfBall(const Parameters<double>& p) { return p.radius; }
 
 // In the order of MechanismKind.
 constexpr auto kRows = std::to_array<MechanismTraits>({
-    {"c_leg", true, true, false, false, false, OfCLeg},
-    {"straight_leg", true, true, false, false, false, OfStraightLeg},
-    {"ball", false, false, false, false, false, OfBall},
-    {"robot", true, false, true, true, true, nullptr},
+    {true, true, false, false, false, OfCLeg},
+    {true, true, false, false, false, OfStraightLeg},
+    {false, false, false, false, false, OfBall},
+    {true, false, true, true, true, nullptr},
 });
 
 }  // namespace
@@ -25,7 +25,5 @@ constexpr auto kRows = std::to_array<MechanismTraits>({
 const MechanismTraits& TraitsOf(MechanismKind mechanism) {
   return kRows[static_cast<std::size_t>(mechanism)];
 }
-
-std::string_view NameOf(MechanismKind mechanism) { return TraitsOf(mechanism).name; }
 
 }  // namespace hoplab

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "model/parameters.h"
 
 namespace hoplab {
@@ -9,7 +7,6 @@ namespace hoplab {
 /// What sets a mechanism apart where fits and searches treat it in its own way: one row a
 /// mechanism.
 struct MechanismTraits {
-  std::string_view name;
   bool has_stance;      // it rolls or stands on the ground; else it bounces
   bool has_placed_leg;  // one leg, which lands at an angle that a request tells
   bool has_pitch;       // a start has pitch and its rate, which no trace tells

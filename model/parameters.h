@@ -6,14 +6,12 @@
 #include <span>
 #include <string_view>
 
+#include "base/mechanism_kind.h"
 #include "base/thesis_variant.h"
 #include "model/inputs.h"
 #include "model/robot_parameters.h"
 
 namespace hoplab {
-
-/// Which leg (or none) the body hops on.
-enum class MechanismKind { kCLeg, kStraightLeg, kBall, kRobot };
 
 /// How a C-leg carries its load; section 3 of the equation sheet.
 enum class Law {
@@ -26,9 +24,6 @@ enum class Law {
   kElastica,
   kRobot
 };
-
-/// What ends a stance: the chord force back at zero, or the chord back at its rest length.
-enum class LiftoffRule { kZeroForce, kRestLength };
 
 /// Terms of a leg law that only effects bring in (section "Effects" of the equation sheet). Each
 /// effect adds to its field and sets `active`: a flag, so that a run in double and in duals takes
@@ -303,7 +298,6 @@ std::span<const Law> LawsOf(MechanismKind mechanism);
 inline MechanismKind MechanismOf(Law law) { return InfoOf(law).mechanism; }
 inline std::string_view NameOf(Law law) { return InfoOf(law).name; }
 inline std::string_view SentenceOf(Law law) { return InfoOf(law).sentence; }
-std::string_view NameOf(MechanismKind mechanism);
 std::optional<Law> FindLaw(std::string_view name);
 
 }  // namespace hoplab

@@ -5,16 +5,13 @@
 #include <memory>
 #include <utility>
 
+#include "base/mechanism_kind.h"
 #include "model/jet.h"
 
 namespace hoplab {
 
 /// Most legs of a robot, seen from the side.
 inline constexpr int kMaxLegs = 4;
-
-/// What the motors of a robot's hips do: turn as stiff as stone at their angle, be held at it by
-/// their controller, follow a clock.
-enum class MotorControl { kLocked, kHeld, kClock };
 
 /// A robot's body, motors and legs (section 8 of the equation sheet), beside the mass and gravity
 /// it has with every mechanism. SI units and radians; angles as in section 8.

@@ -145,7 +145,7 @@ FitOptions FitOptionsOf(const py::dict& options) {
   return out;
 }
 
-FitSpan SpanOf(const py::dict& options) {
+Segmentation SpanOf(const py::dict& options) {
   return Word(options, "span", FindSpan, {"whole_else_hops", "whole", "hops"});
 }
 

@@ -52,6 +52,6 @@ IntegratorOptions IntegratorOf(const py::dict& options);
 ProblemOptions ProblemOptionsOf(const py::dict& options);
 /// Options strategy, starts, seed, loss, loss_scale and jobs.
 FitOptions FitOptionsOf(const py::dict& options);
-FitSpan SpanOf(const py::dict& options);
+Segmentation SpanOf(const py::dict& options);
 
 }  // namespace hoplab::python

@@ -130,7 +130,7 @@ py::dict ResultOf(const SimulationRequest& request, const Trajectory& run,
 
 py::dict SimulationOf(const py::dict& options) {
   const Scenario scenario = DocumentOf(options).Read();
-  const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
+  const MechanismKind mechanism = scenario.mechanism.type;
   const LegMass mass = LegMassOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
   const std::vector<DrivenInput> inputs = DrivenInputsOf(scenario);

@@ -19,8 +19,8 @@ ExitCode RunCompare(const CompareSettings& settings, Console& console) {
   progress.Stage("fitting each model");
   const std::vector<Variant> variants = VariantsOf(settings, dataset);
   const LawComparison comparison =
-      CompareLaws(dataset, variants, ProblemOptionsOf(settings.problem), fit,
-                  FitSpan::kWholeElseHops, [&](int done) {
+      CompareLaws(dataset, variants, ProblemOptionsOf(settings.problem), fit, Segmentation::kAuto,
+                  [&](int done) {
                     progress.Step("fitting each model: " + std::to_string(done) + " of " +
                                       std::to_string(variants.size()),
                                   done, static_cast<long>(variants.size()));

@@ -38,13 +38,21 @@ bool IsAmong(std::string_view name, const auto& names) {
   return false;
 }
 
+// M94: friction that the statics of the leg have to know.
+bool BendsTheLeg(const ExportedModel& model, std::string_view effect) {
+  return model.law == Law::kElastica &&
+         (effect == "hip_viscous_friction" || effect == "hip_coulomb_friction");
+}
+
 void CheckEffects(const ExportedModel& model, const std::string& place) {
   for (const EffectSetting& e : model.effects) {
     const EffectInfo& info = e.effect->info;
-    if (IsAmong(info.name, kWritten) || IsAmong(info.name, kOfTheBody) ||
-        info.kind == EffectKind::kObservation)
+    if (!BendsTheLeg(model, info.name) &&
+        (IsAmong(info.name, kWritten) || IsAmong(info.name, kOfTheBody) ||
+         info.kind == EffectKind::kObservation))
       continue;
     std::string remedy = "Fit without it (--with names what is fitted).";
+    if (BendsTheLeg(model, info.name)) remedy = "Fit with --law large_deflection in its place.";
     if (info.name == "higher_order_bending") remedy = "Fit with --law elastica in its place.";
     throw InputError({place + ": effects", DescribeEffect(e),
                       "changes the law in a way an exported C file does not know", remedy});

@@ -5,7 +5,7 @@
 namespace hoplab {
 namespace {
 
-Json ParametersOfMember(const Extension& e, std::size_t member) {
+Json ParametersOfMember(const FittedModel& e, std::size_t member) {
   Json out = Json::array();
   const Candidate& c = e.members[member];
   const Eigen::VectorXd values = e.ValuesOf(static_cast<int>(member));
@@ -78,7 +78,7 @@ Json GroupsRecord(const Diagnosis& d) {
 Json CausesRecord(const Diagnosis& d) {
   Json out = Json::array();
   if (!d.extension) return out;
-  const Extension& best = d.naming.best;
+  const FittedModel& best = d.naming.best;
   for (const bool main : {true, false}) {
     for (const CauseReport& c : d.extension->causes) {
       if (c.main != main) continue;

@@ -73,7 +73,7 @@ Json SpaceRecord(const DesignRun& run) {
 Json RivalsRecord(const DesignRun& run) {
   Json out = Json::array();
   for (std::size_t i = 0; i < run.rivals.size(); ++i) {
-    const Extension& rival = run.rivals[i];
+    const FittedModel& rival = run.rivals[i];
     Json values = Json::object();
     for (int k = 0; k < rival.problem.shared_count(); ++k)
       values[rival.problem.shared[static_cast<std::size_t>(k)].name] =

@@ -50,7 +50,7 @@ Json MovementsRecord(const std::vector<Movement>& movements) {
 Json ExtensionRecord(const Diagnosis& d) {
   if (!d.extension) return nullptr;
   const ExtensionReport& e = *d.extension;
-  const Extension& best = d.naming.best;
+  const FittedModel& best = d.naming.best;
   Json before = Json::object(), after = Json::object();
   for (const Movement& m : e.movements) {
     before[m.name] = NumberOrNull(m.before);

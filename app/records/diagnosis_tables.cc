@@ -110,7 +110,7 @@ std::string ResidualsTable(const Diagnosis& d, const HeldOutErrors* extended) {
   return csv.text();
 }
 
-std::string EvidenceTable(const Extension& null, std::span<const Candidate> members,
+std::string EvidenceTable(const FittedModel& null, std::span<const Candidate> members,
                           const std::vector<std::string>& names) {
   CsvText csv({"effect", "parameter", "trial", "time_s", "channel", "mode", "running", "evidence"});
   const std::vector<TrialProblem> train = TrialsOf(null.problem, TrialRole::kTrain);
@@ -178,7 +178,7 @@ std::string EnergyTable(const EnergyLedger& ledger) {
 std::vector<AssessedModel> ModelsOf(const Diagnosis& d) {
   std::vector<AssessedModel> models = {{&d.problem, &d.null.shared, &d.before.trials, "before"}};
   if (d.extension) {
-    const Extension& best = d.naming.best;
+    const FittedModel& best = d.naming.best;
     models.push_back({&best.problem, &best.shared, &d.extension->after.trials, "after"});
   }
   return models;

@@ -17,7 +17,7 @@ std::map<std::string, std::string> DiagnosisTables(const DiagnosisRun& run);
 
 /// Evidence for effects that a model lacks, beside its fitted values: row by row and summed up
 /// since the trial's first; an effect of one trial only counts there. `names`: of the members.
-std::string EvidenceTable(const Extension& null, std::span<const Candidate> members,
+std::string EvidenceTable(const FittedModel& null, std::span<const Candidate> members,
                           const std::vector<std::string>& names);
 
 /// Measured, simulated before, and with the extended model's errors simulated after.

@@ -6,8 +6,7 @@ namespace hoplab {
 
 std::vector<Law> AllLaws() {
   std::vector<Law> laws;
-  for (const MechanismKind mechanism : {MechanismKind::kCLeg, MechanismKind::kStraightLeg,
-                                        MechanismKind::kBall, MechanismKind::kRobot}) {
+  for (const MechanismKind mechanism : kMechanisms) {
     const std::span<const Law> of = LawsOf(mechanism);
     laws.insert(laws.end(), of.begin(), of.end());
   }

@@ -10,7 +10,7 @@ namespace hoplab {
 namespace {
 
 Json ReadingRecord(const StudyReading& reading) {
-  return {{"variant", VariantRecord(reading.variant)}, {"liftoff", WordOf(reading.liftoff)}};
+  return {{"variant", VariantRecord(reading.variant)}, {"liftoff", NameOf(reading.liftoff)}};
 }
 
 Json ConstantsRecord(const StudyConstants& constants) {
@@ -151,10 +151,6 @@ std::map<std::string, std::string> IdentifyFiles(const IdentifySettings& setting
     files["published-energy.yaml"] =
         ScenarioText(result.by_energy.front(), "published-energy", OriginText(settings));
   return files;
-}
-
-const char* WordOf(LiftoffRule rule) {
-  return rule == LiftoffRule::kZeroForce ? "zero_force" : "rest_length";
 }
 
 }  // namespace hoplab

@@ -27,6 +27,5 @@ std::map<std::string, std::string> IdentificationTables(const IdentificationResu
 std::string ScenarioText(const StudyFit& fit, const std::string& name, const std::string& origin);
 
 /// "zero_force", "rest_length".
-const char* WordOf(LiftoffRule rule);
 
 }  // namespace hoplab

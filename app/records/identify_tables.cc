@@ -38,7 +38,7 @@ std::string ReadingsTable(const IdentificationResult& result) {
     table.Cell(tables);
     for (const VariantKey& key : VariantKeys())
       table.Cell(key.words[static_cast<std::size_t>(key.get(fit.reading.variant))]);
-    table.Cell(WordOf(fit.reading.liftoff));
+    table.Cell(NameOf(fit.reading.liftoff));
     for (const double constant : fit.constants) table.Cell(constant);
     AddParts(fit, table);
     table.EndRow();
@@ -177,7 +177,7 @@ std::string ScenarioText(const StudyFit& fit, const std::string& name, const std
       "initial: {{x_m: 0, y_m: 0.30, vx_m_per_s: {}, vy_m_per_s: 0}}\n"
       "stop: {{time_s: 15}}\n{}",
       origin, DampingLines(constants), name, Number(At(constants, C::kMass)),
-      WordOf(fit.reading.liftoff), ToeLines(constants), Number(At(constants, C::kRadius)),
+      NameOf(fit.reading.liftoff), ToeLines(constants), Number(At(constants, C::kRadius)),
       Number(section.width_m), Number(section.thickness_m), variant,
       Number(At(constants, C::kGain)), Number(At(constants, C::kDesiredSpeed)),
       Number(kControlledAngle), Number(kControlledAngle * At(constants, C::kPlacedShare)),

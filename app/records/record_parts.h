@@ -61,7 +61,7 @@ struct FitConfiguration {
   std::string dataset_argument;  // as on the command line
   const ProblemOptions* problem_options = nullptr;
   const FitOptions* fit = nullptr;
-  FitSpan span = FitSpan::kWholeElseHops;
+  Segmentation span = Segmentation::kAuto;
 };
 
 /// The whole resolved configuration, what does not change a result (jobs, places) left out.

@@ -142,7 +142,7 @@ Json MechanismRecord(const SimulationRequest& request) {
       values[std::string(info.parameters[i].name)] = NumberOrNull(setting.values[i]);
     effects.push_back({{"name", info.name}, {"parameters", values}});
   }
-  for (const DrivenInput& input : request.inputs) driven_by.push_back(NameOf(input.kind));
+  for (const DrivenInput& input : request.inputs) driven_by.push_back(InfoOf(input.kind).name);
   const bool at_force = request.liftoff == LiftoffRule::kZeroForce;
   Json record = {{"type", NameOf(mechanism)},
                  {"ground_slope_rad", NumberOrNull(GroundSlope(request))},

@@ -41,7 +41,7 @@ void AddCauseRow(TextTable& table, const SharedParameter& s, double value, const
 }
 
 // Places of a candidate's values among the shared ones of a model that has it; -1: it has not.
-int PlaceIn(const Extension& model, const Candidate& candidate) {
+int PlaceIn(const FittedModel& model, const Candidate& candidate) {
   int place = model.problem.shared_count() - model.parameter_count();
   for (const Candidate& member : model.members) {
     if (member == candidate) return place;
@@ -65,7 +65,7 @@ void AddCause(TextTable& table, const Diagnosis& d, const CauseReport& cause, bo
     const CandidateResult& c = naming.candidates[static_cast<std::size_t>(naming.groups[m][k])];
     const bool rival = k > 0;
     if (rival && (m >= naming.rivals.size() || k >= naming.rivals[m].size())) continue;
-    const Extension& model = rival ? naming.rivals[m][k] : naming.best;
+    const FittedModel& model = rival ? naming.rivals[m][k] : naming.best;
     const int place = PlaceIn(model, c.candidate);
     if (place < 0) continue;
     for (int i = 0; i < c.candidate.parameter_count(); ++i) {

@@ -53,7 +53,7 @@ class Run {
     CheckSpace(problem);
     if (!FitPlain(std::move(problem)) || Stopped()) return;
     RefitSettings settings = Settings();
-    Extension null = plain_;
+    FittedModel null = plain_;
     Stage("looking for the noise that suits it");
     Settle(null, settings);
     if (!run_.separates) {
@@ -211,7 +211,7 @@ class Run {
   const Dataset& dataset_;
   const DesignRunOptions& options_;
   DesignRun run_;
-  Extension plain_;
+  FittedModel plain_;
   std::vector<TrialProblem> train_;
 };
 
@@ -219,7 +219,7 @@ class Run {
 
 std::string DesignRun::RivalNames() const {
   std::vector<std::string> names;
-  for (const Extension& rival : rivals) names.push_back(RivalName(rival));
+  for (const FittedModel& rival : rivals) names.push_back(RivalName(rival));
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
     text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];

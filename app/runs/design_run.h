@@ -15,7 +15,7 @@ namespace hoplab {
 struct DesignRunOptions {
   ProblemOptions problem;
   FitOptions fit;  // jobs, stop and seed serve the whole run
-  FitSpan span = FitSpan::kWholeElseHops;
+  Segmentation span = Segmentation::kAuto;
   std::vector<std::string> causes;  // effects to tell apart; one: from no effect
   std::string sharpen;              // a shared value; with neither, a diagnosis decides
   std::vector<DesignRange> space;   // over the default ranges
@@ -34,12 +34,12 @@ struct DesignRun {
   bool separates = true;  // the task; false: sharpens a value
   std::string decision;   // why the diagnosis chose the task; empty where it was given
 
-  std::vector<Extension> rivals;      // the causes told apart
+  std::vector<FittedModel> rivals;    // the causes told apart
   std::vector<double> probabilities;  // of the rivals, by the recorded trials
   /// The recorded trials tell them apart already: worths count as if they did not.
   bool even_odds = false;
 
-  Extension model;    // whose value is sharpened
+  FittedModel model;  // whose value is sharpened
   int parameter = 0;  // its place among the shared values
 
   DesignSpace space;

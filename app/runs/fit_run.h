@@ -21,7 +21,7 @@ namespace hoplab {
 struct FitRunOptions {
   ProblemOptions problem;
   FitOptions fit;
-  FitSpan span = FitSpan::kWholeElseHops;
+  Segmentation span = Segmentation::kAuto;
   std::vector<std::string> profile;  // shared parameters, or "all"
   /// Called where a stage begins.
   std::function<void(std::string_view stage)> stage = nullptr;

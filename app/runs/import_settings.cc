@@ -95,10 +95,10 @@ void AddShift(const std::string& text, TraceOptions* options) {
   options->shifts[channel] = ToSi(number, *unit);
 }
 
-MechanismType TypeOf(const std::string& word) {
-  return word == "ball"           ? MechanismType::kBall
-         : word == "straight_leg" ? MechanismType::kStraightLeg
-                                  : MechanismType::kCLeg;
+MechanismKind TypeOf(const std::string& word) {
+  return word == "ball"           ? MechanismKind::kBall
+         : word == "straight_leg" ? MechanismKind::kStraightLeg
+                                  : MechanismKind::kCLeg;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ void AddSimulateOptions(CLI::App& sub, SimulateSettings& settings) {
 }
 
 ScenarioRequest::ScenarioRequest(const SimulateSettings& settings, const Scenario& scenario) {
-  const MechanismKind mechanism = MechanismOfSpec(scenario.mechanism);
+  const MechanismKind mechanism = scenario.mechanism.type;
   const LegMass mass = LegMassOfSpec(scenario.mechanism);
   const Law law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
   inputs = DrivenInputsOf(scenario);

@@ -21,7 +21,7 @@ class Writer {
   std::string Write() {
     text_ = "format: hoplab-dataset/1\nname: " + QuotedYaml(dataset_.name) +
             "\nsource: {kind: recorded, note: " + QuotedYaml(dataset_.note) +
-            "}\nmechanism:\n  type: " + MechanismTypeName(dataset_.type) + "\n";
+            "}\nmechanism:\n  type: " + NameOf(dataset_.type) + "\n";
     bool in_block = false;
     for (const NeededValue& needed : NeededValues(dataset_.type)) {
       const std::size_t dot = needed.key.find('.');
@@ -39,7 +39,7 @@ class Writer {
     for (std::size_t i = 0; i < dataset_.trials.size(); ++i) {
       text_ += "  - file: " + dataset_.trials[i].file +
                "\n    role: " + RoleName(dataset_.trials[i].role) + "\n";
-      if (dataset_.type == MechanismType::kBall) continue;
+      if (dataset_.type == MechanismKind::kBall) continue;
       Line("    ", "touchdown_angle_deg", "trials." + std::to_string(i) + ".touchdown_angle_deg",
            kTouchdownAngleHint);
     }
@@ -51,7 +51,7 @@ class Writer {
     std::vector<std::string> known;
     for (const NeededValue& needed : NeededValues(dataset_.type))
       known.push_back("mechanism." + needed.key);
-    if (dataset_.type != MechanismType::kBall)
+    if (dataset_.type != MechanismKind::kBall)
       for (std::size_t i = 0; i < dataset_.trials.size(); ++i)
         known.push_back("trials." + std::to_string(i) + ".touchdown_angle_deg");
     if (std::find(known.begin(), known.end(), key) == known.end())

@@ -16,7 +16,7 @@ struct DatasetText {
   };
   std::string name;
   std::string note;  // of the source
-  MechanismType type = MechanismType::kCLeg;
+  MechanismKind type = MechanismKind::kCLeg;
   std::vector<Channel> channels;
   std::vector<Trial> trials;
   std::vector<std::pair<std::string, std::string>> values;  // by dotted key

@@ -30,7 +30,7 @@ struct ImportRequest {
   std::vector<MapEntry> map;        // empty: all is guessed
   TraceOptions options;             // but for the cuts, which are the logs'
   std::string name;                 // of the dataset
-  MechanismType type = MechanismType::kCLeg;
+  MechanismKind type = MechanismKind::kCLeg;
   /// Values for keys that would be left blank: {"mechanism.body_mass_kg", "1.01"},
   /// {"trials.0.touchdown_angle_deg", "25"}.
   std::vector<std::pair<std::string, std::string>> values;

@@ -14,7 +14,7 @@ constexpr std::array kChannels = {Channel::kBodyX,  Channel::kBodyY,    Channel:
                                   Channel::kContact};
 
 // The body's settings alone, without what belongs to the reading of one law.
-MechanismSpec BodyOf(const MechanismSpec& full, MechanismType type) {
+MechanismSpec BodyOf(const MechanismSpec& full, MechanismKind type) {
   MechanismSpec body;
   body.type = type;
   body.body_mass_kg = full.body_mass_kg;
@@ -34,7 +34,7 @@ void PutDown(const Study& study, double angle_rad, Scenario& scenario) {
 Scenario StraightScenario(const Study& study, const CaptionSettings& settings) {
   Scenario scenario = study.constants;
   scenario.law = NameOf(Law::kStraightLeg);
-  scenario.mechanism = BodyOf(study.constants.mechanism, MechanismType::kStraightLeg);
+  scenario.mechanism = BodyOf(study.constants.mechanism, MechanismKind::kStraightLeg);
   scenario.mechanism.straight_leg = {settings.straight->rest_length_m,
                                      settings.straight->stiffness_N_per_m,
                                      settings.damping_N_s_per_m};
@@ -63,7 +63,7 @@ double Study::PlacedShare() const {
 
 Study StudyOfScenario(const Scenario& scenario, const IntegratorOptions& integrator) {
   const std::string& place = scenario.origin.place;
-  if (scenario.mechanism.type != MechanismType::kCLeg)
+  if (scenario.mechanism.type != MechanismKind::kCLeg)
     throw InputError({place, "mechanism.type", "must be c_leg: the study's hopper has such a leg",
                       "The straight leg beside it is made from its runs."});
   if (!scenario.controller)
@@ -85,7 +85,7 @@ Study StudyOfScenario(const Scenario& scenario, const IntegratorOptions& integra
 Study WithLaw(const Study& study, Law law) {
   Study other = study;
   other.constants.law = NameOf(law);
-  other.constants.mechanism = BodyOf(study.constants.mechanism, MechanismType::kCLeg);
+  other.constants.mechanism = BodyOf(study.constants.mechanism, MechanismKind::kCLeg);
   other.constants.mechanism.fall_height_m = study.constants.mechanism.fall_height_m;
   other.constants.mechanism.c_leg = study.constants.mechanism.c_leg;
   return other;

@@ -95,9 +95,9 @@ std::vector<std::pair<std::string, Study>> OtherSettings(const Study& study) {
     const bool same = NameOf(law) == own_law && other.constants.mechanism == own;
     if (!same) others.emplace_back(fmt::format("law {}", NameOf(law)), std::move(other));
   }
-  const bool by_force = own.liftoff == LiftoffSpec::kZeroForce;
+  const bool by_force = own.liftoff == LiftoffRule::kZeroForce;
   Study other = study;
-  other.constants.mechanism.liftoff = by_force ? LiftoffSpec::kRestLength : LiftoffSpec::kZeroForce;
+  other.constants.mechanism.liftoff = by_force ? LiftoffRule::kRestLength : LiftoffRule::kZeroForce;
   others.emplace_back(by_force ? "lift-off at rest length" : "lift-off at zero force",
                       std::move(other));
   if (study.PlacedShare() != 1.0) {

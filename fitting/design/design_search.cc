@@ -150,7 +150,7 @@ class Search {
 };
 
 // What a forecast promises.
-void Promise(SeparationForecast forecast, std::span<const Extension> rivals,
+void Promise(SeparationForecast forecast, std::span<const FittedModel> rivals,
              std::span<const double> weights, double before, DesignTried& tried) {
   tried.failure = std::move(forecast.failure);
   if (!tried.failure.empty()) return;
@@ -177,7 +177,7 @@ void Promise(SeparationForecast forecast, std::span<const Extension> rivals,
 
 }  // namespace
 
-DesignSearchResult SearchSeparating(std::span<const Extension> rivals,
+DesignSearchResult SearchSeparating(std::span<const FittedModel> rivals,
                                     std::span<const double> weights,
                                     const std::vector<TrialProblem>& train,
                                     const DesignSearchRequest& request) {
@@ -219,7 +219,7 @@ DesignSearchResult SearchSeparating(std::span<const Extension> rivals,
   return out;
 }
 
-DesignSearchResult SearchSharpening(const Extension& model, int parameter,
+DesignSearchResult SearchSharpening(const FittedModel& model, int parameter,
                                     const std::vector<TrialProblem>& train,
                                     const DesignSearchRequest& request) {
   const RecordedInformation information = InformationOf(model, train);
@@ -273,11 +273,11 @@ DesignSearchResult SearchSharpening(const Extension& model, int parameter,
   return out;
 }
 
-std::vector<double> WeightsOf(std::span<const Extension> rivals) {
+std::vector<double> WeightsOf(std::span<const FittedModel> rivals) {
   const std::size_t k = rivals.size();
   std::vector<double> weights(k, 1.0 / static_cast<double>(k));
   double most = -std::numeric_limits<double>::infinity();
-  for (const Extension& r : rivals) {
+  for (const FittedModel& r : rivals) {
     if (!r.settled || !std::isfinite(r.evidence.log_z())) return weights;
     most = std::max(most, r.evidence.log_z());
   }
@@ -288,14 +288,14 @@ std::vector<double> WeightsOf(std::span<const Extension> rivals) {
   return weights;
 }
 
-Extension FitWith(const Extension& base, const Candidate& candidate, const NoiseModel& near,
-                  const RefitSettings& settings) {
+FittedModel FitWith(const FittedModel& base, const Candidate& candidate, const NoiseModel& near,
+                    const RefitSettings& settings) {
   const std::vector<Candidate> added = {candidate};
   const Linearisation at = LineariseAt(base, added, *settings.train, settings.jobs);
   const Score score = ScoreOf(at, HypothesesOf(added).front());
   RefitSettings refit = settings;
   refit.forecast = score.predicted_gain;
-  Extension best = Refit(base, added, score.size, refit);
+  FittedModel best = Refit(base, added, score.size, refit);
   if (!best.ok()) return best;
   best.problem.noise = near;
   best.settled = false;

@@ -75,22 +75,22 @@ inline constexpr double kAlike = 0.15;
 /// global search by the linear forecast, then a local one, then refits for the most promising,
 /// since the linear forecast promises most where it fails: a steep drop far from the train trials
 /// was given 893 nats and brought 32. The same request gives the same result, whatever `jobs`.
-DesignSearchResult SearchSeparating(std::span<const Extension> rivals,
+DesignSearchResult SearchSeparating(std::span<const FittedModel> rivals,
                                     std::span<const double> weights,
                                     const std::vector<TrialProblem>& train,
                                     const DesignSearchRequest& request);
 
 /// Looks for the trial that makes the interval of a shared value of `model` narrowest, also where a
 /// setting is off by kSettingError: next to a fall everything is very sensitive.
-DesignSearchResult SearchSharpening(const Extension& model, int parameter,
+DesignSearchResult SearchSharpening(const FittedModel& model, int parameter,
                                     const std::vector<TrialProblem>& train,
                                     const DesignSearchRequest& request);
 
 /// Probabilities of rivals by their evidence, each alike before; equal where one has none.
-std::vector<double> WeightsOf(std::span<const Extension> rivals);
+std::vector<double> WeightsOf(std::span<const FittedModel> rivals);
 
 /// `base` with a candidate more, refitted under white noise and settled under `noise`'s kind.
-Extension FitWith(const Extension& base, const Candidate& candidate, const NoiseModel& near,
-                  const RefitSettings& settings);
+FittedModel FitWith(const FittedModel& base, const Candidate& candidate, const NoiseModel& near,
+                    const RefitSettings& settings);
 
 }  // namespace hoplab

@@ -20,7 +20,7 @@ constexpr double kRankTolerance = 1e-8;
 // More nats than that are as good as certain, and beyond what a linear model can know.
 constexpr double kMostNats = 1000.0;
 
-std::vector<int> FreePlaces(const Extension& model) {
+std::vector<int> FreePlaces(const FittedModel& model) {
   std::vector<int> free;
   for (int k = 0; k < model.problem.shared_count(); ++k) {
     const SharedParameter& s = model.problem.shared[static_cast<std::size_t>(k)];
@@ -30,20 +30,20 @@ std::vector<int> FreePlaces(const Extension& model) {
   return free;
 }
 
-std::vector<KeptColumn> ColumnsOf(const Extension& model, const std::vector<int>& places) {
+std::vector<KeptColumn> ColumnsOf(const FittedModel& model, const std::vector<int>& places) {
   std::vector<KeptColumn> columns;
   for (const int k : places)
     columns.push_back({k, model.problem.shared[static_cast<std::size_t>(k)].scale});
   return columns;
 }
 
-std::string FailureOf(Outcome outcome, const Extension& model) {
+std::string FailureOf(Outcome outcome, const FittedModel& model) {
   return std::string(NameOf(outcome)) + " under " + RivalName(model);
 }
 
 // A throw from below the height at which the leg meets the ground flies in the simulation, but
 // nobody can begin there.
-bool BeginsInGround(const Extension& model, const TrialProblem& trial) {
+bool BeginsInGround(const FittedModel& model, const TrialProblem& trial) {
   if (!(trial.start[3] > 0.0)) return false;
   TrialProblem still = trial;
   still.row_times = {0.0};
@@ -57,7 +57,7 @@ bool BeginsInGround(const Extension& model, const TrialProblem& trial) {
 }
 
 // The trial filled with what `truth` predicts, without noise, where it gets through it.
-Outcome Record(const Extension& truth, TrialProblem& trial) {
+Outcome Record(const FittedModel& truth, TrialProblem& trial) {
   if (BeginsInGround(truth, trial)) return Outcome::kStartsInGround;
   Trajectory predicted;
   TrialEvaluator(truth.problem, trial)
@@ -74,7 +74,7 @@ struct Nats {
   std::string failure;
 };
 
-Nats LinearNats(const Extension& rival, const RecordedInformation& information,
+Nats LinearNats(const FittedModel& rival, const RecordedInformation& information,
                 const TrialProblem& trial) {
   const TrialEvaluator evaluator(rival.problem, trial);
   TrialEvaluation e;
@@ -93,7 +93,7 @@ Nats LinearNats(const Extension& rival, const RecordedInformation& information,
   return {0.5 * (b - A * step).squaredNorm(), ""};
 }
 
-Nats RefittedNats(const Extension& rival, const std::vector<TrialProblem>& train,
+Nats RefittedNats(const FittedModel& rival, const std::vector<TrialProblem>& train,
                   const TrialProblem& trial) {
   std::vector<TrialProblem> trials = train;
   trials.push_back(trial);
@@ -112,8 +112,8 @@ Nats RefittedNats(const Extension& rival, const std::vector<TrialProblem>& train
 
 // All pairs of rivals by `nats_of(j, trial as i predicts it)`.
 template <class NatsOf>
-SeparationForecast Forecast(std::span<const Extension> rivals, const TrialProblem& trial, int jobs,
-                            const NatsOf& nats_of) {
+SeparationForecast Forecast(std::span<const FittedModel> rivals, const TrialProblem& trial,
+                            int jobs, const NatsOf& nats_of) {
   const int k = static_cast<int>(rivals.size());
   SeparationForecast out;
   std::vector<TrialProblem> recorded(rivals.size(), trial);
@@ -166,18 +166,19 @@ double LogEntropy(std::span<const double> log_weights) {
 
 }  // namespace
 
-std::string RivalName(const Extension& rival) {
+std::string RivalName(const FittedModel& rival) {
   std::string names;
   for (const Candidate& c : rival.members) names += (names.empty() ? "" : " + ") + c.Name();
   return names.empty() ? "no effect at all" : names;
 }
 
-bool AllGetThrough(std::span<const Extension> rivals, TrialProblem trial) {
+bool AllGetThrough(std::span<const FittedModel> rivals, TrialProblem trial) {
   return std::all_of(rivals.begin(), rivals.end(),
-                     [&](const Extension& r) { return IsComplete(Record(r, trial)); });
+                     [&](const FittedModel& r) { return IsComplete(Record(r, trial)); });
 }
 
-RecordedInformation InformationOf(const Extension& model, const std::vector<TrialProblem>& train) {
+RecordedInformation InformationOf(const FittedModel& model,
+                                  const std::vector<TrialProblem>& train) {
   RecordedInformation out;
   out.free = FreePlaces(model);
   const Eigen::Index n = static_cast<Eigen::Index>(out.free.size());
@@ -204,7 +205,7 @@ RecordedInformation InformationOf(const Extension& model, const std::vector<Tria
   return out;
 }
 
-SeparationForecast ForecastLinearly(std::span<const Extension> rivals,
+SeparationForecast ForecastLinearly(std::span<const FittedModel> rivals,
                                     std::span<const RecordedInformation> information,
                                     const TrialProblem& trial, int jobs) {
   return Forecast(rivals, trial, jobs, [&](int j, const TrialProblem& recorded) {
@@ -212,7 +213,7 @@ SeparationForecast ForecastLinearly(std::span<const Extension> rivals,
   });
 }
 
-SeparationForecast ForecastByRefits(std::span<const Extension> rivals,
+SeparationForecast ForecastByRefits(std::span<const FittedModel> rivals,
                                     const std::vector<TrialProblem>& train,
                                     const TrialProblem& trial, int jobs) {
   return Forecast(rivals, trial, jobs, [&](int j, const TrialProblem& recorded) {
@@ -252,8 +253,9 @@ double LogExpectedEntropy(std::span<const double> weights, const Eigen::MatrixXd
   return highest + std::log(sum);
 }
 
-SharpeningForecast ForecastInterval(const Extension& model, const RecordedInformation& information,
-                                    int parameter, const TrialProblem* trial) {
+SharpeningForecast ForecastInterval(const FittedModel& model,
+                                    const RecordedInformation& information, int parameter,
+                                    const TrialProblem* trial) {
   SharpeningForecast out;
   const Eigen::Index n = static_cast<Eigen::Index>(information.free.size());
   Eigen::MatrixXd S = information.rows;

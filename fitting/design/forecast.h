@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/fitted_model.h"
 
 namespace hoplab {
 
@@ -15,7 +15,7 @@ struct RecordedInformation {
   std::vector<int> free;  // places of the shared values that are not on a bound
   Eigen::MatrixXd rows;   // one column a free value
 };
-RecordedInformation InformationOf(const Extension& model, const std::vector<TrialProblem>& train);
+RecordedInformation InformationOf(const FittedModel& model, const std::vector<TrialProblem>& train);
 
 /// What a trial is expected to say for rival models.
 struct SeparationForecast {
@@ -27,17 +27,17 @@ struct SeparationForecast {
 };
 
 /// By the linear model of each rival at its fitted values.
-SeparationForecast ForecastLinearly(std::span<const Extension> rivals,
+SeparationForecast ForecastLinearly(std::span<const FittedModel> rivals,
                                     std::span<const RecordedInformation> information,
                                     const TrialProblem& trial, int jobs);
 
 /// By refits of each rival to the recorded trials and what each other one predicts.
-SeparationForecast ForecastByRefits(std::span<const Extension> rivals,
+SeparationForecast ForecastByRefits(std::span<const FittedModel> rivals,
                                     const std::vector<TrialProblem>& train,
                                     const TrialProblem& trial, int jobs);
 
 /// Whether every rival predicts the trial to its end.
-bool AllGetThrough(std::span<const Extension> rivals, TrialProblem trial);
+bool AllGetThrough(std::span<const FittedModel> rivals, TrialProblem trial);
 
 /// Entropy of weights that add to one [nats].
 double EntropyOf(std::span<const double> weights);
@@ -48,7 +48,7 @@ double EntropyOf(std::span<const double> weights);
 double LogExpectedEntropy(std::span<const double> weights, const Eigen::MatrixXd& nats);
 
 /// Names of a rival's members: "air_drag + ground_slope", "none of them".
-std::string RivalName(const Extension& rival);
+std::string RivalName(const FittedModel& rival);
 
 /// Half width of a value's 95 % interval [its own unit] from the recorded trials alone, and with a
 /// new one; infinite where the data do not determine it.
@@ -56,7 +56,8 @@ struct SharpeningForecast {
   double half_width = 0.0;
   std::string failure;  // "fell_angle"; empty: it can be simulated
 };
-SharpeningForecast ForecastInterval(const Extension& model, const RecordedInformation& information,
-                                    int parameter, const TrialProblem* trial);
+SharpeningForecast ForecastInterval(const FittedModel& model,
+                                    const RecordedInformation& information, int parameter,
+                                    const TrialProblem* trial);
 
 }  // namespace hoplab

@@ -22,7 +22,7 @@ double Spread(const Heterogeneity& h) {
 }
 
 // Place of a member's first value among the shared ones.
-std::size_t FirstValue(const Extension& e, std::size_t member) {
+std::size_t FirstValue(const FittedModel& e, std::size_t member) {
   int place = e.problem.shared_count() - e.parameter_count();
   for (std::size_t i = 0; i < member; ++i) place += e.members[i].parameter_count();
   return static_cast<std::size_t>(place);
@@ -33,7 +33,7 @@ std::size_t FirstValue(const Extension& e, std::size_t member) {
 void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
              const std::vector<Heterogeneity>& sizes) {
   const Naming& naming = diagnosis.naming;
-  const Extension& best = naming.best;
+  const FittedModel& best = naming.best;
   NameFeatures common;
   common.left_gain = std::log1p(std::max(best.evidence.discrepancy - best.evidence.white, 0.0));
   common.left_share = std::log10(std::clamp(1.0 - report.explained, kLeastShare, 1.0));

@@ -22,8 +22,8 @@ constexpr double kLeastGain = 0.01;
 constexpr std::uint64_t kDetectionStream = 11, kRemainderStream = 12, kBootstrapStream = 13,
                         kForcesStream = 14;
 
-std::vector<Movement> MovementsOf(const Extension& null, const Uncertainty& uncertainty,
-                                  const Extension& best) {
+std::vector<Movement> MovementsOf(const FittedModel& null, const Uncertainty& uncertainty,
+                                  const FittedModel& best) {
   std::vector<Movement> movements;
   for (int k = 0; k < null.problem.shared_count(); ++k) {
     const SharedParameter& s = null.problem.shared[static_cast<std::size_t>(k)];
@@ -35,7 +35,7 @@ std::vector<Movement> MovementsOf(const Extension& null, const Uncertainty& unce
   return movements;
 }
 
-bool Has(const Extension& e, const Candidate& c) {
+bool Has(const FittedModel& e, const Candidate& c) {
   return std::any_of(e.members.begin(), e.members.end(),
                      [&](const Candidate& m) { return m.effect == c.effect; });
 }
@@ -133,7 +133,7 @@ class Pipeline {
 
   // ---- extend, measure
   void Extended(const std::vector<Candidate>& candidates) {
-    const Extension& best = d_.naming.best;
+    const FittedModel& best = d_.naming.best;
     ExtensionReport report;
     report.uncertainty = AssessUncertainty(best.problem, train_, best.shared, best.starts,
                                            options_.fit.loss, options_.fit.jobs);
@@ -174,7 +174,7 @@ class Pipeline {
       d_.candidate_gains[static_cast<std::size_t>(i)] = CompareHeldOut(
           d_.null, d_.before, MeasureHeldOut(c.alone, 1, true), Seed(kBootstrapStream), nullptr);
     });
-    for (const std::vector<Extension>& rivals : d_.naming.rivals) {
+    for (const std::vector<FittedModel>& rivals : d_.naming.rivals) {
       if (rivals.size() < 2 || d_.experiment) continue;
       Stage("looking for the trial that would tell the causes apart");
       d_.experiment = ProposeExperiment(rivals, train_, options_.fit.jobs);
@@ -185,7 +185,7 @@ class Pipeline {
   void DescribeWhatIsMissing() {
     const bool left = d_.extension && d_.left.material;
     if (d_.verdict != Verdict::kUnexplained && !left) return;
-    const Extension& model = d_.extension ? d_.naming.best : d_.plain;
+    const FittedModel& model = d_.extension ? d_.naming.best : d_.plain;
     const Linearisation at = LineariseAt(model, basis_.probes, train_, options_.fit.jobs);
     d_.free_forces = Reconstruct(at, basis_, Seed(kForcesStream));
   }

@@ -45,7 +45,7 @@ inline constexpr double kExplained = 0.95;
 struct DiagnosisOptions {
   ProblemOptions problem;
   FitOptions fit;  // jobs, stop and seed serve the whole diagnosis
-  FitSpan span = FitSpan::kWholeElseHops;
+  Segmentation span = Segmentation::kAuto;
   CandidateOptions candidates;
   int max_effects = 5;
   double material = kMaterial;
@@ -128,8 +128,8 @@ struct Diagnosis {
   std::string refusal;
   bool interrupted = false;
 
-  Extension plain;          // the null fit under white noise
-  Extension null;           // the same under the noise that suits it
+  FittedModel plain;        // the null fit under white noise
+  FittedModel null;         // the same under the noise that suits it
   Uncertainty uncertainty;  // of the null fit
   Detection detection;
   Localisation localisation;

@@ -24,7 +24,7 @@ using State = Eigen::Vector4d;
 // Energy in flight by the mass and the gravity of a model in one trial.
 class Scale {
  public:
-  Scale(const Extension& model, const TrialProblem& trial) {
+  Scale(const FittedModel& model, const TrialProblem& trial) {
     request_.law = model.problem.law;
     request_.liftoff = trial.liftoff;
     request_.parameters = trial.parameters;
@@ -118,7 +118,7 @@ std::vector<HopBalance> BalancesOf(const FitProblem& problem, const TrialProblem
   return hops;
 }
 
-EnergyLedger LedgerOfTrial(const Extension& model, std::size_t i, const HeldOutErrors& before,
+EnergyLedger LedgerOfTrial(const FittedModel& model, std::size_t i, const HeldOutErrors& before,
                            const HeldOutErrors* after) {
   const TrialProblem& trial = model.problem.trials[i];
   EnergyLedger ledger{trial.recording, {}};
@@ -145,7 +145,7 @@ EnergyLedger LedgerOfTrial(const Extension& model, std::size_t i, const HeldOutE
 }
 
 // Trials that are single hops: each is simulated from a start of its own.
-EnergyLedger LedgerOfHops(const Extension& model, const std::vector<std::size_t>& trials,
+EnergyLedger LedgerOfHops(const FittedModel& model, const std::vector<std::size_t>& trials,
                           const HeldOutErrors& before, const HeldOutErrors* after) {
   EnergyLedger ledger{model.problem.trials[trials.front()].recording, {}};
   for (std::size_t k = 0; k + 1 < trials.size(); ++k) {
@@ -176,7 +176,7 @@ EnergyLedger LedgerOfHops(const Extension& model, const std::vector<std::size_t>
 
 }  // namespace
 
-EnergyLedger LedgerOf(const Extension& model, const HeldOutErrors& before,
+EnergyLedger LedgerOf(const FittedModel& model, const HeldOutErrors& before,
                       const HeldOutErrors* after) {
   EnergyLedger best;
   bool best_is_held_out = false;

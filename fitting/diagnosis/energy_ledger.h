@@ -33,7 +33,7 @@ struct EnergyLedger {
 /// The ledger of a held-out recording (a train one if there is none): the one with most hops.
 /// `after` may be null. With trials that are single hops, simulated energies begin and end with
 /// each hop on its own.
-EnergyLedger LedgerOf(const Extension& model, const HeldOutErrors& before,
+EnergyLedger LedgerOf(const FittedModel& model, const HeldOutErrors& before,
                       const HeldOutErrors* after);
 
 }  // namespace hoplab

@@ -65,7 +65,7 @@ std::vector<std::string> CorrectNoise(FitProblem& problem) {
   return notes;
 }
 
-Gate CheckGate(const Extension& null, const std::vector<TrialProblem>& train, int jobs) {
+Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, int jobs) {
   Gate gate;
   if (!null.ok()) {
     gate.checks.push_back({"fit", false,

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/fitted_model.h"
 #include "fitting/gradient_certificate.h"
 #include "fitting/stop_check.h"
 
@@ -32,7 +32,7 @@ inline constexpr double kGradientBound = 1e-4;
 /// Whether the null fit may be diagnosed: every train trial is simulated through all its data, the
 /// noise is known, the gradients hold. Where the fit is no minimum that is told; an extension of it
 /// may be one.
-Gate CheckGate(const Extension& null, const std::vector<TrialProblem>& train, int jobs);
+Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, int jobs);
 
 /// Replaces stated noise that the flights contradict (estimated more than a quarter above it) by
 /// the estimate; notes say so. A diagnosis with noise stated too small would see causes everywhere.

@@ -95,7 +95,7 @@ void Spread(const std::vector<EliminatedTrial>& parts, int k, double value, doub
 
 }  // namespace
 
-std::vector<Heterogeneity> HeterogeneityOf(const Extension& model,
+std::vector<Heterogeneity> HeterogeneityOf(const FittedModel& model,
                                            const std::vector<TrialProblem>& train, int jobs) {
   const int n = model.problem.shared_count();
   std::vector<KeptColumn> columns;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/fitted_model.h"
 
 namespace hoplab {
 
@@ -20,7 +20,7 @@ struct Heterogeneity {
 };
 
 /// One a shared value of `model`, under its noise.
-std::vector<Heterogeneity> HeterogeneityOf(const Extension& model,
+std::vector<Heterogeneity> HeterogeneityOf(const FittedModel& model,
                                            const std::vector<TrialProblem>& train, int jobs);
 
 }  // namespace hoplab

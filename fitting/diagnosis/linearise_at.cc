@@ -67,7 +67,7 @@ struct Part {
 
 class TrialColumns {
  public:
-  TrialColumns(const Extension& model, std::span<const Candidate> tested,
+  TrialColumns(const FittedModel& model, std::span<const Candidate> tested,
                const std::vector<int>& first_column, const std::vector<int>& fitted,
                const TrialProblem& trial, const OwnValues& own)
       : model_(model),
@@ -152,7 +152,7 @@ class TrialColumns {
     }
   }
 
-  const Extension& model_;
+  const FittedModel& model_;
   std::span<const Candidate> tested_;
   const std::vector<int>& first_column_;
   const std::vector<int>& fitted_;
@@ -164,7 +164,7 @@ class TrialColumns {
 
 }  // namespace
 
-Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tested,
+Linearisation LineariseAt(const FittedModel& model, std::span<const Candidate> tested,
                           const std::vector<TrialProblem>& train, int jobs) {
   const std::vector<int> fitted = FreeShared(model.problem, model.shared);
   std::vector<int> first_column;

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/fitted_model.h"
 #include "fitting/diagnosis/linearisation.h"
 
 namespace hoplab {
@@ -13,7 +13,7 @@ namespace hoplab {
 /// one, whose sums of products are those of all its rows, so that memory does not grow with the
 /// length of the trials. Their labels name the trial alone, and `raw` and `leverage` are empty.
 /// (Linearise gives every row.)
-Linearisation LineariseAt(const Extension& model, std::span<const Candidate> tested,
+Linearisation LineariseAt(const FittedModel& model, std::span<const Candidate> tested,
                           const std::vector<TrialProblem>& train, int jobs);
 
 }  // namespace hoplab

@@ -109,7 +109,7 @@ void AddBlocks(const TrialErrors& before, const TrialErrors& after, double lengt
 
 }  // namespace
 
-HeldOutErrors MeasureHeldOut(const Extension& model, int jobs, bool test_only) {
+HeldOutErrors MeasureHeldOut(const FittedModel& model, int jobs, bool test_only) {
   FitResult fit;
   fit.ok = model.ok();
   fit.shared = model.shared;
@@ -124,7 +124,7 @@ HeldOutErrors MeasureHeldOut(const Extension& model, int jobs, bool test_only) {
   return out;
 }
 
-HeldOutGain CompareHeldOut(const Extension& before, const HeldOutErrors& errors_before,
+HeldOutGain CompareHeldOut(const FittedModel& before, const HeldOutErrors& errors_before,
                            const HeldOutErrors& errors_after, std::uint64_t seed,
                            std::vector<std::string>* left_out) {
   const double together = before.problem.noise.IsWhite() ? 0.0 : before.problem.noise.time_scale;

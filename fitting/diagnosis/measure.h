@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/fitted_model.h"
 #include "fitting/trial_errors.h"
 
 namespace hoplab {
@@ -38,12 +38,12 @@ struct HeldOutGain {
 };
 
 /// With `test_only` the errors of train trials are left out.
-HeldOutErrors MeasureHeldOut(const Extension& model, int jobs, bool test_only = false);
+HeldOutErrors MeasureHeldOut(const FittedModel& model, int jobs, bool test_only = false);
 
 /// Gain of `after` over `before`; trials one of the two cannot simulate to their end are left out
 /// and named in `left_out`. Rows are whitened, so blocks may be shorter than a hop: as long as the
 /// time over which the errors of `before` hang together, and no longer than a hop.
-HeldOutGain CompareHeldOut(const Extension& before, const HeldOutErrors& errors_before,
+HeldOutGain CompareHeldOut(const FittedModel& before, const HeldOutErrors& errors_before,
                            const HeldOutErrors& errors_after, std::uint64_t seed,
                            std::vector<std::string>* left_out);
 

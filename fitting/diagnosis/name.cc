@@ -64,7 +64,7 @@ class Search {
     naming_.best = refits_.At(current);
     naming_.best_set = current;
     for (const CandidateSet& less : Eliminations(current))
-      naming_.without.push_back(refits_.Usable(less) ? refits_.At(less) : Extension());
+      naming_.without.push_back(refits_.Usable(less) ? refits_.At(less) : FittedModel());
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
       CandidateResult& c = naming_.candidates[i];
       const CandidateSet alone = {static_cast<int>(i)};
@@ -111,7 +111,7 @@ class Search {
 
   // Pool members not in `model`, the best expected gain beside it first.
   std::vector<std::pair<double, int>> Ranked(const CandidateSet& model,
-                                             const Extension& fitted) const {
+                                             const FittedModel& fitted) const {
     std::vector<int> rest;
     std::vector<Candidate> tested;
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
@@ -255,7 +255,7 @@ class Search {
       for (const auto& [worth, i] : place) whole += std::exp(worth - refits_.Worth(set));
       std::vector<int> group;
       std::vector<double> weights;
-      std::vector<Extension> rivals;
+      std::vector<FittedModel> rivals;
       for (const auto& [worth, i] : place) {
         if (held >= kHeld * whole) break;
         group.push_back(i);
@@ -320,7 +320,7 @@ class Search {
     }
   }
 
-  const Extension& null_;  // settled
+  const FittedModel& null_;  // settled
   const Linearisation& null_at_;
   const std::vector<TrialProblem>& train_;
   const NamingOptions& options_;

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/fitted_model.h"
 #include "fitting/diagnosis/score.h"
 
 namespace hoplab {
@@ -47,7 +47,7 @@ struct CandidateResult {
   bool separable = false;  // some of it can be told from the fitted values
   bool has_threshold = false;  // no slope at null tells of it: it is tried at a few sizes
   /// Added alone to the null model and refitted; status kFailed if it was not.
-  Extension alone;
+  FittedModel alone;
   double gain = 0.0;         // nats over the null fit, of `alone`, under white noise
   double probability = 0.0;  // that it acts, by the evidence of the models visited
   CandidateStatus status = CandidateStatus::kNotTested;
@@ -61,18 +61,18 @@ struct Naming {
   std::vector<CandidateResult> candidates;  // the given ones, then those of single trials
   double log_odds = 0.0;                    // prior, against one cause: one is expected in all
   double local_log_odds = 0.0;              // against one in one trial only
-  Extension best;                           // without members if none pays
+  FittedModel best;                         // without members if none pays
   CandidateSet best_set;
   double unlisted_probability = 0.0;  // that something acts that no list holds
   /// One a member of `best`: places in `candidates` of what does as well there, itself first.
   std::vector<std::vector<int>> groups;
-  std::vector<std::vector<Extension>> rivals;  // the models behind `groups`, in the same order
+  std::vector<std::vector<FittedModel>> rivals;  // the models behind `groups`, in the same order
   /// The posterior weights within each group, which add to one, and how far each group is from the
   /// best model without any of it [nats].
   std::vector<std::vector<double>> group_weights;
   std::vector<double> gaps;
   /// One a member of `best`: the model without it, settled.
-  std::vector<Extension> without;
+  std::vector<FittedModel> without;
   /// Settled models with their posterior weight, the best first, down to 1e-4 of it.
   std::vector<std::pair<CandidateSet, double>> posterior;
   int refits = 0;
@@ -86,8 +86,8 @@ struct Naming {
 
 /// The model without causes: under white noise, and under the noise that suits it.
 struct NullFits {
-  const Extension* plain = nullptr;
-  const Extension* settled = nullptr;
+  const FittedModel* plain = nullptr;
+  const FittedModel* settled = nullptr;
 };
 
 /// Refits every candidate alone, then looks for a second and third by forward steps, pairs,

@@ -17,7 +17,7 @@ constexpr double kForecast = 8.0;
 
 }  // namespace
 
-Refits::Refits(const Extension& plain, const Extension& null,
+Refits::Refits(const FittedModel& plain, const FittedModel& null,
                const std::vector<TrialProblem>& train, const NamingOptions& options, Naming& naming)
     : plain_(plain), null_(null), train_(train), options_(options), naming_(naming) {
   refit_.train = &train_;
@@ -67,7 +67,7 @@ void Refits::Try(const std::vector<CandidateSet>& sets) {
       missing.push_back(set);
   }
   planned_ += static_cast<int>(missing.size());
-  std::vector<Extension> results(missing.size());
+  std::vector<FittedModel> results(missing.size());
   ParallelFor(static_cast<int>(missing.size()), options_.jobs, [&](int i) {
     if (Stopped()) return;
     results[i] = Refitted(missing[i]);
@@ -116,8 +116,8 @@ CandidateSet Refits::BestPart(const CandidateSet& set) const {
 }
 
 // A noise is sought from what is left, and from that of the set's best settled part.
-Extension Refits::SettledFrom(const Extension& white, const CandidateSet& set) const {
-  Extension e = white;
+FittedModel Refits::SettledFrom(const FittedModel& white, const CandidateSet& set) const {
+  FittedModel e = white;
   const NoiseModel* near = &null_.problem.noise;
   double worth = -std::numeric_limits<double>::infinity();
   for (const CandidateSet& less : Eliminations(set)) {
@@ -130,13 +130,13 @@ Extension Refits::SettledFrom(const Extension& white, const CandidateSet& set) c
   return e;
 }
 
-Extension Refits::Refitted(const CandidateSet& set) const {
+FittedModel Refits::Refitted(const CandidateSet& set) const {
   const CandidateSet part = BestPart(set);
   CandidateSet added;
   std::set_difference(set.begin(), set.end(), part.begin(), part.end(), std::back_inserter(added));
   std::vector<Candidate> candidates;
   for (const int i : added) candidates.push_back(CandidateAt(i));
-  const Extension& base = White(part);
+  const FittedModel& base = White(part);
   const Linearisation at = LineariseAt(base, candidates, train_, 1);
   const Eigen::Index n = ParameterCount(candidates);
   const Hypothesis all{0, static_cast<int>(n), Eigen::VectorXd::Constant(n, -1.0),
@@ -145,7 +145,7 @@ Extension Refits::Refitted(const CandidateSet& set) const {
   RefitSettings settings = refit_;
   settings.max_iterations = kTryIterations;
   if (score.predicted_gain > kForecast) settings.forecast = score.predicted_gain;
-  Extension e = Refit(base, candidates, score.size, settings);
+  FittedModel e = Refit(base, candidates, score.size, settings);
   RefitBeyondThresholds(e, base, settings);  // no slope tells of them
   e.settled = false;
   CandidateSet order = part;
@@ -154,9 +154,10 @@ Extension Refits::Refitted(const CandidateSet& set) const {
 }
 
 // Members in the order of the pool, whatever order they were added in.
-Extension Refits::Ordered(Extension e, const CandidateSet& order, const CandidateSet& set) const {
+FittedModel Refits::Ordered(FittedModel e, const CandidateSet& order,
+                            const CandidateSet& set) const {
   if (order == set) return e;
-  Extension sorted = e;
+  FittedModel sorted = e;
   sorted.members.clear();
   for (const int i : set) sorted.members.push_back(CandidateAt(i));
   sorted.problem = Extend(plain_.problem, sorted.members);
@@ -183,7 +184,7 @@ std::vector<CandidateSet> Refits::SettleParts(const CandidateSet& set) {
   constexpr double kSame = 0.01;  // nats
   // A part that was not tried yet, or was tried from elsewhere and fits worse, is refitted from the
   // whole: where that has found a better valley, its parts are in it too.
-  std::vector<Extension> from_whole(parts.size());
+  std::vector<FittedModel> from_whole(parts.size());
   planned_ += static_cast<int>(parts.size());
   ParallelFor(static_cast<int>(parts.size()), options_.jobs, [&](int i) {
     if (Stopped() || parts[i].empty()) return;
@@ -198,7 +199,7 @@ std::vector<CandidateSet> Refits::SettleParts(const CandidateSet& set) {
     Entry& known = models_[parts[i]];
     if (known.white.ok() && known.white.cost < from_whole[i].cost + kSame) continue;
     known.white = std::move(from_whole[i]);
-    known.settled = Extension();
+    known.settled = FittedModel();
   }
   SettleAll(parts);
   return parts;

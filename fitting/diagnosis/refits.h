@@ -19,17 +19,17 @@ class Refits {
  public:
   /// All arguments have to outlive this. `plain` is the null fit under white noise, `null` settled.
   /// `naming` gives the candidates and counts the refits.
-  Refits(const Extension& plain, const Extension& null, const std::vector<TrialProblem>& train,
+  Refits(const FittedModel& plain, const FittedModel& null, const std::vector<TrialProblem>& train,
          const NamingOptions& options, Naming& naming);
 
   /// A model under the noise that suits it, or, if it is not settled, under white noise.
-  const Extension& At(const CandidateSet& set) const {
+  const FittedModel& At(const CandidateSet& set) const {
     if (set.empty()) return null_;
     const Entry& entry = models_.at(set);
     return entry.settled.settled ? entry.settled : entry.white;
   }
   /// A model under white noise.
-  const Extension& White(const CandidateSet& set) const {
+  const FittedModel& White(const CandidateSet& set) const {
     return set.empty() ? plain_ : models_.at(set).white;
   }
   bool Has(const CandidateSet& set) const { return set.empty() || models_.count(set) > 0; }
@@ -57,22 +57,22 @@ class Refits {
 
  private:
   struct Entry {
-    Extension white, settled;
+    FittedModel white, settled;
   };
   bool Stopped() const { return options_.stop && *options_.stop; }
   double LogPrior(const CandidateSet& set) const;
   std::string NamesOf(const CandidateSet& set) const;
-  Extension Refitted(const CandidateSet& set) const;
+  FittedModel Refitted(const CandidateSet& set) const;
   CandidateSet BestPart(const CandidateSet& set) const;
-  Extension SettledFrom(const Extension& white, const CandidateSet& set) const;
-  Extension Ordered(Extension e, const CandidateSet& order, const CandidateSet& set) const;
+  FittedModel SettledFrom(const FittedModel& white, const CandidateSet& set) const;
+  FittedModel Ordered(FittedModel e, const CandidateSet& order, const CandidateSet& set) const;
   void Report(const CandidateSet& set, std::string_view what);
   const Candidate& CandidateAt(int i) const {
     return naming_.candidates[static_cast<std::size_t>(i)].candidate;
   }
 
-  const Extension& plain_;
-  const Extension& null_;
+  const FittedModel& plain_;
+  const FittedModel& null_;
   const std::vector<TrialProblem>& train_;
   const NamingOptions& options_;
   Naming& naming_;

@@ -7,7 +7,7 @@
 
 namespace hoplab {
 
-Remainder LeftBeside(const Naming& naming, const Extension& model, const CandidateSet& set,
+Remainder LeftBeside(const Naming& naming, const FittedModel& model, const CandidateSet& set,
                      const std::vector<TrialProblem>& train, int jobs) {
   Remainder left;
   std::vector<Candidate> tested;

@@ -17,7 +17,7 @@ struct Remainder {
 };
 
 /// Beside `model`, the members `set` of `naming.candidates`.
-Remainder LeftBeside(const Naming& naming, const Extension& model, const CandidateSet& set,
+Remainder LeftBeside(const Naming& naming, const FittedModel& model, const CandidateSet& set,
                      const std::vector<TrialProblem>& train, int jobs);
 
 /// Sets `c.bound95`: how large a candidate can be, 95 %, once the accepted ones are in.

@@ -18,7 +18,7 @@ constexpr std::size_t kMostRivals = 4;
 
 bool SeparatingExperiment::Separates() const { return expected_nats >= kIndistinguishable; }
 
-std::optional<SeparatingExperiment> ProposeExperiment(std::span<const Extension> rivals,
+std::optional<SeparatingExperiment> ProposeExperiment(std::span<const FittedModel> rivals,
                                                       const std::vector<TrialProblem>& train,
                                                       int jobs) {
   if (rivals.size() < 2 || train.empty()) return std::nullopt;

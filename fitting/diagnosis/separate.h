@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fitting/design/trial_design.h"
-#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/fitted_model.h"
 
 namespace hoplab {
 
@@ -25,7 +25,7 @@ struct SeparatingExperiment {
 /// Searches what another drop like the train trials could be (PlainSpace) for the one that leaves
 /// the least doubt between the rivals, taken as equally likely. Absent if there is no rival or no
 /// design can be simulated under all of them.
-std::optional<SeparatingExperiment> ProposeExperiment(std::span<const Extension> rivals,
+std::optional<SeparatingExperiment> ProposeExperiment(std::span<const FittedModel> rivals,
                                                       const std::vector<TrialProblem>& train,
                                                       int jobs);
 

@@ -36,7 +36,7 @@ bool CauseReport::Varies() const {
 
 std::vector<CauseReport> TakeApart(const Naming& naming, const SharesRequest& request,
                                    const RefitSettings& settings) {
-  const Extension& best = naming.best;
+  const FittedModel& best = naming.best;
   const double fall = request.plain_square - request.extended_square;
   std::vector<CauseReport> causes(best.members.size());
   ParallelFor(static_cast<int>(causes.size()), settings.jobs, [&](int i) {
@@ -47,7 +47,7 @@ std::vector<CauseReport> TakeApart(const Naming& naming, const SharesRequest& re
         naming.candidates[static_cast<std::size_t>(cause.candidate)].probability;
     cause.rmse_without.assign(best.problem.channels.size(),
                               std::numeric_limits<double>::quiet_NaN());
-    const Extension& without = naming.without[static_cast<std::size_t>(i)];
+    const FittedModel& without = naming.without[static_cast<std::size_t>(i)];
     if (!without.ok()) {
       cause.share = 1.0;  // nothing could be simulated without it
       cause.main = true;

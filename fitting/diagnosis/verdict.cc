@@ -18,14 +18,14 @@ bool FreeForcePays(const Detection& detection) {
   return false;
 }
 
-std::string NamesOf(const Extension& e) {
+std::string NamesOf(const FittedModel& e) {
   std::string names;
   for (const Candidate& c : e.members) names += (names.empty() ? "" : " + ") + c.Name();
   return names;
 }
 
 void WeighWhatIsLeft(Diagnosis& d, double material) {
-  const Extension& best = d.naming.best;
+  const FittedModel& best = d.naming.best;
   d.left.noise = best.problem.noise;
   d.left.probability = best.evidence.discrepancy_probability();
   d.left.share = d.extension ? 1.0 - d.extension->explained : 1.0;

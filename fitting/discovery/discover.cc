@@ -124,9 +124,10 @@ class Search {
     const Candidate freed(&FormulaEffect(WithFreeShape(term)));
     Eigen::VectorXd sizes = Eigen::VectorXd::Zero(freed.parameter_count());
     sizes[0] = size;
-    Extension base = out_.base.plain;
+    FittedModel base = out_.base.plain;
     base.cost = std::numeric_limits<double>::infinity();
-    const Extension with = Refit(base, std::span(&freed, 1), sizes, SettingsOf(options_, *train_));
+    const FittedModel with =
+        Refit(base, std::span(&freed, 1), sizes, SettingsOf(options_, *train_));
     if (!with.ok()) return term;
     const Eigen::VectorXd values = with.ValuesOf(0);
     return AtShape(term, {values.data() + 1, static_cast<std::size_t>(values.size() - 1)});
@@ -135,7 +136,7 @@ class Search {
   // ---- what was found
 
   void Describe(const std::vector<Term>& library) {
-    const Extension& best = out_.naming.best;
+    const FittedModel& best = out_.naming.best;
     out_.uncertainty = AssessUncertainty(best.problem, *train_, best.shared, best.starts,
                                          options_.fit.loss, options_.fit.jobs);
     out_.after = MeasureHeldOut(best, options_.fit.jobs);
@@ -188,7 +189,7 @@ class Search {
     }
   }
 
-  static FoundValue ValueAt(const Extension& e, const Uncertainty& u, int place) {
+  static FoundValue ValueAt(const FittedModel& e, const Uncertainty& u, int place) {
     const SharedParameter& s = e.problem.shared[static_cast<std::size_t>(place)];
     const ParameterUncertainty& known = u.parameters[static_cast<std::size_t>(place)];
     const bool between = u.misfit && known.ci95_between_trials;
@@ -199,7 +200,7 @@ class Search {
   double ShareOf(std::size_t member) const {
     const double excess = 2.0 * out_.base.plain.cost - out_.base.detection.degrees_of_freedom;
     if (!(excess > 0.0) || member >= out_.naming.without.size()) return 0.0;
-    const Extension& without = out_.naming.without[member];
+    const FittedModel& without = out_.naming.without[member];
     if (!without.ok()) return 0.0;
     return std::clamp(2.0 * (without.cost - out_.naming.best.cost) / excess, 0.0, 1.0);
   }
@@ -214,7 +215,7 @@ class Search {
   // How often the terms are picked when trials are drawn anew, under the noise of the model that
   // has them: where they are missing they would be part of the noise.
   void Resample(const std::vector<Term>& library, const std::vector<std::vector<int>>& wanted) {
-    Extension base = out_.base.plain;
+    FittedModel base = out_.base.plain;
     base.problem.noise = out_.naming.best.problem.noise;
     // With the shapes that were found.
     std::vector<Term> terms = library;
@@ -228,11 +229,11 @@ class Search {
 
   // The best model with one term replaced by a freer one, which with the coefficient `c` is the
   // term.
-  Extension WithFreed(std::size_t m, const Candidate& freed, double c) const {
+  FittedModel WithFreed(std::size_t m, const Candidate& freed, double c) const {
     return Freed(out_.naming.best, m, freed, c, out_.base.plain.problem,
                  SettingsOf(options_, *train_));
   }
-  Uncertainty UncertaintyOf(const Extension& with) const {
+  Uncertainty UncertaintyOf(const FittedModel& with) const {
     return AssessUncertainty(with.problem, *train_, with.shared, with.starts, options_.fit.loss,
                              options_.fit.jobs);
   }
@@ -242,7 +243,7 @@ class Search {
     if (Stopped()) return;
     FoundTerm& found = out_.found[m];
     const Candidate freed(&FormulaEffect(WithFreeShape(found.term)));
-    const Extension with = WithFreed(m, freed, found.values.front().value);
+    const FittedModel with = WithFreed(m, freed, found.values.front().value);
     if (!with.ok()) return;
     const Uncertainty u = UncertaintyOf(with);
     FormulaSource source = found.source;
@@ -261,10 +262,10 @@ class Search {
   void FreeExponent(std::size_t m) {
     if (Stopped()) return;
     FoundTerm& found = out_.found[m];
-    const Extension& best = out_.naming.best;
+    const FittedModel& best = out_.naming.best;
     const Candidate freed(&FormulaEffect(WithFreeExponent(found.term)));
     const TermPower& power = *found.term.power;
-    const Extension with =
+    const FittedModel with =
         WithFreed(m, freed, found.values.front().value * std::pow(power.scale, power.exponent));
     if (!with.ok()) return;
     const Uncertainty u = UncertaintyOf(with);

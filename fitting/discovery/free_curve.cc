@@ -45,9 +45,9 @@ const Effect& Hat(const Term& term, const PlaceInfo& place, const VariableInfo& 
 }
 
 // The model with the term's coefficient held where it is, and that value.
-std::pair<Extension, double> Held(const Extension& best, const Effect& effect) {
-  std::pair<Extension, double> out{best, 0.0};
-  Extension& held = out.first;
+std::pair<FittedModel, double> Held(const FittedModel& best, const Effect& effect) {
+  std::pair<FittedModel, double> out{best, 0.0};
+  FittedModel& held = out.first;
   for (std::size_t e = 0; e < held.problem.effects.size(); ++e) {
     if (held.problem.effects[e].effect != &effect) continue;
     std::vector<SharedParameter>& shared = held.problem.shared;
@@ -108,7 +108,7 @@ double FormulaAt(const Effect& effect, std::string_view variable, double at, dou
   return formula.Evaluate(p.data(), view, sides);
 }
 
-std::optional<ReconstructedForce> FreeCurve(const Term& term, const Extension& best,
+std::optional<ReconstructedForce> FreeCurve(const Term& term, const FittedModel& best,
                                             const std::vector<TrialProblem>& train,
                                             const NaturalScales& scales, int jobs,
                                             std::uint64_t seed) {

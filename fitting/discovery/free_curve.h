@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/fitted_model.h"
 #include "fitting/diagnosis/free_forces.h"
 #include "fitting/discovery/scales.h"
 #include "fitting/discovery/term.h"
@@ -26,7 +26,7 @@ double FormulaAt(const Effect& effect, std::string_view variable, double at, dou
 /// coefficient stays where it is, all other values are free. Nothing for a term of several
 /// variables, of a frequency, which hats cannot follow, or of a reading over time, which may have
 /// no corners.
-std::optional<ReconstructedForce> FreeCurve(const Term& term, const Extension& best,
+std::optional<ReconstructedForce> FreeCurve(const Term& term, const FittedModel& best,
                                             const std::vector<TrialProblem>& train,
                                             const NaturalScales& scales, int jobs,
                                             std::uint64_t seed);

@@ -4,13 +4,13 @@
 
 namespace hoplab {
 
-Extension Freed(const Extension& best, std::size_t m, const Candidate& freed, double c,
-                const FitProblem& null_problem, const RefitSettings& settings) {
+FittedModel Freed(const FittedModel& best, std::size_t m, const Candidate& freed, double c,
+                  const FitProblem& null_problem, const RefitSettings& settings) {
   const auto at = static_cast<std::ptrdiff_t>(m);
   const Eigen::Index place = best.problem.shared_count() - best.parameter_count() +
                              ParameterCount(std::span(best.members).first(m));
   const Eigen::Index after = best.shared.size() - place - best.members[m].parameter_count();
-  Extension rest;
+  FittedModel rest;
   rest.members = best.members;
   rest.members.erase(rest.members.begin() + at);
   rest.problem = Extend(null_problem, rest.members);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/fitted_model.h"
 
 namespace hoplab {
 
@@ -8,7 +8,7 @@ namespace hoplab {
 /// where `best` is. `c`: the coefficient of `freed` with which it is the term; its other parameters
 /// are the term's at their null. `null_problem`: without members. Not usable where nothing could
 /// be fitted.
-Extension Freed(const Extension& best, std::size_t m, const Candidate& freed, double c,
-                const FitProblem& null_problem, const RefitSettings& settings);
+FittedModel Freed(const FittedModel& best, std::size_t m, const Candidate& freed, double c,
+                  const FitProblem& null_problem, const RefitSettings& settings);
 
 }  // namespace hoplab

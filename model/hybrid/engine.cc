@@ -45,6 +45,7 @@ Engine<T>::Engine(const Automaton<T>& automaton, const IntegratorOptions& option
       break;
   }
 }
+
 template <class T>
 void Engine<T>::Derivative(const void* engine, double t, const double* y, double* dy) {
   const Engine& self = *static_cast<const Engine*>(engine);
@@ -56,6 +57,7 @@ void Engine<T>::Derivative(const void* engine, double t, const double* y, double
     Pack(self.rate_, self.states_, dy);
   }
 }
+
 template <class T>
 void Engine<T>::Run(Mode mode, const T* z0) {
   Copy(z0, z_);
@@ -83,6 +85,7 @@ void Engine<T>::Run(Mode mode, const T* z0) {
   watch_.Flow(mode_, t_, out_.final_state.data(), out_.final_rate.data());
   system_.TellFeet(out_.final_feet);
 }
+
 template <class T>
 Outcome Engine<T>::Loop() {
   segment_begin_ = t_;
@@ -118,6 +121,7 @@ Outcome Engine<T>::Loop() {
   }
   return Outcome::kEventLimit;
 }
+
 // Passes what is due at t_ of what drives the mechanism: the flow before and after it meets at the
 // knot's own instant, which may move with the parameters (M17 of a reset that changes nothing). A
 // guard that a jump closes fires there.
@@ -148,6 +152,7 @@ GuardCrossing Engine<T>::PassKnots() {
     if (before.value[i] > kAtZero && after.value[i] < -kAtZero) return {i, t_};
   return {-1, t_};
 }
+
 // A guard that is at zero and coming down where its mode begins fires at once. An outcome where the
 // run ends instead. `begins`: the run does. A leg that would pull where it begins in stance lifts
 // off.
@@ -174,11 +179,13 @@ std::optional<Outcome> Engine<T>::FireAtOnce(const GuardRates& at_start, bool be
   }
   return std::nullopt;
 }
+
 // A section at the very place where the flow changed has not been passed before it.
 template <class T>
 bool Engine<T>::IsMissedSection() const {
   return flow_changed_ && !(t_ - section_time_ < kSimultaneous);
 }
+
 // Runs to the next crossing (or the horizon: no guard). False: the solver gave up.
 template <class T>
 bool Engine<T>::Advance(const GuardRates& at_start, GuardCrossing& crossing) {
@@ -186,6 +193,7 @@ bool Engine<T>::Advance(const GuardRates& at_start, GuardCrossing& crossing) {
   crossing = FlyBallistic();
   return true;
 }
+
 // M16 in duals; the value part is the last correction of the event time, below rounding.
 // `with_last_event`: the guard was closed by the last event, so that this one happens when that one
 // does.
@@ -198,6 +206,7 @@ T Engine<T>::EventTimeShift(int guard, double rate, double scale, bool with_last
   if (std::abs(Value(shift)) > kSimultaneous) shift = shift - Value(shift);
   return shift;
 }
+
 // The state at a crossing is in z_ at time t_ (both as values with the solver's accuracy).
 // Applies M16, the reset, M17; records the event.
 template <class T>
@@ -265,6 +274,7 @@ std::optional<Outcome> Engine<T>::Process(int guard, bool with_last_event) {
   CountHop(traits, result.is_hop);
   return result.end;
 }
+
 template <class T>
 bool Engine<T>::IsSimultaneous(int guard, const GuardRates& at) const {
   const int guards = system_.GuardCount(mode_);
@@ -278,6 +288,7 @@ bool Engine<T>::IsSimultaneous(int guard, const GuardRates& at) const {
   }
   return false;
 }
+
 template <class T>
 void Engine<T>::CountHop(const EventTraits& traits, bool is_hop) {
   if (traits.begins_hop) hopped_ = true;
@@ -286,11 +297,13 @@ void Engine<T>::CountHop(const EventTraits& traits, bool is_hop) {
     hopped_ = false;
   }
 }
+
 template <class T>
 void Engine<T>::FinishSegment() {
   if (t_ > segment_begin_ || out_.segments.empty())
     out_.segments.push_back({mode_, segment_begin_, t_});
 }
+
 template class Engine<double>;
 template class Engine<Jet<1>>;
 template class Engine<Jet<kNarrowJet>>;

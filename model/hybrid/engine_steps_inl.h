@@ -21,6 +21,7 @@ GuardCrossing Engine<T>::FlyBallistic() {
   t_ = crossing.time;
   return crossing;
 }
+
 // ---- modes that need a solver ------------------------------------------------------------
 
 template <class T>
@@ -66,16 +67,19 @@ bool Engine<T>::Integrate(GuardRates before, GuardCrossing& crossing) {
     before = after;
   }
 }
+
 template <class T>
 double Engine<T>::LongestStep() const {
   if (explicit_ && kWidth > 0) return system_.LongestStep(mode_, T(t_), z_);
   return std::numeric_limits<double>::infinity();
 }
+
 template <class T>
 void Engine<T>::TakeStepperState() {
   Unpack(stepper_->y1(), states_, z_);
   t_ = stepper_->t1();
 }
+
 template <class T>
 void Engine<T>::EmitInsideStep(double until) {
   rows_.Through(mode_, until, [this](double t, T* z) {
@@ -85,6 +89,7 @@ void Engine<T>::EmitInsideStep(double until) {
     Unpack(y, states_, z);
   });
 }
+
 // Rows read before the start (a delay): the body is on the backward continuation of its flight.
 template <class T>
 void Engine<T>::RowsBeforeStart() {

@@ -112,10 +112,11 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   LegLoad<T> load = LoadAt(there, z);
   const bool asked = p_.law_terms.slopes_active;
   const bool turns = rolling && (!IsElastic(law_) || p_.law_terms.rolling_active || asked);
+  const bool has_hub = asked && law_ == Law::kElastica;
   // M38 of a chord that turns about a contact that stays.
   if (!turns && !rolling && asked)
     load.angle_rate = -(load.y * z[kVx] + load.u * z[kVy]) / (load.l * load.l);
-  if (!turns && !DampsAlongArc()) {
+  if (!turns && !DampsAlongArc() && !has_hub) {
     const Statics<T> leg =
         StaticsAt<T, T>(p_, law_, at.torque, {load.phi, load.l, softer, solution.F});
     load.elastic_force = leg.F;
@@ -126,6 +127,7 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   load.elastic_force = along.F.value;
   load.tip_miss = load.u / load.l + along.tip_turn.value;
   if (turns) TurnContact(z, at, there, along, load);
+  if (has_hub) TurnHub(rolling, z, along, load);
   if (DampsAlongArc()) AddViscousForce(softer, z, along.F, load);
   return load;
 }
@@ -162,6 +164,21 @@ void ExtendedLeg<T>::TurnContact(const T* z, const LegConditions<T>& at,
       seen -= p_.r * along.cos.value * (rate.rest + rate.along_u0 * (load.contact_rate - z[kVx]));
     load.damping_rate = (1.0 - p_.law_terms.tip) * seen + p_.law_terms.tip * w;
   }
+}
+
+// M93. In: angle_rate of M38; out: that of the hub.
+template <class T>
+void ExtendedLeg<T>::TurnHub(bool rolling, const T* z, const Statics<Tangent<T>>& along,
+                             LegLoad<T>& load) const {
+  using std::sqrt;
+  const T square = load.l * load.l;
+  if (rolling) {
+    const T lead_rate = load.contact_rate - p_.r * load.angle_rate - z[kVx];
+    load.angle_rate = 2.0 * (load.y * lead_rate - load.u * z[kVy]) / square;
+    return;
+  }
+  const T& sine = along.tip_turn.value;  // less the sine of the tip's angle to the chord
+  load.angle_rate -= along.tip_turn.rate[1] * load.damping_rate / sqrt(1.0 - sine * sine);
 }
 
 // M63: Rayleigh's function of the arc, and its force on the hip; F along the arc and the chord.

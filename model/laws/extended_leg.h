@@ -96,6 +96,7 @@ class ExtendedLeg {
   }
   void TurnContact(const T* z, const LegConditions<T>& at, const extended::Place<T>& there,
                    const Statics<Tangent<T>>& along, LegLoad<T>& load) const;
+  void TurnHub(bool rolling, const T* z, const Statics<Tangent<T>>& along, LegLoad<T>& load) const;
   void AddViscousForce(const T& softer, const T* z, const Tangent<T>& F, LegLoad<T>& load) const;
 
   Parameters<T> p_;

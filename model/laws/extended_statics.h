@@ -190,7 +190,7 @@ struct ArcParts {
         bending1(at.softer * (p.r * p.r * flex * Lifted(shapes.bending, 1))),
         Cs(bending1 + at.softer * (stretch * Lifted(shapes.axial, 1)) +
            slide * Lifted(shapes.shear, 1)),
-        N(p.law_terms.torque_bending * torque / at.l),
+        N(torque / at.l),
         turn(N * (at.softer * (0.5 * p.r * p.r * flex * Lifted(shapes.bending, 2)))),
         is_exact(law == Law::kElastica),
         second_order(is_exact || law == Law::kLargeDeflection || p.law_terms.second_order_active),

@@ -19,7 +19,7 @@ struct LegLoad {
   T slip_gain;  // d contact_rate/d slip, slip being the rate at which the foot creeps [-]
   T tip_miss;   // toe stance: u/l less the right side of M10 at phi = pi [-]
   // Where LawTerms::slopes_active.
-  T angle_rate;            // dtheta/dt, theta the leg angle (M38) [rad/s]
+  T angle_rate;            // of the leg at the hip (M38; M93 under elastica) [rad/s]
   T arc_x, arc_y;          // how the contact arc follows the hip [rad/m]
   T place_x, place_y;      // how the contact's place x_c follows the hip [-]
   T viscous_x, viscous_y;  // force on the hip of a strip that damps along its arc (M63) [N]
@@ -29,7 +29,7 @@ struct LegLoad {
 template <class T>
 struct LegConditions {
   T time;    // since the start of the run [s]
-  T torque;  // of the hip [N m]
+  T torque;  // of the hip: what of it bends the leg [N m]
 };
 
 /// State of a legged body: hip position and velocity, and the contact coordinate. The contact

@@ -73,7 +73,7 @@ class CLeg final : public Leg<T> {
     if (mode == Mode::kRolling)
       g[0] = law_.RollingToToe(load);
     else
-      g[0] = extended_.active() ? T(-load.tip_miss) : law_.ToeToRolling(load);
+      g[0] = -TipMiss(load);
     if (mode == Mode::kRolling) g[1] = load.phi - kFallArc;
   }
   Mode ResetStance(EventKind event, T* z) override {
@@ -87,9 +87,16 @@ class CLeg final : public Leg<T> {
     return Mode::kRolling;
   }
 
+  /// What an encoder between body and leg reads: under `elastica` M93, else the circle's.
   T ShownAngle(Mode mode, const LegLoad<T>& load) const override {
+    using std::asin;
     using std::atan2;
-    return mode == Mode::kRolling ? T(std::numbers::pi - load.phi) : T(atan2(load.u, load.y));
+    const T chord = atan2(load.u, load.y);
+    if constexpr (LawT<T>::kLaw == Law::kElastica) {
+      if (mode == Mode::kRolling) return 2.0 * chord;
+      return chord + asin(load.u / load.l - TipMiss(load));
+    }
+    return mode == Mode::kRolling ? T(std::numbers::pi - load.phi) : chord;
   }
   T ShownLength(const T& theta) const override {
     using std::cos;
@@ -117,6 +124,11 @@ class CLeg final : public Leg<T> {
   void StartRootAt(double phi) {
     law_.StartRootAt(phi);
     extended_.StartRootAt(phi);
+  }
+
+  /// Toe stance: u/l less the lead of a tip that begins to roll.
+  T TipMiss(const LegLoad<T>& load) const {
+    return extended_.active() ? load.tip_miss : T(-law_.ToeToRolling(load));
   }
 
   double m_;

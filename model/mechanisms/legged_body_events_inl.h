@@ -27,6 +27,7 @@ Mode LeggedBody<T, LegT>::Begin(Mode mode, T* z) {
   Seat(mode, T(0.0), z);
   return mode;
 }
+
 // M54: the contact coordinate for which the contact lies where z[kContact] says. First in values,
 // by Newton with a difference for a slope, then once in T.
 template <class T, class LegT>
@@ -67,6 +68,7 @@ Mode LeggedBody<T, LegT>::PlaceContact(Mode mode, T* z) {
   z[kContact] = at - (off - Value(off)) / slope;
   return landed;
 }
+
 // Guards in flight: touch-down, apex, the ground under a hip whose leg is not placed. Guards in
 // stance: lift-off, the leg's own, fall by height, fall by angle, a foot that slips
 // away, torque limit. Behind both the corners of formulas. Of two at one instant the first fires
@@ -81,6 +83,7 @@ int LeggedBody<T, LegT>::OwnGuardCount(Mode mode) const {
   return 3 + leg_->OwnGuardCount(mode) + (has_foot_friction_ ? 1 : 0) +
          (controller_.limited() ? 1 : 0);
 }
+
 template <class T, class LegT>
 GuardSpec LeggedBody<T, LegT>::Guard(Mode mode, int i) const {
   if (const int corner = i - OwnGuardCount(mode); corner >= 0) return effects_.CornerSpec(corner);
@@ -110,6 +113,7 @@ GuardSpec LeggedBody<T, LegT>::Guard(Mode mode, int i) const {
       return {EventKind::kTorqueLimit, controller_.limit()};
   }
 }
+
 /// Guard functions, all crossing zero downward; the table of section 4.
 template <class T, class LegT>
 void LeggedBody<T, LegT>::Guards(Mode mode, const T& t, const T* z, T* g) const {
@@ -129,6 +133,7 @@ void LeggedBody<T, LegT>::Guards(Mode mode, const T& t, const T* z, T* g) const 
       liftoff_ == LiftoffRule::kZeroForce ? ChordForce(load, t) : T(leg_->RestChord(load) - load.l);
   StanceGuards(mode, load, t, z, g);
 }
+
 template <class T, class LegT>
 void LeggedBody<T, LegT>::StanceGuards(Mode mode, const LegLoad<T>& load, const T& t, const T* z,
                                        T* g) const {
@@ -149,6 +154,7 @@ void LeggedBody<T, LegT>::StanceGuards(Mode mode, const LegLoad<T>& load, const 
   const HipMotion<T> hip = HipMotionAt(mode, MotorTorque(t, z), load, t, z);
   WithMotions(mode, t, z, &chord, &hip, [&](const Motions<T>& m) { effects_.CornerGuards(m, g); });
 }
+
 template <class T, class LegT>
 ResetResult LeggedBody<T, LegT>::Reset(Mode mode, int i, const T& t, T* z) {
   if (const int corner = i - OwnGuardCount(mode); corner >= 0) {
@@ -160,6 +166,7 @@ ResetResult LeggedBody<T, LegT>::Reset(Mode mode, int i, const T& t, T* z) {
   if (!is_section && !result.end) Seat(result.next, t, z);
   return result;
 }
+
 template <class T, class LegT>
 ResetResult LeggedBody<T, LegT>::ResetOwn(Mode mode, int i, const T& t, T* z) {
   const EventKind event = Guard(mode, i).event;
@@ -194,6 +201,7 @@ ResetResult LeggedBody<T, LegT>::ResetOwn(Mode mode, int i, const T& t, T* z) {
       return {leg_->ResetStance(event, z)};
   }
 }
+
 template <class T, class LegT>
 ResetResult LeggedBody<T, LegT>::Land(const T& theta, const T& t, T* z, const T& ahead) {
   const Mode stance = leg_->Land(theta, z);
@@ -217,12 +225,14 @@ void LeggedBody<T, LegT>::ApplyLiftoff(const LegLoad<T>& load, T* z) const {
   z[kVx] = velocity.x;
   z[kVy] = velocity.y;
 }
+
 // Whether a hip below touch-down height falls on before it counts as fallen. (A leg that lands
 // nearly lying has its hip below y_min there: that is a fall of stance.)
 template <class T, class LegT>
 bool LeggedBody<T, LegT>::FallsBelow(const T& touchdown) const {
   return Value(y_min_) < Value(touchdown);
-}  // What a touch-down at leg angle `theta` does to the velocity.
+}
+// What a touch-down at leg angle `theta` does to the velocity.
 template <class T, class LegT>
 void LeggedBody<T, LegT>::ApplyLanding(const T& theta, T* z) const {
   using std::cos;

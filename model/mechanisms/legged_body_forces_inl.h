@@ -16,6 +16,7 @@ ChordMotion<T> LeggedBody<T, LegT>::ChordMotionAt(const LegLoad<T>& load, const 
   return {load.elastic_force, leg_->Stiffness(load), load.damping_rate, T((rest - load.l) / rest),
           SinceFirstRow(t)};
 }
+
 template <class T, class LegT>
 T LeggedBody<T, LegT>::ChordForce(const LegLoad<T>& load, const T& t) const {
   T force = load.elastic_force - p_.d * load.damping_rate;  // M6, M12
@@ -26,6 +27,7 @@ T LeggedBody<T, LegT>::ChordForce(const LegLoad<T>& load, const T& t) const {
   if (has_chord_force_) force += effects_.ChordForce(ChordMotionAt(load, t));
   return force;
 }
+
 template <class T, class LegT>
 T LeggedBody<T, LegT>::TouchdownAngle(const T& t, const T* z) const {
   T commanded = landings_ == 0 ? start_angle_ : p_.theta_td;
@@ -40,7 +42,8 @@ T LeggedBody<T, LegT>::TouchdownAngle(const T& t, const T* z) const {
 template <class T, class LegT>
 T LeggedBody<T, LegT>::TouchdownHeight(const T& t, const T* z) const {
   return effects_.ContactHeight(leg_->TouchdownHeight(TouchdownAngle(t, z)));
-}  // M51: the angle a leg touches down at. One whose command jumps into the ground swings there at
+}
+// M51: the angle a leg touches down at. One whose command jumps into the ground swings there at
 // once, and lands at the angle on its way at which it meets it.
 template <class T, class LegT>
 T LeggedBody<T, LegT>::SweptAngle(const T& t, const T* z) const {
@@ -76,23 +79,31 @@ Vector2<T> LeggedBody<T, LegT>::BodyForce(Mode mode, const T& t, const T* z) con
   AddInputForce(inputs_, p_.slope, t, force);
   return force;
 }
-// The torque that bends the leg; friction at the hip, which would have to know the load first, is
-// not in it.
+
+// The torque that bends the leg, `over` being the state over its foot. Friction at the hip has to
+// know how the leg turns first: as one that friction does not bend, M94.
 template <class T, class LegT>
-LegConditions<T> LeggedBody<T, LegT>::Conditions(const T& t, const T* z) const {
+LegConditions<T> LeggedBody<T, LegT>::Conditions(Mode mode, const T& t, const T* z,
+                                                 const T* over) const {
   T torque = MotorTorque(t, z);
   if (has_hip_torque_) effects_.AddHipTorque({torque, SinceFirstRow(t), z[kVx]}, torque, false);
-  return {t, torque};
-}  // What the motor gives: its command, or with a lag long enough to integrate a state.
+  const LegConditions<T> driven{t, T(p_.law_terms.torque_bending * torque)};
+  if (!friction_bends_) return driven;
+  const T turning = leg_->extended().Load(mode, over, driven).angle_rate;
+  return {t, driven.torque + effects_.JointTorque({turning})};
+}
+// What the motor gives: its command, or with a lag long enough to integrate a state.
 template <class T, class LegT>
 T LeggedBody<T, LegT>::MotorTorque(const T& t, const T* z) const {
   return lagged_ ? z[kMotorTorque] : CommandedTorque(t, z);
-}  // What the motor is told: by the controller, or as logged (M52).
+}
+// What the motor is told: by the controller, or as logged (M52).
 template <class T, class LegT>
 T LeggedBody<T, LegT>::CommandedTorque(const T& t, const T* z) const {
   return inputs_.Has(InputKind::kHipTorque) ? inputs_.At(InputKind::kHipTorque, t)
                                             : controller_.Torque(z[kVx]);
-}  // Torque on the hip: the motor's, and what effects add.
+}
+// Torque on the hip: the motor's, and what effects add.
 template <class T, class LegT>
 T LeggedBody<T, LegT>::HipTorque(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const {
   if (!is_driven_) return T(0.0);
@@ -124,7 +135,8 @@ T LeggedBody<T, LegT>::WithTorqueEffects(Mode mode, T torque, const LegLoad<T>& 
   if (has_hip_torque_) effects_.AddHipTorque(HipMotionAt(mode, torque, load, t, z), torque);
   if (has_joint_torque_) torque += effects_.JointTorque({load.angle_rate});
   return torque;
-}  // F e + (T/l) n, the bracket of M13 and M14 (M37); by reaction, the ground's force on the leg.
+}
+// F e + (T/l) n, the bracket of M13 and M14 (M37); by reaction, the ground's force on the leg.
 template <class T, class LegT>
 Vector2<T> LeggedBody<T, LegT>::HipForce(const LegLoad<T>& load, const T& torque,
                                          const T& t) const {

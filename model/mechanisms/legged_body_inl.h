@@ -31,6 +31,7 @@ LeggedBody<T, LegT>::LeggedBody(const MechanismSetup<T>& setup)
                     !effects_.TouchdownAngleFalls() &&
                     (IsZero(p_.slope) || !effects_.HasTouchdownAngle())),
       extended_(p_.law_terms.active),
+      friction_bends_(FrictionBends(setup)),
       is_bar_(setup.law == Law::kStraightLeg),
       has_leg_mass_(p_.law_terms.leg_mass_active),
       has_foot_friction_(p_.law_terms.foot_friction_active),
@@ -55,12 +56,20 @@ bool LeggedBody<T, LegT>::DampsAlongArc(const MechanismSetup<T>& setup) {
   return setup.law == Law::kElastica && setup.parameters.law_terms.material_damping_active &&
          IsZero(setup.parameters.m_toe);
 }
+// M94.
+template <class T, class LegT>
+bool LeggedBody<T, LegT>::FrictionBends(const MechanismSetup<T>& setup) {
+  return setup.law == Law::kElastica && setup.effects.HasJointTorque() &&
+         IsZero(setup.parameters.m_toe);
+}
 template <class T, class LegT>
 Parameters<T> LeggedBody<T, LegT>::ParametersOf(const MechanismSetup<T>& setup) {
   Parameters<T> p = setup.parameters;
+  if (FrictionBends(setup)) p.law_terms.torque_active = true;
   if (DampsAlongArc(setup)) p.law_terms.active = p.law_terms.slopes_active = true;
   return p;
 }
+
 template <class T, class LegT>
 void LeggedBody<T, LegT>::SaveDiscreteState(DiscreteState& to) const {
   leg_->SaveDiscreteState(to);
@@ -81,6 +90,7 @@ void LeggedBody<T, LegT>::LoadDiscreteState(DiscreteState& from) {
   if (driven_) inputs_.Load(from);
   effects_.LoadCorners(from);
 }
+
 // ---- corners of formulas -------------------------------------------------------------------
 
 template <class T, class LegT>
@@ -97,6 +107,7 @@ void LeggedBody<T, LegT>::Seat(Mode mode, const T& t, const T* z) {
   if (effects_.corner_count() == 0) return;
   WithMotionsAt(mode, t, z, [&](const Motions<T>& m) { effects_.SeatCorners(m); });
 }
+
 template <class T, class LegT>
 std::optional<T> LeggedBody<T, LegT>::PassKnot(Mode mode, double t, T* z) {
   const bool flight = mode == Mode::kFlight;
@@ -112,6 +123,7 @@ std::optional<T> LeggedBody<T, LegT>::PassKnot(Mode mode, double t, T* z) {
   }
   return inputs_.Pass(flight, t);
 }
+
 template <class T, class LegT>
 void LeggedBody<T, LegT>::Derivative(Mode mode, const T& t, const T* z, T* dz) const {
   T fx(0.0), fy(0.0);
@@ -150,6 +162,7 @@ void LeggedBody<T, LegT>::Derivative(Mode mode, const T& t, const T* z, T* dz) c
   if (mode != Mode::kFlight)
     dz[kMotorTorque] = (CommandedTorque(t, z) - z[kMotorTorque]) / p_.torque_lag;
 }
+
 template <class T, class LegT>
 BallisticFlight<T> LeggedBody<T, LegT>::Ballistic(const T* z) const {
   const T touchdown = TouchdownHeight(T(0.0), z);
@@ -161,6 +174,7 @@ template <class T, class LegT>
 std::optional<BallisticFlight<T>> LeggedBody<T, LegT>::FreeFlight() const {
   return BallisticFlight<T>{inertia_.gravity_x, inertia_.gravity_y};
 }
+
 /// First step of a mode [s]: in stance a tenth of a radian of the undamped oscillation, and no
 /// more than a lag of the torque.
 template <class T, class LegT>
@@ -169,6 +183,7 @@ double LeggedBody<T, LegT>::FirstStep(Mode mode, const T* z) const {
   const double step = 0.1 * leg_->TimeScale(Load(mode, T(0.0), z));
   return lagged_ ? std::min(step, Value(p_.torque_lag)) : step;
 }
+
 template <class T, class LegT>
 Observation<T> LeggedBody<T, LegT>::Observe(Mode mode, const T& t, const T* z) const {
   Observation<T> seen = this->Unseen();
@@ -202,6 +217,7 @@ Observation<T> LeggedBody<T, LegT>::Observe(Mode mode, const T& t, const T* z) c
   seen[Channel::kContactArc] = leg_->ShownArc(load);
   return seen;
 }
+
 template <class T, class LegT>
 T LeggedBody<T, LegT>::Energy(Mode mode, const T* z) const {
   T energy = inertia_.Energy(z);
@@ -218,9 +234,11 @@ T LeggedBody<T, LegT>::Energy(Mode mode, const T* z) const {
     energy += KineticEnergyOfLeg(load, z);
     weigh(InertiaOfLeg(load));
   }
-  if (extended_) return energy + leg_->extended().StrainEnergy(mode, load, Conditions(T(0.0), z));
+  if (extended_)
+    return energy + leg_->extended().StrainEnergy(mode, load, Conditions(mode, T(0.0), z, z));
   return energy + leg_->StrainEnergy(load);
 }
+
 template <class T, class LegT>
 double LeggedBody<T, LegT>::DeflectionRatio(Mode mode, const double* values) const {
   if (mode == Mode::kFlight || !leg_->IsExpansion()) return 0.0;
@@ -228,18 +246,19 @@ double LeggedBody<T, LegT>::DeflectionRatio(Mode mode, const double* values) con
   for (int i = 0; i < size(); ++i) z[i] = T(values[i]);
   return leg_->DeflectionRatio(Load(mode, T(0.0), z));
 }
+
 template <class T, class LegT>
 LegLoad<T> LeggedBody<T, LegT>::Load(Mode mode, const T& t, const T* z) const {
   if (slides_ != 0.0) {  // the leg feels the hip move over its foot
     T over[kMostLegStates];
     std::copy_n(z, size(), over);
     over[kVx] -= z[FootSpeed()];
-    LegLoad<T> load =
-        extended_ ? leg_->extended().Load(mode, over, Conditions(t, z)) : leg_->Load(mode, over);
+    LegLoad<T> load = extended_ ? leg_->extended().Load(mode, over, Conditions(mode, t, z, over))
+                                : leg_->Load(mode, over);
     load.contact_rate += z[FootSpeed()];
     return load;
   }
-  if (extended_) return leg_->extended().Load(mode, z, Conditions(t, z));
+  if (extended_) return leg_->extended().Load(mode, z, Conditions(mode, t, z, z));
   return leg_->Load(mode, z);
 }
 

@@ -111,8 +111,6 @@ class Robot final : public HybridSystem<T> {
   LegMotion<T> MotionUnder(int i, const Hip& hip, const T* rates) const;
   Vector2<T> GroundForce(const Frame& frame, int i, const Push& push, const T* z,
                          const T* dz) const;
-  void AddLegMomentum(int i, const LegPlace& at, const LegInertia& leg, const LegMotion<T>& u,
-                      Sides& sides) const;
   void GroundForces(const Frame& frame, const T& t, const T* z,
                     std::array<ClampedLoad<T>, kMaxLegs>& loads,
                     std::array<Vector2<T>, kMaxLegs>& ground) const;
@@ -127,8 +125,9 @@ class Robot final : public HybridSystem<T> {
                   Rows& rows) const;
   void SolveMotion(const Vector2<T>& com, const std::array<LegPlace, kMaxLegs>& at,
                    const std::array<LegInertia, kMaxLegs>& legs, const Sides& sides, T* dz) const;
-  void AddMomentum(const Vector2<T>& com, const T* z, Sides& sides) const;
-  void PutRates(const T* rates, T* z) const;
+  struct Impact;  // an instant at which a leg lands, leaves or changes its way
+  Impact MomentaOf(const T* z, int without) const;
+  void GoOnWith(const Impact& now, T* z) const;
   void Blow(int i, T* z);
   void SpringOff(int i, T* z);
   void ChangeStance(int i, Stance to, T* z);

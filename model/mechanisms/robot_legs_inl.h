@@ -24,10 +24,13 @@ struct LegMatrix {
             xf * u[0] + yf * u[1] + bf * u[2] + ff * u[3]};
   }
 };
+
 template <class T>
 T Dot(const LegMotion<T>& a, const LegMotion<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-}  /// A leg's mass in the way it is on the ground or in the air now.
+}
+
+/// A leg's mass in the way it is on the ground or in the air now.
 template <class T>
 struct Robot<T>::LegInertia {
   bool foot = false;                 // whether its foot has a speed of its own
@@ -37,7 +40,9 @@ struct Robot<T>::LegInertia {
   LegMotion<T> along, up;            // momentum along and up by its motion [kg, m]
   LegMotion<T> along_turn, up_turn;  // their slopes along beta
   LegMotion<T> turn;                 // M90: by the rate of a rigid leg
-};                                   // M82.
+};
+
+// M82.
 template <class T>
 typename Robot<T>::LegInertia Robot<T>::RigidLeg(const LegPlace& at) const {
   const T &m = robot_.leg_mass, zero(0.0);
@@ -51,7 +56,9 @@ typename Robot<T>::LegInertia Robot<T>::RigidLeg(const LegPlace& at) const {
   leg.up_turn = {zero, zero, -y, zero};
   leg.turn = {-y, x, leg.mass.bb, zero};
   return leg;
-}  // M89, of a foot that holds.
+}
+
+// M89, of a foot that holds.
 template <class T>
 typename Robot<T>::LegInertia Robot<T>::StandingLeg(int i, const LegPlace& at) const {
   using std::cos;
@@ -105,8 +112,9 @@ typename Robot<T>::LegInertia Robot<T>::StandingLeg(int i, const LegPlace& at) c
   leg.turn = {mr * (c * v[F::kTurnX] - s * v[F::kTurnY]),
               mr * (s * v[F::kTurnX] + c * v[F::kTurnY]), mr2 * v[F::kTurnB], zero};
   return leg;
-}  // M92: a foot that slides moves the whole leg along with it; its friction goes with what the
-   // ground
+}
+
+// M92: a foot that slides moves the whole leg along with it; its friction goes with what the ground
 // bears.
 template <class T>
 void Robot<T>::LetFootMove(const LegPlace& at, double slides, LegInertia& leg) const {
@@ -130,6 +138,7 @@ void Robot<T>::LetFootMove(const LegPlace& at, double slides, LegInertia& leg) c
   leg.row = {k.xf + leg.lean * (leg.up[0] - k.xy), k.yf + leg.lean * (leg.up[1] - k.yy),
              k.bf + leg.lean * (leg.up[2] - k.yb), k.ff + leg.lean * (leg.up[3] - k.yf)};
 }
+
 template <class T>
 typename Robot<T>::LegInertia Robot<T>::InertiaOf(int i, const LegPlace& at) const {
   if (!follows_feet_ || !IsDown(leg_[i])) return RigidLeg(at);
@@ -137,10 +146,13 @@ typename Robot<T>::LegInertia Robot<T>::InertiaOf(int i, const LegPlace& at) con
   if (FootMoves(i)) LetFootMove(at, leg_[i].slides, leg);
   return leg;
 }
+
 template <class T>
 LegMotion<T> Robot<T>::MotionOf(int i, const Hip& hip, const T* z) const {
   return {hip.vx, hip.vy, hip.rate, FootMoves(i) ? z[FootSpeed(i)] : T(0.0)};
-}  // M89: where the hip is from where it would be over its foot with the leg unloaded.
+}
+
+// M89: where the hip is from where it would be over its foot with the leg unloaded.
 template <class T>
 Vector2<T> Robot<T>::PressOf(int i, const LegPlace& at, const T* z) const {
   using std::cos;
@@ -154,7 +166,9 @@ Vector2<T> Robot<T>::PressOf(int i, const LegPlace& at, const T* z) const {
     height = p_.r + c;
   }
   return {z[kX] + at.hip.x + lead - z[Contact(i)], z[kY] + at.hip.y - height};
-}  // What does not come of the accelerations: the change of the mass matrix, and the weight.
+}
+
+// What does not come of the accelerations: the change of the mass matrix, and the weight.
 template <class T>
 LegMotion<T> Robot<T>::LoadOf(int i, const LegPlace& at, const LegInertia& leg, const T* z) const {
   const LegMotion<T> u = MotionOf(i, at.hip, z), turned = leg.slope * u;
@@ -169,8 +183,9 @@ LegMotion<T> Robot<T>::LoadOf(int i, const LegPlace& at, const LegInertia& leg, 
                gy * (leg.up_turn[0] * press.x + leg.up_turn[1] * press.y);
   }
   return load;
-}  // What of the ground's force on a foot does not come of the accelerations, the leg's own force
-   // on
+}
+
+// What of the ground's force on a foot does not come of the accelerations, the leg's own force on
 // its hip left out.
 template <class T>
 Vector2<T> Robot<T>::BornBy(const LegPlace& at, const LegInertia& leg,
@@ -181,6 +196,7 @@ Vector2<T> Robot<T>::BornBy(const LegPlace& at, const LegInertia& leg,
       at.hip.rate * (Dot(leg.along_turn, u) - turned[0]) + gx * (leg.along[0] - m) + gy * leg.up[0],
       at.hip.rate * (Dot(leg.up_turn, u) - turned[1]) + gx * leg.along[1] + gy * (leg.up[1] - m)};
 }
+
 template <class T>
 T Robot<T>::Energy(Mode, const T* z) const {
   const Frame frame(z[Pitch()] - p_.slope);

@@ -8,6 +8,7 @@
 // eliminated, and what the ground bears (M83, M92).
 
 namespace hoplab {
+
 /// Right side of the equations of motion, or momenta: of (x, y, pitch), the motors, the feet.
 template <class T>
 struct Robot<T>::Sides {
@@ -27,12 +28,16 @@ struct Robot<T>::Sides {
     motor.fill(T(0.0));
     foot.fill(T(0.0));
   }
-};  /// Rows of x, y, pitch and of the motors; the last column is the right side.
+};
+
+/// Rows of x, y, pitch and of the motors; the last column is the right side.
 template <class T>
 struct Robot<T>::Rows {
   T a[3][4];
   T motor[kMaxLegs][4], over[kMaxLegs];
-};  // A leg's foot and motor are eliminated, each from its own row.
+};
+
+// A leg's foot and motor are eliminated, each from its own row.
 template <class T>
 void Robot<T>::AddLegRows(int i, const LegPlace& at, const LegInertia& leg, const Sides& sides,
                           Rows& rows) const {
@@ -78,7 +83,9 @@ void Robot<T>::AddLegRows(int i, const LegPlace& at, const LegInertia& leg, cons
     rows.a[2][l] -= turn * row[l];
     rows.motor[i][l] = row[l];
   }
-}  // Three equations are left, of the reference point and the pitch. Gives what the sides do to the
+}
+
+// Three equations are left, of the reference point and the pitch. Gives what the sides do to the
 // rates, in the places of dz.
 template <class T>
 void Robot<T>::SolveMotion(const Vector2<T>& com, const std::array<LegPlace, kMaxLegs>& at,
@@ -121,13 +128,17 @@ void Robot<T>::SolveMotion(const Vector2<T>& com, const std::array<LegPlace, kMa
                                         row[3])
                                     : zero;
   }
-}  // What leg i's hip, base and foot do under the rates (or accelerations, but for those of M72).
+}
+
+// What leg i's hip, base and foot do under the rates (or accelerations, but for those of M72).
 template <class T>
 LegMotion<T> Robot<T>::MotionUnder(int i, const Hip& hip, const T* rates) const {
   const T& turn = rates[Pitch() + 1];
   return {rates[kVx] - turn * hip.y, rates[kVy] + turn * hip.x, turn + rates[Rate(i)],
           foot_has_inertia_ ? rates[FootSpeed(i)] : T(0.0)};
-}  // M92: the ground's force on a foot.
+}
+
+// M92: the ground's force on a foot.
 template <class T>
 Vector2<T> Robot<T>::GroundForce(const Frame& frame, int i, const Push& push, const T* z,
                                  const T* dz) const {
@@ -143,6 +154,7 @@ Vector2<T> Robot<T>::GroundForce(const Frame& frame, int i, const Push& push, co
   return {load.fx + load.damped_x + Dot(leg.along, a) - carried[0] + born.x,
           load.fy + load.damped_y + Dot(leg.up, a) - carried[1] + born.y};
 }
+
 template <class T>
 void Robot<T>::GroundForces(const Frame& frame, const T& t, const T* z,
                             std::array<ClampedLoad<T>, kMaxLegs>& loads,
@@ -154,7 +166,9 @@ void Robot<T>::GroundForces(const Frame& frame, const T& t, const T* z,
   loads = push.load;
   for (int i = 0; i < legs_; ++i)
     if (IsDown(leg_[i])) ground[i] = GroundForce(frame, i, push, z, rates.data());
-}  // M83 with the matrices of M89.
+}
+
+// M83 with the matrices of M89.
 template <class T>
 void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z,
                                      T* dz) const {

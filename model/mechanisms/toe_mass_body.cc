@@ -27,6 +27,7 @@ ToeMassBody<T>::ToeMassBody(const MechanismSetup<T>& setup)
   const T upright[] = {T(0.0), T(1.0), T(0.0), T(0.0), T(0.0)};
   length_ = swing_->RestChord(swing_->Load(Mode::kToe, upright));
 }
+
 template <class T>
 void ToeMassBody<T>::SaveDiscreteState(DiscreteState& to) const {
   body_.SaveDiscreteState(to);
@@ -41,11 +42,13 @@ void ToeMassBody<T>::LoadDiscreteState(DiscreteState& from) {
   flight_ = static_cast<Flight>(static_cast<int>(from.Take()));
   may_pull_ = from.Take() != 0.0;
 }
+
 template <class T>
 Mode ToeMassBody<T>::Begin(Mode mode, T* z) {
   Seat(mode, T(0.0), z);
   return mode;
 }
+
 template <class T>
 template <class Act>
 void ToeMassBody<T>::WithMotionsAt(Mode mode, const T& t, const T* z, const Act& act) const {
@@ -59,10 +62,12 @@ void ToeMassBody<T>::Seat(Mode mode, const T& t, const T* z) {
   if (body_.corner_count() == 0) return;
   WithMotionsAt(mode, t, z, [&](const Motions<T>& m) { body_.SeatCorners(m); });
 }
+
 template <class T>
 void ToeMassBody<T>::StartSearch(Mode mode, const double* z) {
   if (mode != Mode::kFlight) body_.StartSearch(mode, z);
 }
+
 template <class T>
 void ToeMassBody<T>::CompleteStart(T* z, int given) const {
   if (given >= kToeStateSize) return;
@@ -74,6 +79,7 @@ void ToeMassBody<T>::CompleteStart(T* z, int given) const {
   z[kToeVx] = z[kVx];
   z[kToeVy] = z[kVy];
 }
+
 template <class T>
 void ToeMassBody<T>::Derivative(Mode mode, const T& t, const T* z, T* dz) const {
   if (mode != Mode::kFlight) {
@@ -98,10 +104,12 @@ void ToeMassBody<T>::Derivative(Mode mode, const T& t, const T* z, T* dz) const 
   dz[kToeVx] = gravity_x_ - s.force.x / p_.m_toe;
   dz[kToeVy] = gravity_y_ - s.force.y / p_.m_toe;
 }
+
 template <class T>
 bool ToeMassBody<T>::IsBallistic(Mode mode) const {
   return mode == Mode::kFlight && flight_ == Flight::kFirst && falls_freely_;
 }
+
 template <class T>
 BallisticFlight<T> ToeMassBody<T>::Ballistic(const T* z) const {
   return {.ax = gravity_x_,
@@ -109,6 +117,7 @@ BallisticFlight<T> ToeMassBody<T>::Ballistic(const T* z) const {
           .contact_height = body_.TouchdownHeight(z),
           .is_pair = true};
 }
+
 template <class T>
 double ToeMassBody<T>::FirstStep(Mode mode, const T* z) const {
   if (mode != Mode::kFlight) return body_.FirstStep(mode, z);
@@ -118,6 +127,7 @@ double ToeMassBody<T>::FirstStep(Mode mode, const T* z) const {
   if (Value(p_.d) > 0.0) step = std::min(step, 0.1 * toe / Value(p_.d));
   return step;
 }
+
 template <class T>
 double ToeMassBody<T>::LongestStep(Mode mode, const T& t, const T* z) const {
   if (mode != Mode::kFlight || flight_ != Flight::kFirst)
@@ -137,6 +147,7 @@ double ToeMassBody<T>::LongestStep(Mode mode, const T& t, const T* z) const {
   }
   return 1.0 / rate;
 }
+
 template <class T>
 Observation<T> ToeMassBody<T>::Observe(Mode mode, const T& t, const T* z) const {
   if (mode != Mode::kFlight) {
@@ -158,6 +169,7 @@ Observation<T> ToeMassBody<T>::Observe(Mode mode, const T& t, const T* z) const 
   seen[Channel::kContact] = T(0.0);
   return seen;
 }
+
 template <class T>
 T ToeMassBody<T>::Energy(Mode mode, const T* z) const {
   if (mode != Mode::kFlight) {
@@ -171,6 +183,7 @@ T ToeMassBody<T>::Energy(Mode mode, const T* z) const {
   return body_.inertia().Energy(z) + strain +
          p_.m_toe * (moving - gravity_x_ * z[kToeX] - gravity_y_ * z[kToeY]);
 }
+
 // The leg off the ground: nothing to sink into, to creep on or to bend it by a torque of stance.
 template <class T>
 Parameters<T> ToeMassBody<T>::InTheAir(Parameters<T> p) {
@@ -178,6 +191,7 @@ Parameters<T> ToeMassBody<T>::InTheAir(Parameters<T> p) {
   p.law_terms.torque_active = false;
   return p;
 }
+
 template <class T>
 typename ToeMassBody<T>::HipOverToe ToeMassBody<T>::Relative(const T* z) const {
   HipOverToe hip = {T(0.0), z[kY] - z[kToeY], z[kVx] - z[kToeVx], z[kVy] - z[kToeVy],
@@ -185,6 +199,7 @@ typename ToeMassBody<T>::HipOverToe ToeMassBody<T>::Relative(const T* z) const {
   if (flight_ == Flight::kFirst) TakeRoundingOut(z, hip);
   return hip;
 }
+
 // A leg still relaxed to rounding is taken to be so: a sensitivity that is zero but for rounding
 // would otherwise be noise, which no step can follow.
 template <class T>
@@ -198,16 +213,19 @@ void ToeMassBody<T>::TakeRoundingOut(const T* z, HipOverToe& hip) const {
   }
   for (int i = 0; i < kLegStateSize; ++i) hip[i] = Chain(hip[i], rest[i], 1.0);
 }
+
 template <class T>
 LegLoad<T> ToeMassBody<T>::SwingLoad(const T& t, const HipOverToe& hip) const {
   if (extended_) return swing_->extended().Load(Mode::kToe, hip.data(), {t, T(0.0)});
   return swing_->Load(Mode::kToe, hip.data());
 }
+
 template <class T>
 T ToeMassBody<T>::LegAngle(const T* z) {
   using std::atan2;
   return atan2(z[kToeX] - z[kX], z[kY] - z[kToeY]);
 }
+
 template <class T>
 typename ToeMassBody<T>::Swing ToeMassBody<T>::SwingAt(const T& t, const T* z) const {
   using std::atan2;
@@ -225,6 +243,7 @@ typename ToeMassBody<T>::Swing ToeMassBody<T>::SwingAt(const T& t, const T* z) c
   s.force = {normal * load.y - chord * load.u, chord * load.y + normal * load.u};
   return s;
 }
+
 // How far below the hip the leg reaches at its angle and length [m]; M43.
 template <class T>
 T ToeMassBody<T>::ReachDown(const T* z) const {
@@ -232,6 +251,7 @@ T ToeMassBody<T>::ReachDown(const T* z) const {
   const T rest = body_.leg().TouchdownHeight(LegAngle(z));
   return body_.effects().ContactHeight(rest * load.l / length_);
 }
+
 // Where the toe is in stance: on the ground, or while rolling the tip of a half circle that
 // stands on the contact.
 template <class T>
@@ -240,6 +260,7 @@ Vector2<T> ToeMassBody<T>::HeldToe(Mode mode, const T& t, const T* z) const {
   if (mode != Mode::kRolling) return {z[kX] + load.u, T(0.0)};
   return {z[kX] + 2.0 * load.u, load.u * load.u / z[kY]};
 }
+
 template class ToeMassBody<double>;
 template class ToeMassBody<Jet<1>>;
 template class ToeMassBody<Jet<kNarrowJet>>;

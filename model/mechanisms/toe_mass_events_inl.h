@@ -22,6 +22,7 @@ template <class T>
 int ToeMassBody<T>::FlightGuardCount() const {
   return std::array{4, 2, 3, 1}[static_cast<std::size_t>(flight_)];
 }
+
 template <class T>
 GuardSpec ToeMassBody<T>::Guard(Mode mode, int i) const {
   if (mode != Mode::kFlight) {
@@ -44,6 +45,7 @@ GuardSpec ToeMassBody<T>::Guard(Mode mode, int i) const {
       return {EventKind::kFallAngle, 1.0, Outcome::kFellAngle};
   }
 }
+
 template <class T>
 void ToeMassBody<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
   if (mode != Mode::kFlight) {
@@ -72,6 +74,7 @@ void ToeMassBody<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
   if (body_.corner_count() > 0)
     WithMotionsAt(mode, t, z, [&](const Motions<T>& m) { body_.CornerGuards(m, g + count); });
 }
+
 template <class T>
 ResetResult ToeMassBody<T>::Reset(Mode mode, int i, const T& t, T* z) {
   const EventKind event = Guard(mode, i).event;
@@ -84,6 +87,7 @@ ResetResult ToeMassBody<T>::Reset(Mode mode, int i, const T& t, T* z) {
   if (!TraitsOf(event).is_section && !result.end) Seat(result.next, t, z);
   return result;
 }
+
 template <class T>
 ResetResult ToeMassBody<T>::ResetOwn(Mode mode, int i, const T& t, T* z) {
   switch (Guard(mode, i).event) {
@@ -110,6 +114,7 @@ ResetResult ToeMassBody<T>::ResetOwn(Mode mode, int i, const T& t, T* z) {
     }
   }
 }
+
 template <class T>
 EventKind ToeMassBody<T>::FlightEvent(int i) const {
   using enum EventKind;
@@ -119,11 +124,13 @@ EventKind ToeMassBody<T>::FlightEvent(int i) const {
                                               {kFallHeight, kSwitch, kSwitch, kSwitch}};
   return kEvents[static_cast<int>(flight_)][i];
 }
+
 // M45: the chord lifts the toe's weight.
 template <class T>
 T ToeMassBody<T>::LiftoffGuard(const LegLoad<T>& load, const T& t) const {
   return body_.ChordForce(load, t) * load.y / load.l - p_.m_toe * gravity_y_;
 }
+
 // M44: the toe's velocity is lost, the contact is where the leg touches.
 template <class T>
 ResetResult ToeMassBody<T>::TouchDown(const T& t, T* z) {
@@ -141,6 +148,7 @@ ResetResult ToeMassBody<T>::TouchDown(const T& t, T* z) {
     return {landed.next, Outcome::kNoSupport};
   return landed;
 }
+
 // M46: the toe leaves at rest from where it was held.
 template <class T>
 ResetResult ToeMassBody<T>::LiftOff(Mode mode, const T& t, T* z) {

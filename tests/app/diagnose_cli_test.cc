@@ -77,6 +77,32 @@ TEST_F(DiagnoseCli, FindsASlipperyFloorThatNoSlopeTellsOf) {
   EXPECT_NEAR(friction->at("value").template get<double>(), 2.2, 0.25);
 }
 
+// A driven leg of another engine: 22 GPa, 10 g, a floor of friction 1. The floor hardly shows
+// without the leg's mass, and the mass not without the floor.
+TEST_F(DiagnoseCli, FindsWhatADrivenLegOfAnEngineHas) {
+  const ProcessResult run =
+      Hoplab({"diagnose", ShippedDataset("rig-controlled"), "--effects",
+              "torque_bending,leg_mass,foot_coulomb_friction,leg_material_damping,touchdown_loss",
+              "--json", "--quiet"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto diagnosis = nlohmann::json::parse(run.out);
+  std::set<std::string> main;
+  for (const auto& cause : diagnosis.at("causes")) {
+    if (cause.at("main").get<bool>()) main.insert(cause.at("name"));
+  }
+  EXPECT_EQ(main, (std::set<std::string>{"torque_bending", "leg_mass", "foot_coulomb_friction",
+                                         "leg_material_damping"}));
+  const auto value = [&](const std::string& name) {
+    for (const auto& p : diagnosis.at("extension").at("parameters"))
+      if (p.at("name") == name) return p.at("value").get<double>();
+    return std::nan("");
+  };
+  EXPECT_NEAR(value("E"), 21.991e9, 0.01 * 21.991e9);
+  EXPECT_NEAR(value("torque_bending.blend"), 1.0, 0.1);
+  EXPECT_NEAR(value("leg_mass.m_leg"), 0.010, 0.003);
+  EXPECT_NEAR(value("foot_coulomb_friction.inverse_mu"), 1.0, 0.25);
+}
+
 TEST_F(DiagnoseCli, NamesADragThatTheSimulationLacksWithEveryKeyOfTheContract) {
   GenerateWindy();
   const ProcessResult run =

@@ -303,10 +303,12 @@ TEST(ExportC, EveryLawWithTheEffectsOfTheLegIsTheLibrarys) {
       // Which the elastica and M2b have of themselves.
       const bool has_it = law == Law::kElastica || law == Law::kLargeDeflection;
       if (has_it && std::string(name) == "second_order_bending") continue;
+      // Under which friction at the hip bends the leg (M94), and is refused.
+      if (law == Law::kElastica && std::string(name).starts_with("hip_")) continue;
       const EffectSetting setting = Typical(name);
       if (AppliesTo(*setting.effect, law)) model.effects.push_back(setting);
     }
-    EXPECT_GE(model.effects.size(), 12u);
+    EXPECT_GE(model.effects.size(), law == Law::kElastica ? 11u : 12u);
     const double worst = ExportedLeg(model).Compare();
     std::printf("  %-16s with %zu effects: worst difference %.1e\n",
                 std::string(NameOf(law)).c_str(), model.effects.size(), worst);

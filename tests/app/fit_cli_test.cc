@@ -1,8 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <numbers>
 
 #include "tests/app/hoplab_process.h"
+#include "tests/support/csv_rows.h"
 
 namespace hoplab::testing {
 namespace {
@@ -101,6 +106,40 @@ TEST_F(FitCli, TheTablesBehindThePlotsAreThere) {
   EXPECT_EQ(header("profile.csv"), "parameter,value,delta_chi2");
   EXPECT_EQ(header("trajectories.csv").substr(0, 21), "trial,time_s,body_x_m");
   EXPECT_EQ(CountEntries(temp_.path()), 1) << "nothing is left beside the run folder";
+}
+
+// The rig's hip had an encoder. Nothing was fitted to it.
+TEST_F(FitCli, TellsTheLegAngleThatAnotherEnginesEncoderRead) {
+  const ProcessResult run =
+      RunHoplab({"fit", ShippedDataset("rig-drops"), "--quiet", "--with",
+                 "leg_material_damping,leg_mass", "--fix", "d=0", "--out", "run"},
+                temp_.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto told = CsvRows(temp_.path() / "run/trajectories.csv",
+                            {"trial", "leg_angle_rad", "contact", "contact_arc_rad"});
+  double of_hub = 0.0, of_arc = 0.0;
+  int rows = 0;
+  std::map<std::string, std::vector<std::vector<std::string>>> read;
+  std::map<std::string, std::size_t> next;
+  for (const auto& row : told) {
+    auto [trial, is_new] = read.try_emplace(row[0]);
+    if (is_new)
+      trial->second = CsvRows(std::filesystem::path(ShippedDataset("rig-drops")) / row[0],
+                              {"leg_angle_rad", "ground_force_y_N", "contact"});
+    const auto& seen = trial->second.at(next[row[0]]++);
+    if (row[2] != "1" || seen[2] != "1" || std::stod(seen[1]) < 10.0) continue;
+    const double angle = std::stod(seen[0]);
+    of_hub += std::pow(std::stod(row[1]) - angle, 2);
+    of_arc += std::pow(std::numbers::pi - std::stod(row[3]) - angle, 2);
+    ++rows;
+  }
+  ASSERT_GT(rows, 500);
+  of_hub = std::sqrt(of_hub / rows);
+  of_arc = std::sqrt(of_arc / rows);
+  std::printf("  leg angle in stance, %d rows: off by %.1f mrad; pi - phi by %.0f mrad\n", rows,
+              1e3 * of_hub, 1e3 * of_arc);
+  EXPECT_LT(of_hub, 0.02);
+  EXPECT_GT(of_arc, 0.2);
 }
 
 TEST_F(FitCli, RunsAreNumberedAndNothingIsOverwritten) {

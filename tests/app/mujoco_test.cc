@@ -4,15 +4,13 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <sstream>
 
-#include "base/random.h"
 #include "tests/app/hoplab_process.h"
+#include "tests/support/beam_rig.h"
+#include "tests/support/csv_rows.h"
 
 namespace hoplab::testing {
 namespace {
@@ -25,41 +23,16 @@ struct Motion {
   double liftoff = 0.0, apex = 0.0;  // of the first hop
 };
 
-std::vector<std::vector<std::string>> RowsOf(const std::filesystem::path& file,
-                                             const std::vector<std::string>& columns) {
-  std::istringstream lines(ReadText(file));
-  const auto cells = [](const std::string& line) {
-    std::vector<std::string> out;
-    std::istringstream in(line);
-    for (std::string cell; std::getline(in, cell, ',');) out.push_back(cell);
-    return out;
-  };
-  std::string line;
-  std::getline(lines, line);
-  const std::vector<std::string> names = cells(line);
-  std::vector<std::size_t> places;
-  for (const std::string& column : columns)
-    places.push_back(
-        static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin()));
-  std::vector<std::vector<std::string>> rows;
-  while (std::getline(lines, line)) {
-    const std::vector<std::string> row = cells(line);
-    rows.emplace_back();
-    for (const std::size_t place : places) rows.back().push_back(row.at(place));
-  }
-  return rows;
-}
-
 std::map<std::string, Motion> MotionsOf(const std::filesystem::path& run) {
   std::map<std::string, Motion> motions;
   for (const auto& row :
-       RowsOf(run / "trajectories.csv", {"trial", "time_s", "body_x_m", "body_y_m"})) {
+       CsvRows(run / "trajectories.csv", {"trial", "time_s", "body_x_m", "body_y_m"})) {
     Motion& m = motions[row[0]];
     m.t.push_back(std::stod(row[1]));
     m.x.push_back(std::stod(row[2]));
     m.y.push_back(std::stod(row[3]));
   }
-  for (const auto& row : RowsOf(run / "events.csv", {"trial", "time_s", "event"})) {
+  for (const auto& row : CsvRows(run / "events.csv", {"trial", "time_s", "event"})) {
     Motion& m = motions[row[0]];
     const double time = std::stod(row[1]);
     if (row[2] == "liftoff" && m.liftoff == 0.0) m.liftoff = time;
@@ -159,71 +132,6 @@ TEST_F(Mujoco, ADamperAlongTheChordIsToldAndReplaced) {
   EXPECT_LT(Rms(*model), 5e-3);
 }
 
-// Three hops of the exported leg from each start, as a rig records them: the hip held by a PD in
-// the air and free on the ground, rows of 2 ms, half a millimetre of noise.
-void RecordDrops(const mjModel& model, const std::filesystem::path& folder) {
-  struct Drop {
-    double angle_deg, height, speed;
-  };
-  constexpr std::array<Drop, 9> kDrops = {{{22, 0.30, 1.0},
-                                           {26, 0.33, 1.3},
-                                           {30, 0.28, 0.9},
-                                           {33, 0.31, 1.5},
-                                           {36, 0.34, 1.2},
-                                           {40, 0.29, 1.6},
-                                           {24, 0.32, 1.4},
-                                           {29, 0.26, 1.1},
-                                           {38, 0.31, 1.4}}};
-  constexpr double kRow = 0.002, kNoise = 5e-4, kStiffness = 10.0, kDamping = 0.08;
-  const auto joint = [&](const char* name) { return mj_name2id(&model, mjOBJ_JOINT, name); };
-  const int hip = joint("hip"), x = joint("body_x"), y = joint("body_y");
-  double mass = 0.0;
-  for (int i = 0; i < model.nbody; ++i) mass += model.body_mass[i];
-  std::filesystem::create_directory(folder);
-  std::ofstream yaml(folder / "dataset.yaml");
-  yaml << "format: hoplab-dataset/1\nname: exported\ntitle: Drops of an exported leg\n"
-          "source: {kind: recorded, by: a chain of arcs in MuJoCo, licence: CC0-1.0}\n"
-          "mechanism:\n  type: c_leg\n  body_mass_kg: "
-       << mass
-       << "\n  gravity_m_per_s2: 9.81\n  leg: {rest_radius_m: 0.09, E_Pa: 20e9, G_Pa: 4e9, "
-          "width_m: 0.03, thickness_m: "
-          "0.003658, damping_N_s_per_m: 1.0}\nchannels: {body_x_m: {sigma: 0.0005}, body_y_m: "
-          "{sigma: 0.0005}}\ntrials:\n";
-  RandomStream noise(7, 1);
-  for (std::size_t i = 0; i < kDrops.size(); ++i) {
-    const Drop& drop = kDrops[i];
-    const double angle = drop.angle_deg * std::numbers::pi / 180.0;
-    const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(&model), mj_deleteData);
-    data->qpos[model.jnt_qposadr[y]] = drop.height;
-    data->qpos[model.jnt_qposadr[hip]] = angle;
-    data->qvel[model.jnt_dofadr[x]] = drop.speed;
-    const std::string name = (i < 6 ? "train-" : "test-") + std::to_string(i + 1) + ".csv";
-    std::ofstream csv(folder / name);
-    csv << "time_s,body_x_m,body_y_m\n";
-    int row = 0, hops = 0;
-    double rising = 0.0;
-    while (hops < 3 && row < 1000) {
-      if (data->time >= row * kRow - 1e-9) {
-        csv << row * kRow << ',' << data->qpos[model.jnt_qposadr[x]] + kNoise * noise.Normal()
-            << ',' << data->qpos[model.jnt_qposadr[y]] + kNoise * noise.Normal() << '\n';
-        ++row;
-      }
-      const double off = angle - data->qpos[model.jnt_qposadr[hip]];
-      const double rate = data->qvel[model.jnt_dofadr[hip]];
-      data->ctrl[0] = data->ncon > 0 ? 0.0 : kDamping * rate - kStiffness * off;
-      const double up = data->qvel[model.jnt_dofadr[y]];
-      if (data->ncon == 0 && rising > 0.0 && up <= 0.0) ++hops;
-      rising = up;
-      mj_step(&model, data.get());
-    }
-    yaml << "  - file: " << name << "\n    role: " << (i < 6 ? "train" : "test")
-         << "\n    touchdown_angle_deg: " << drop.angle_deg
-         << "\n    initial: {x_m: 0, y_m: " << drop.height << ", vx_m_per_s: " << drop.speed
-         << ", vy_m_per_s: 0}\n    initial_sigma: {x_m: 0.002, y_m: 0.002, vx_m_per_s: 0.02, "
-            "vy_m_per_s: 0.02}\n";
-  }
-}
-
 // A leg of 20 g, another damping than the rigs', other motors: modulus, damping and mass come back.
 TEST_F(Mujoco, AnExportedLegOf20gIsFittedFromItsHops) {
   Fit({"--with", "leg_material_damping", "--fix", "d=0", "--fix",
@@ -236,7 +144,7 @@ TEST_F(Mujoco, AnExportedLegOf20gIsFittedFromItsHops) {
   const double modulus = value(Json::parse(ReadText(temp_.path() / "run/run.json")), "E");
   const Model model = Export({"--leg-mass", "0.02"});
   ASSERT_TRUE(model);
-  RecordDrops(*model, temp_.path() / "drops");
+  RecordHops({.seed = 7}, *model, temp_.path() / "drops");
   const ProcessResult run = RunHoplab({"fit", "drops", "--with", "leg_material_damping,leg_mass",
                                        "--fix", "d=0", "--json", "--out", "again"},
                                       temp_.path());

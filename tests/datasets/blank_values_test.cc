@@ -47,7 +47,7 @@ TEST(BlankValues, NoneAreFoundInAFilledDatasetOrInWhatIsNone) {
 TEST(BlankValues, EveryNeededValueIsOneThatTheReaderAsksFor) {
   // Each key left out of a complete block must be missed by the reader, so none is on the list in
   // vain.
-  for (const NeededValue& needed : NeededValues(MechanismType::kCLeg)) {
+  for (const NeededValue& needed : NeededValues(MechanismKind::kCLeg)) {
     const std::string key = needed.key.substr(needed.key.find('.') + 1);
     std::string yaml = kYaml;
     const std::size_t at = yaml.find(" " + key + ":") + 1;

@@ -263,7 +263,7 @@ TEST_F(ImportFormats, TheResultIsADatasetOnceItsBlanksAreFilled) {
   request.map = {ParseMapEntry("y=pelvis_ty").value()};
   ImportResult result = ImportLogs(request);
   EXPECT_EQ(result.blanks.size(), 8u);  // seven of the mechanism, one angle
-  request.type = MechanismType::kBall;
+  request.type = MechanismKind::kBall;
   request.values = {{"mechanism.body_mass_kg", "0.0027"},
                     {"mechanism.ball.radius_m", "0.02"},
                     {"mechanism.ball.restitution", "0.9"},

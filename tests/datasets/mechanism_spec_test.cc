@@ -23,14 +23,14 @@ TEST(TouchdownHeight, OfACLegOnItsToe) {
 
 TEST(TouchdownHeight, OfAStraightLeg) {
   MechanismSpec mechanism;
-  mechanism.type = MechanismType::kStraightLeg;
+  mechanism.type = MechanismKind::kStraightLeg;
   mechanism.straight_leg.rest_length_m = 0.2;
   EXPECT_DOUBLE_EQ(TouchdownHeight(mechanism, DegToRad(60)), 0.1);
 }
 
 TEST(TouchdownHeight, OfABallIsItsRadius) {
   MechanismSpec mechanism;
-  mechanism.type = MechanismType::kBall;
+  mechanism.type = MechanismKind::kBall;
   mechanism.ball.radius_m = 0.02;
   EXPECT_EQ(TouchdownHeight(mechanism, 0), 0.02);
 }

@@ -27,7 +27,7 @@ std::string WithLineEnds(std::string text, const std::string& end) {
 TEST(ReadDataset, GivesSiUnitsAndRadians) {
   const Dataset dataset = Read(kYaml);
   EXPECT_EQ(dataset.name, "hops");
-  EXPECT_EQ(dataset.mechanism.type, MechanismType::kCLeg);
+  EXPECT_EQ(dataset.mechanism.type, MechanismKind::kCLeg);
   EXPECT_EQ(dataset.mechanism.c_leg.E_Pa, 22e9);
   EXPECT_EQ(dataset.trials[0].touchdown_angle_rad, DegToRad(25));
   EXPECT_EQ(dataset.trials[0].role, TrialRole::kTrain);
@@ -54,7 +54,7 @@ TEST(ReadDataset, TakesTheSectionFromMomentAndArea) {
 TEST(ReadDataset, HasTheStatedDefaults) {
   const Dataset dataset = Read(kYaml);
   EXPECT_EQ(dataset.mechanism.c_leg.shear_factor, 1.5);
-  EXPECT_EQ(dataset.mechanism.liftoff, LiftoffSpec::kZeroForce);
+  EXPECT_EQ(dataset.mechanism.liftoff, LiftoffRule::kZeroForce);
   EXPECT_FALSE(dataset.mechanism.fall_height_m);
   EXPECT_FALSE(dataset.mechanism.toe_mass_kg);
   EXPECT_FALSE(dataset.controller);
@@ -68,12 +68,12 @@ TEST(ReadDataset, ReadsTheOptionalMechanismKeys) {
                    "  fall_height_m: 0.04\n  toe_mass_kg: 0.02\n"
                    "  placement: {kp_N_m_per_rad: 2, kd_N_m_s_per_rad: 0.1}\n  leg:\n")
           .mechanism;
-  EXPECT_EQ(mechanism.liftoff, LiftoffSpec::kZeroForce);
+  EXPECT_EQ(mechanism.liftoff, LiftoffRule::kZeroForce);
   EXPECT_EQ(mechanism.fall_height_m, 0.04);
   EXPECT_EQ(mechanism.toe_mass_kg, 0.02);
   EXPECT_EQ(mechanism.placement, (PlacementSpec{2, 0.1}));
   EXPECT_EQ(ReadWithYaml("  leg:\n", "  liftoff: rest_length\n  leg:\n").mechanism.liftoff,
-            LiftoffSpec::kRestLength);
+            LiftoffRule::kRestLength);
 }
 
 TEST(ReadDataset, ReadsAStraightLeg) {

@@ -154,7 +154,7 @@ TEST(Inputs, AreColumnsThatDriveTheSimulation) {
       "trials:");
   ASSERT_EQ(dataset.trials[0].inputs.size(), 2u);
   const InputSpec& torque = dataset.trials[0].inputs[0];
-  EXPECT_EQ(torque.id, InputId::kHipTorque);
+  EXPECT_EQ(torque.id, InputKind::kHipTorque);
   EXPECT_EQ(torque.column, "hip_torque_N_m");
   EXPECT_TRUE(torque.held);
   EXPECT_EQ(torque.delay_s, 0.002);

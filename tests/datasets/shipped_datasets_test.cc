@@ -24,7 +24,7 @@ class ShippedDataset : public ::testing::TestWithParam<const char*> {
 TEST_P(ShippedDataset, HasTwoTrainTrialsForEachTestTrial) {
   const Dataset dataset = Read();
   const bool clocked =
-      dataset.mechanism.type == MechanismType::kRobot && dataset.name != "robot-drops";
+      dataset.mechanism.type == MechanismKind::kRobot && dataset.name != "robot-drops";
   EXPECT_EQ(dataset.name, GetParam());
   EXPECT_EQ(dataset.trials.size(), clocked ? 6u : 9u);
   EXPECT_EQ(std::count_if(dataset.trials.begin(), dataset.trials.end(),
@@ -68,7 +68,7 @@ bool HasExtra(const std::string& name) {
 TEST(RecordedDataset, TheLaminateHopperReads) {
   if (!HasExtra("laminate-hopper")) GTEST_SKIP() << "laminate-hopper is not at hand";
   const Dataset dataset = ReadExtra("laminate-hopper");
-  EXPECT_EQ(dataset.mechanism.type, MechanismType::kStraightLeg);
+  EXPECT_EQ(dataset.mechanism.type, MechanismKind::kStraightLeg);
   EXPECT_EQ(dataset.trials.size(), 7u);
   EXPECT_EQ(SuspectThings(dataset), std::vector<std::string>{});
 }
@@ -76,7 +76,7 @@ TEST(RecordedDataset, TheLaminateHopperReads) {
 TEST(RecordedDataset, TheTableTennisBallsRead) {
   if (!HasExtra("table-tennis-even")) GTEST_SKIP() << "table-tennis-even is not at hand";
   const Dataset dataset = ReadExtra("table-tennis-even");
-  EXPECT_EQ(dataset.mechanism.type, MechanismType::kBall);
+  EXPECT_EQ(dataset.mechanism.type, MechanismKind::kBall);
   EXPECT_EQ(dataset.trials.size(), 15u);
   EXPECT_EQ(SuspectThings(dataset), std::vector<std::string>{});
 }

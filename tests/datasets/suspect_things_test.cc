@@ -18,7 +18,7 @@ constexpr double kSigma_m = 0.0005;
 Dataset Bouncing() {
   Dataset dataset;
   dataset.origin.place = "hops/dataset.yaml";
-  dataset.mechanism.type = MechanismType::kBall;
+  dataset.mechanism.type = MechanismKind::kBall;
   dataset.mechanism.body_mass_kg = 1;
   dataset.mechanism.gravity_m_per_s2 = kGravity;
   dataset.mechanism.ball = {0.02, 1, 0};

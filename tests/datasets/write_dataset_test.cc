@@ -32,27 +32,27 @@ StateSpec AnyState(RandomStream* random) {
   return {random->Normal(), Any(random), random->Normal(), random->Normal()};
 }
 
-MechanismSpec AnyMechanism(MechanismType type, RandomStream* random) {
+MechanismSpec AnyMechanism(MechanismKind type, RandomStream* random) {
   MechanismSpec mechanism;
   mechanism.type = type;
   mechanism.body_mass_kg = Any(random);
   mechanism.gravity_m_per_s2 = Any(random);
-  if (type == MechanismType::kBall) {
+  if (type == MechanismKind::kBall) {
     mechanism.ball = {Any(random), random->Uniform(0, 1), random->Uniform(0, 1)};
     return mechanism;
   }
-  if (random->Normal() > 0) mechanism.liftoff = LiftoffSpec::kRestLength;
+  if (random->Normal() > 0) mechanism.liftoff = LiftoffRule::kRestLength;
   if (random->Normal() > 0) mechanism.fall_height_m = Any(random);
-  if (random->Normal() > 0 && mechanism.liftoff == LiftoffSpec::kZeroForce)
+  if (random->Normal() > 0 && mechanism.liftoff == LiftoffRule::kZeroForce)
     mechanism.toe_mass_kg = Any(random);
   if (mechanism.toe_mass_kg && random->Normal() > 0)
     mechanism.placement = PlacementSpec{Any(random), Any(random)};
   for (const VariantKey& key : VariantKeys()) {
-    const bool known = type == MechanismType::kCLeg || key.key == "torque_sign";
+    const bool known = type == MechanismKind::kCLeg || key.key == "torque_sign";
     if (known && random->Normal() > 0)
       key.set(mechanism.variant, static_cast<int>(key.words.size()) - 1);
   }
-  if (type == MechanismType::kStraightLeg) {
+  if (type == MechanismKind::kStraightLeg) {
     mechanism.straight_leg = {Any(random), Any(random), Any(random)};
     return mechanism;
   }
@@ -82,7 +82,7 @@ Dataset AnyDataset(std::uint64_t seed) {
   dataset.name = "any: \"name\" # of {a} \\ dataset, ä";
   dataset.title = seed % 2 == 0 ? "" : "two\nlines\tand a tab";
   if (seed % 3 == 0) dataset.source = {SourceKind::kSimulated, "hoplab", "CC0-1.0", ""};
-  const auto type = static_cast<MechanismType>(seed % 3);
+  const auto type = static_cast<MechanismKind>(seed % 3);
   dataset.mechanism = AnyMechanism(type, &random);
   dataset.controller = AnyController(&random);
   dataset.channels = {{Channel::kBodyY, Any(&random)}, {Channel::kBodyX, std::nullopt}};

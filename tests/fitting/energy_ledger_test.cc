@@ -11,8 +11,8 @@ namespace hoplab {
 namespace {
 
 // The true model of generated hops.
-Extension TrueModel(FitProblem problem) {
-  Extension model;
+FittedModel TrueModel(FitProblem problem) {
+  FittedModel model;
   model.problem = std::move(problem);
   model.shared.resize(2);
   model.shared << testing::HopTruth().E_Pa, testing::HopTruth().damping_N_s_per_m;
@@ -26,7 +26,7 @@ Extension TrueModel(FitProblem problem) {
 constexpr double kEnergyError_J = 0.03;
 
 TEST(EnergyLedger, TheTraceAndTheTrueModelLoseTheSameEnergy) {
-  const Extension model = TrueModel(MakeProblem(testing::SmallDataset(), {}));
+  const FittedModel model = TrueModel(MakeProblem(testing::SmallDataset(), {}));
   const HeldOutErrors errors = MeasureHeldOut(model, 1);
   const EnergyLedger ledger = LedgerOf(model, errors, nullptr);
   EXPECT_EQ(ledger.recording, "test-7.csv") << "a held-out one where there is any";
@@ -40,7 +40,7 @@ TEST(EnergyLedger, TheTraceAndTheTrueModelLoseTheSameEnergy) {
 }
 
 TEST(EnergyLedger, BodyEnergyIsWeightTimesHeightAndHalfTheSquareOfSpeed) {
-  const Extension model = TrueModel(MakeProblem(testing::SmallDataset(), {}));
+  const FittedModel model = TrueModel(MakeProblem(testing::SmallDataset(), {}));
   const HeldOutErrors errors = MeasureHeldOut(model, 1);
   const EnergyLedger ledger = LedgerOf(model, errors, &errors);
   ASSERT_FALSE(ledger.hops.empty());
@@ -52,7 +52,7 @@ TEST(EnergyLedger, BodyEnergyIsWeightTimesHeightAndHalfTheSquareOfSpeed) {
 }
 
 TEST(EnergyLedger, SingleHopsBeginAtTheirOwnStarts) {
-  const Extension model = TrueModel(SplitIntoHops(MakeProblem(testing::SmallDataset(), {})));
+  const FittedModel model = TrueModel(SplitIntoHops(MakeProblem(testing::SmallDataset(), {})));
   const HeldOutErrors errors = MeasureHeldOut(model, 1);
   const EnergyLedger ledger = LedgerOf(model, errors, nullptr);
   ASSERT_FALSE(ledger.hops.empty());
@@ -65,7 +65,7 @@ TEST(EnergyLedger, SingleHopsBeginAtTheirOwnStarts) {
 TEST(EnergyLedger, IsEmptyWithoutHeights) {
   Dataset d = testing::SmallDataset();
   d.channels.pop_back();  // body_y_m
-  const Extension model = TrueModel(MakeProblem(d, {}));
+  const FittedModel model = TrueModel(MakeProblem(d, {}));
   EXPECT_TRUE(LedgerOf(model, MeasureHeldOut(model, 1), nullptr).hops.empty());
 }
 

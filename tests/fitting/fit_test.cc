@@ -117,14 +117,14 @@ TEST(FitDataset, FallsBackToSingleHopsAndSaysSo) {
 
 TEST(FitDataset, SaysWhenWholeTracesAndSingleHopsDisagree) {
   const Dataset d = ReadDataset(std::filesystem::path(HOPLAB_SOURCE_DIR) / "datasets/rig-drops");
-  const DatasetFit fit = FitDataset(d, {.law = "no_slip"}, {}, FitSpan::kWhole);
+  const DatasetFit fit = FitDataset(d, {.law = "no_slip"}, {}, Segmentation::kWhole);
   ASSERT_TRUE(fit.result.ok) << fit.result.message;
   EXPECT_NE(fit.note.find("single hops alone say E"), std::string::npos) << fit.note;
 }
 
 TEST(FitDataset, HopByHopFindsTheSameModulus) {
   const Dataset d = testing::HopDataset(3, 1);
-  const DatasetFit hops = FitDataset(d, {}, {}, FitSpan::kHops);
+  const DatasetFit hops = FitDataset(d, {}, {}, Segmentation::kHops);
   ASSERT_TRUE(hops.result.ok);
   EXPECT_TRUE(hops.by_hop);
   EXPECT_NEAR(hops.result.shared[0] / 22e9, 1.0, 0.005);

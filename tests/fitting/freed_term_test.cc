@@ -25,18 +25,18 @@ class FreedTerm : public ::testing::Test {
   const Term& drag_ = TermOf(library_, "body_force_x", "c * vx");
   const Term& limit_ = TermOf(library_, "body_force_x", "c * max(x - limit, 0)");
 
-  Extension With(const Term& first, const Term& second) const {
-    const Extension one = fit_.RefittedWith(Candidate(first.effect));
+  FittedModel With(const Term& first, const Term& second) const {
+    const FittedModel one = fit_.RefittedWith(Candidate(first.effect));
     const Candidate added(second.effect);
     return Refit(one, std::array{added}, Eigen::VectorXd::Zero(1), fit_.Settings());
   }
-  Extension FreedOf(const Extension& best, std::size_t m, const FormulaSource& freer, double c,
-                    int iterations) const {
+  FittedModel FreedOf(const FittedModel& best, std::size_t m, const FormulaSource& freer, double c,
+                      int iterations) const {
     RefitSettings settings = fit_.Settings();
     settings.max_iterations = iterations;
     return Freed(best, m, Candidate(&FormulaEffect(freer)), c, fit_.problem, settings);
   }
-  double ExponentCoefficient(const Extension& best, std::size_t m) const {
+  double ExponentCoefficient(const FittedModel& best, std::size_t m) const {
     return best.ValuesOf(static_cast<int>(m))[0] *
            std::pow(drag_.power->scale, drag_.power->exponent);
   }
@@ -44,11 +44,11 @@ class FreedTerm : public ::testing::Test {
 
 TEST_F(FreedTerm, AnExponentBeginsAtTheBestModelBesideAnotherTerm) {
   for (const std::size_t m : {std::size_t{0}, std::size_t{1}}) {
-    const Extension best = m == 0 ? With(drag_, limit_) : With(limit_, drag_);
-    const Extension begin =
+    const FittedModel best = m == 0 ? With(drag_, limit_) : With(limit_, drag_);
+    const FittedModel begin =
         FreedOf(best, m, WithFreeExponent(drag_), ExponentCoefficient(best, m), 0);
     EXPECT_NEAR(begin.cost, best.cost, 1e-6 * best.cost) << m;
-    const Extension freed =
+    const FittedModel freed =
         FreedOf(best, m, WithFreeExponent(drag_), ExponentCoefficient(best, m), 40);
     ASSERT_TRUE(freed.ok());
     EXPECT_LE(freed.cost, best.cost + 1e-6) << m;
@@ -56,7 +56,7 @@ TEST_F(FreedTerm, AnExponentBeginsAtTheBestModelBesideAnotherTerm) {
 }
 
 TEST_F(FreedTerm, ALimitBeginsAtTheBestModel) {
-  const Extension best = With(drag_, limit_);
+  const FittedModel best = With(drag_, limit_);
   const double c = best.ValuesOf(1)[0];
   EXPECT_NEAR(FreedOf(best, 1, WithFreeShape(limit_), c, 0).cost, best.cost, 1e-6 * best.cost);
 }

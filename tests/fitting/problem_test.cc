@@ -70,7 +70,7 @@ TEST(Problem, UnknownEffectIsToldWithTheNearest) {
 
 TEST(Problem, AnEffectForLegsIsRefusedForABall) {
   Dataset d = SmallDataset();
-  d.mechanism.type = MechanismType::kBall;
+  d.mechanism.type = MechanismKind::kBall;
   const std::string message = MessageOf(d, {.with_effects = {"touchdown_angle_bias"}});
   EXPECT_NE(message.find("does not apply to the mechanism ball"), std::string::npos) << message;
 }

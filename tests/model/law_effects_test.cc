@@ -155,7 +155,7 @@ TEST(Blends, RollingLawAtOneTurnsThesisAndNoSlipIntoEachOther) {
 
 TEST(Blends, RollingLawMovesTheFootOfAnElasticArcByWhatItDoesNotRollOff) {
   const std::array effects = {Set("rolling_law", 0.7)};
-  constexpr std::array kSeen = {Channel::kLegAngle, Channel::kLegLength};
+  constexpr std::array kSeen = {Channel::kContactArc, Channel::kLegLength};
   for (Law law : {Law::kConsistent, Law::kLargeDeflection, Law::kElastica}) {
     SimulationRequest q = RequestOf(law, kSequences[0]);
     q.effects = effects;
@@ -170,7 +170,7 @@ TEST(Blends, RollingLawMovesTheFootOfAnElasticArcByWhatItDoesNotRollOff) {
       q.row_times = rows;
       q.horizon = t;
       const Trajectory run = Simulate(q);
-      return Foot{run.final_state[4], std::numbers::pi - run.samples[0], run.samples[1]};
+      return Foot{run.final_state[4], run.samples[0], run.samples[1]};
     };
     const Foot before = at(middle - h), mid = at(middle), after = at(middle + h);
     const double advance = 0.7 * (mid.l * std::cos(0.5 * mid.phi) - q.parameters.r);  // M27

@@ -11,7 +11,7 @@
 #include "model/simulate.h"
 #include "tests/support/robot_requests.h"
 
-// A robot's legs with mass on the ground: M89 to M92.
+// What a robot's legs with mass take up and give as they land and leave: M90, M91.
 
 namespace hoplab {
 namespace {
@@ -19,109 +19,6 @@ namespace {
 using namespace testing;
 
 constexpr double kPi = std::numbers::pi;
-
-// ---- the shape -------------------------------------------------------------------------------
-
-// A half circle of hinges, pinned at the contact at the angle psi below the hip and clamped there:
-// of all ways to move hip and base the one of least bending, by linear algebra. Points as rows of
-// velocities by (hip along, hip up, base).
-struct Hinges {
-  std::vector<Eigen::Vector2d> place;  // from the contact
-  std::vector<Eigen::Matrix<double, 2, 3>> moves;
-
-  explicit Hinges(double psi, int count) {
-    const double step = kPi / count;
-    const int bending = static_cast<int>(std::lround(psi / step));
-    const double width = psi / bending;
-    const auto at = [](double s) { return Eigen::Vector2d(-std::sin(s), 1 - std::cos(s)); };
-    // A turn by 1 of what lies beyond `from`, psi growing, moves a point so.
-    const auto turned = [](const Eigen::Vector2d& point, const Eigen::Vector2d& from) {
-      const Eigen::Vector2d d = point - from;
-      return Eigen::Vector2d(d.y(), -d.x());
-    };
-    // Unknown: the turn at the contact, that bends nothing, and of each hinge.
-    Eigen::MatrixXd ends(3, bending + 1);
-    for (int j = 0; j <= bending; ++j) {
-      const Eigen::Vector2d from = j == 0 ? at(0) : at((j - 0.5) * width);
-      ends.block<2, 1>(0, j) = turned(at(psi), from);
-      ends(2, j) = -1.0;
-    }
-    // Least squares of the hinges alone: the normal equations with the turn beside them.
-    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(bending + 4, bending + 4);
-    for (int j = 1; j <= bending; ++j) system(j, j) = 1.0;
-    system.block(0, bending + 1, bending + 1, 3) = ends.transpose();
-    system.block(bending + 1, 0, 3, bending + 1) = ends;
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(bending + 4, 3);
-    right.bottomRows(3).setIdentity();
-    const Eigen::MatrixXd turns = system.fullPivLu().solve(right).topRows(bending + 1);
-    for (int k = 0; k < count; ++k) {
-      const double s = psi - kPi + (k + 0.5) * step;
-      const Eigen::Vector2d point = at(s);
-      Eigen::Matrix<double, 2, 3> moved = turned(point, at(0)) * turns.row(0);
-      for (int j = 1; j <= bending && (j - 0.5) * width < s; ++j)
-        moved += turned(point, at((j - 0.5) * width)) * turns.row(j);
-      place.push_back(point - at(psi));
-      moves.push_back(moved);
-    }
-  }
-};
-
-TEST(RobotLegShape, IsTheOneOfLeastBending) {
-  double worst = 0.0;
-  for (double psi : {1.2, 2.0, 2.6, 3.0, kPi}) {
-    const Hinges hinges(psi, 800);
-    std::array<double, LegShape::kCount> sum{};
-    const double share = 1.0 / static_cast<double>(hinges.place.size());
-    for (std::size_t i = 0; i < hinges.place.size(); ++i) {
-      const auto& v = hinges.moves[i];
-      const Eigen::Matrix3d square = v.transpose() * v;
-      const Eigen::Vector3d turn =
-          v.transpose() * Eigen::Vector2d(-hinges.place[i].y(), hinges.place[i].x());
-      int k = 0;
-      for (auto [a, b] : {std::pair{0, 0}, {0, 1}, {1, 1}, {0, 2}, {1, 2}, {2, 2}})
-        sum[k++] += share * square(a, b);
-      for (int row = 0; row < 2; ++row)
-        for (int a = 0; a < 3; ++a) sum[k++] += share * v(row, a);
-      for (int a = 0; a < 3; ++a) sum[k++] += share * turn(a);
-    }
-    const auto shape = LegShapeByQuadrature(psi);
-    for (int k = 0; k < LegShape::kCount; ++k)
-      worst = std::max(worst, std::abs(sum[k] - shape[k]) / (1.0 + std::abs(shape[k])));
-  }
-  std::printf("shape against 800 hinges, worst %.1e\n", worst);
-  EXPECT_LT(worst, 2e-4);
-}
-
-// The hinge's error is of the first order where a piece lies across the contact: the half circle on
-// its toe, where none does, comes out of the second.
-TEST(RobotLegShape, OnItsToeAThirtiethOfTheInertiaFollowsTheMotor) {
-  const auto shape = LegShapeByQuadrature(kPi);
-  EXPECT_NEAR(shape[LegShape::kBB] / 2.0, 1.0 / 31.5, 5e-4);
-  EXPECT_NEAR(shape[LegShape::kYY], 0.52, 0.01);
-}
-
-TEST(RobotLegShape, TableIsTheQuadrature) {
-  double value = 0.0, slope = 0.0, bend = 0.0;
-  constexpr double kStep = 1e-5;
-  for (double psi = 1.0; psi < 3.5; psi += 0.0137) {
-    const LegShape at = LegShapeAt(psi), up = LegShapeAt(psi + kStep),
-                   down = LegShapeAt(psi - kStep);
-    const auto exact = LegShapeByQuadrature(psi);
-    for (int k = 0; k < LegShape::kCount; ++k) {
-      const double size = 1.0 + std::abs(exact[k]);
-      value = std::max(value, std::abs(at.value[k] - exact[k]) / size);
-      slope = std::max(slope,
-                       std::abs((up.value[k] - down.value[k]) / (2 * kStep) - at.slope[k]) / size);
-      bend =
-          std::max(bend, std::abs((up.slope[k] - down.slope[k]) / (2 * kStep) - at.bend[k]) / size);
-    }
-  }
-  EXPECT_LT(value, 1e-9);
-  EXPECT_LT(slope, 1e-7);
-  EXPECT_LT(bend, 1e-5);
-}
-
-// ---- momenta ---------------------------------------------------------------------------------
 
 // A robot's velocities and what they carry, told apart from the equations of motion: momentum,
 // angular momentum about a point, kinetic energy, and what goes with one leg's base.

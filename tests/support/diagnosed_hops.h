@@ -62,8 +62,8 @@ inline std::vector<Candidate> CandidatesOf(const std::vector<std::string>& names
 struct NullFit {
   FitProblem problem;
   std::vector<TrialProblem> train;
-  Extension null;     // under white noise
-  Extension settled;  // under the noise that suits it
+  FittedModel null;     // under white noise
+  FittedModel settled;  // under the noise that suits it
 
   explicit NullFit(const Dataset& dataset, const ProblemOptions& options = {})
       : problem(MakeProblem(dataset, options)), train(TrialsOf(problem, TrialRole::kTrain)) {
@@ -83,17 +83,17 @@ struct NullFit {
   Linearisation With(const std::vector<Candidate>& tested) const {
     return Linearised(null, tested);
   }
-  Linearisation Linearised(const Extension& model, const std::vector<Candidate>& tested) const {
+  Linearisation Linearised(const FittedModel& model, const std::vector<Candidate>& tested) const {
     const FitProblem extended = Extend(model.problem, tested);
     Eigen::VectorXd shared(extended.shared_count());
     shared << model.shared, NullValues(tested);
     return Linearise(extended, model.problem.shared_count(), train, shared, model.starts, 1);
   }
-  Extension RefittedWith(const Candidate& candidate) const {
+  FittedModel RefittedWith(const Candidate& candidate) const {
     return RefittedWith(candidate,
                         ScoreOf(With({candidate}), HypothesesOf(std::array{candidate})[0]).size);
   }
-  Extension RefittedWith(const Candidate& candidate, const Eigen::VectorXd& size) const {
+  FittedModel RefittedWith(const Candidate& candidate, const Eigen::VectorXd& size) const {
     return Refit(null, std::array{candidate}, size, Settings());
   }
   RefitSettings Settings() const { return SettingsOf(Discrepancy::kMatern); }

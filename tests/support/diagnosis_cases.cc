@@ -43,7 +43,7 @@ MechanismSpec TrueMechanism(Law law) {
   m.gravity_m_per_s2 = 9.81;
   switch (MechanismOf(law)) {
     case MechanismKind::kCLeg:
-      m.type = MechanismType::kCLeg;
+      m.type = MechanismKind::kCLeg;
       m.c_leg.rest_radius_m = 0.09;
       m.c_leg.E_Pa = 22e9;
       m.c_leg.G_Pa = 4e9;
@@ -52,11 +52,11 @@ MechanismSpec TrueMechanism(Law law) {
       m.c_leg.damping_N_s_per_m = 3.0;
       break;
     case MechanismKind::kStraightLeg:
-      m.type = MechanismType::kStraightLeg;
+      m.type = MechanismKind::kStraightLeg;
       m.straight_leg = {0.18, 2500.0, 3.0};
       break;
     case MechanismKind::kBall:
-      m.type = MechanismType::kBall;
+      m.type = MechanismKind::kBall;
       m.body_mass_kg = 0.0027;
       m.ball = {0.02, 0.85, 0.1};
       break;

@@ -37,7 +37,7 @@ inline Dataset DrivenDataset(const DrivenHops& hops, std::uint64_t seed) {
   dataset.channels = {{Channel::kBodyX, hops.position_noise_m},
                       {Channel::kBodyY, hops.position_noise_m}};
   InputSpec torque;
-  torque.id = InputId::kHipTorque;
+  torque.id = InputKind::kHipTorque;
   torque.column = "motor_torque_N_m";
   torque.held = hops.held;
   dataset.inputs = {torque};

@@ -114,7 +114,7 @@ std::string NameOf(const SimulationRequest& q, const SensitivityDirection& d) {
       return std::string(q.effects[d.index].effect->info.name) + "." +
              std::string(q.effects[d.index].effect->info.parameters[d.component].name);
     case Of::kInput:
-      return std::string(hoplab::NameOf(q.inputs[d.index].kind)) +
+      return std::string(InfoOf(q.inputs[d.index].kind).name) +
              (d.component == 0 ? ".delay" : ".scale");
     case Of::kTouchdownAngle:
       return "touchdown_angle." + std::to_string(d.index + 1);

@@ -51,6 +51,7 @@ static int leg_solve(leg_state *leg, const leg_hip *hip, leg_instant *s) {
       }
       s->change = rolls ? LEG_PI - phi : -miss;
       s->rate = (y * hip->vy - u * hip->vx) / l;
+      s->angle = rolls ? LEG_PI - phi : atan2(u, y);
       s->angle_rate = rolls ? phi_u0 * hip->vx - phi_y * hip->vy
                             : -(y * hip->vx + u * hip->vy) / (l * l);
       return 0;

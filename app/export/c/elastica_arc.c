@@ -12,7 +12,7 @@ static int leg_solve(leg_state *leg, const leg_hip *hip, leg_instant *s) {
   s->contact_rate = s->viscous_x = s->viscous_y = 0.0;
   for (round = 0; round < 60; ++round) {
     double u, l, lead, S, K, stretch, stretch1, stretch2, chord, tip, tip_phi, tip_f, chord_phi;
-    double chord_f, over, turn, press;
+    double chord_f, over, turn, press, sine, sine_f;
     leg_energy e;
     phi = fmin(fmax(phi, LEG_PHI_BEGIN), LEG_PHI_END);
     leg_load_scale(phi, w);
@@ -47,6 +47,8 @@ static int leg_solve(leg_state *leg, const leg_hip *hip, leg_instant *s) {
     }
 /*@end*/
     s->change = rolls ? LEG_PI - phi : -tip;
+    sine = lead - tip; /* of the angle at which chord and tip meet, less a right angle */
+    sine_f = -tip_f;
     if (!rolls) { /* phi stays */
       tip = tip_f = 0.0;
       tip_phi = 1.0;
@@ -77,8 +79,15 @@ static int leg_solve(leg_state *leg, const leg_hip *hip, leg_instant *s) {
       s->rest = 2.0 * r * S;
       s->stiffness = 0.0;
       s->rate = (y * hip->vy - u * hip->vx) / l;
-      s->angle_rate = rolls ? phi_u * hip->vx - phi_y * hip->vy
-                            : -(y * hip->vx + u * hip->vy) / (l * l);
+      /* The hip meets the chord as the tip does. */
+      s->angle = rolls ? 2.0 * atan2(u, y) : atan2(u, y) + asin(sine);
+      if (rolls) {
+        const double lead_rate = r * (phi_y * hip->vy - phi_u * hip->vx) - hip->vx;
+        s->angle_rate = 2.0 * (y * lead_rate - u * hip->vy) / (l * l);
+      } else {
+        s->angle_rate = sine_f * s->rate / (r * chord_f * sqrt(1.0 - sine * sine)) -
+                        (y * hip->vx + u * hip->vy) / (l * l);
+      }
 /*@if ALONG_ARC*/
       leg_damp_along_arc(phi, f, z, rolls ? -phi_u : 0.0, rolls ? phi_y : 0.0, -f_u, f_y, hip, s);
 /*@end*/

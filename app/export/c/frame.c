@@ -53,11 +53,7 @@ int leg_load_driven(leg_state *leg, const leg_hip *hip, double motor, leg_load *
   load->contact_x = hip->x + s.u;
   load->length = s.l;
   load->arc = s.phi;
-/*@if STRAIGHT*/
-  load->angle = atan2(s.u, y);
-/*@else*/
-  load->angle = leg->mode == LEG_ROLLING ? LEG_PI - s.phi : atan2(s.u, y);
-/*@end*/
+  load->angle = s.angle;
   load->angle_rate = s.angle_rate;
   load->contact_rate = s.contact_rate;
   return 0;

@@ -31,6 +31,7 @@ static int leg_solve(leg_state *leg, const leg_hip *hip, leg_instant *s) {
     leg_half_circle(LEG_PI, 2.0 * LEG_R - l, 0.5 * l, s);
     s->rate = (y * hip->vy - u * hip->vx) / l;
     s->contact_rate = 0.0;
+    s->angle = atan2(u, y);
     s->angle_rate = -(y * hip->vx + u * hip->vy) / (l * l);
     s->change = -u / l;
     return 0;
@@ -44,6 +45,7 @@ static int leg_solve(leg_state *leg, const leg_hip *hip, leg_instant *s) {
   du = (LEG_DAMPS_HIP ? 0.0 : s->contact_rate) - hip->vx;
   turn = (du * y - u * hip->vy) / (l * l);
   s->rate = (u * du + y * hip->vy) / l + (LEG_DAMPS_DEFLECTION ? 2.0 * LEG_R * u / l * turn : 0.0);
+  s->angle = LEG_PI - s->phi;
   s->angle_rate = 2.0 * ((s->contact_rate - hip->vx) * y - u * hip->vy) / (l * l);
   s->change = LEG_PI - s->phi;
   return 0;

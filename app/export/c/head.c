@@ -54,6 +54,7 @@ typedef struct {
   double elastic;      /* elastic force along the chord [N] */
   double rate;         /* what the damper sees [m/s] */
   double contact_rate; /* [m/s] */
+  double angle;        /* leg angle at the hip [rad] */
   double angle_rate;   /* [rad/s] */
   double change;       /* stays positive until the leg rolls onto its toe, or off it */
   double rest;         /* chord at which it carries nothing [m] */

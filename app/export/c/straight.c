@@ -8,6 +8,7 @@ static int leg_solve(leg_state *leg, const leg_hip *hip, leg_instant *s) {
   s->elastic = LEG_K * delta * (1.0 + LEG_HARDENING / LEG_L0 * delta);
   s->rate = (y * hip->vy - u * hip->vx) / l;
   s->contact_rate = s->viscous_x = s->viscous_y = 0.0;
+  s->angle = atan2(u, y);
   s->angle_rate = -(y * hip->vx + u * hip->vy) / (l * l);
   s->change = 1.0;
   s->rest = LEG_L0;

@@ -122,8 +122,8 @@ std::vector<DesignTried> Proposed(const Diagnosis& d, const DesignSpace& space) 
   const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
   DesignSearchRequest request;
   request.space = space;
-  std::vector<Extension> rivals;
-  for (const std::vector<Extension>& group : d.naming.rivals) {
+  std::vector<FittedModel> rivals;
+  for (const std::vector<FittedModel>& group : d.naming.rivals) {
     if (group.size() > 1 && rivals.empty()) rivals = group;
   }
   if (rivals.empty() && !d.naming.best.members.empty())

@@ -16,8 +16,8 @@ using testing::NullFit;
 
 struct Rivals {
   NullFit fit{testing::World{.effects = {EffectOfSize("touchdown_loss", 0.02)}}};
-  std::vector<Extension> models = {fit.RefittedWith(CandidateOf("touchdown_loss")),
-                                   fit.RefittedWith(CandidateOf("touchdown_angle_bias"))};
+  std::vector<FittedModel> models = {fit.RefittedWith(CandidateOf("touchdown_loss")),
+                                     fit.RefittedWith(CandidateOf("touchdown_angle_bias"))};
   std::vector<double> weights = {0.5, 0.5};
 
   DesignSearchRequest Request(int jobs = 1) const {
@@ -119,9 +119,9 @@ TEST(SearchSharpening, NarrowsTheIntervalMoreThanARepetition) {
 }
 
 TEST(WeightsOf, GoByTheEvidence) {
-  std::vector<Extension> rivals(2);
+  std::vector<FittedModel> rivals(2);
   EXPECT_EQ(WeightsOf(rivals), (std::vector<double>{0.5, 0.5})) << "not settled";
-  for (Extension& r : rivals) {
+  for (FittedModel& r : rivals) {
     r.settled = true;
     r.evidence.discrepancy = -std::numeric_limits<double>::infinity();
   }

@@ -76,7 +76,7 @@ struct Found {
 };
 
 // Mean square of the test errors over sigma, over the channels.
-double InSigmas(const Extension& model, const HeldOutErrors& errors) {
+double InSigmas(const FittedModel& model, const HeldOutErrors& errors) {
   double sum = 0.0;
   for (std::size_t c = 0; c < model.problem.channels.size(); ++c) {
     const double ratio = errors.test.rmse[c] / model.problem.channels[c].sigma;

@@ -32,7 +32,7 @@ TEST(LogSizePrior, IsSurprisedNeitherByATenthNorByTenTimesTheTypicalSize) {
 
 // The evidence of one cause under white noise, its integral over the size and the base values done
 // by quadrature over the size, the rest by its best fit and curvature at each size.
-double LogEvidenceBySlices(const NullFit& fit, const Extension& e) {
+double LogEvidenceBySlices(const NullFit& fit, const FittedModel& e) {
   const double at = e.shared[e.shared.size() - 1];
   const SharedParameter& s = e.problem.shared.back();
   // Curvature at the optimum says how far to look.
@@ -69,15 +69,15 @@ double LogEvidenceBySlices(const NullFit& fit, const Extension& e) {
 
 TEST(EvidenceOf, IsTheIntegralOverTheSize) {
   const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.02)}});
-  Extension e = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
+  FittedModel e = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
   Settle(e, fit.SettingsOf(Discrepancy::kNone));
   EXPECT_NEAR(e.evidence.white, LogEvidenceBySlices(fit, e), 0.3);
 }
 
 TEST(EvidenceOf, PrefersTheTruthByFar) {
   const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}});
-  Extension truth = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
-  Extension other = fit.RefittedWith(CandidateOf("air_drag"));
+  FittedModel truth = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
+  FittedModel other = fit.RefittedWith(CandidateOf("air_drag"));
   Settle(truth, fit.Settings());
   Settle(other, fit.Settings());
   EXPECT_GT(truth.evidence.log_z(), fit.settled.evidence.log_z() + 10.0);
@@ -90,7 +90,7 @@ TEST(EvidenceOf, ACauseThatIsNotTherePaysForItsRoom) {
   int preferred = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const NullFit fit({.seed = seed});
-    Extension e = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
+    FittedModel e = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
     Settle(e, fit.Settings());
     preferred += e.evidence.log_z() > fit.settled.evidence.log_z();
   }
@@ -101,9 +101,9 @@ TEST(EvidenceOf, ACauseThatIsNotTherePaysForItsRoom) {
 TEST(EvidenceOf, WhatTheDataDoNotTellIsNoGain) {
   const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}});
   const testing::Twin twin("touchdown_angle_bias", "twin");
-  Extension one = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
-  Extension two = Refit(one, std::array{twin.candidate()}, Eigen::VectorXd::Zero(1),
-                        fit.SettingsOf(Discrepancy::kNone));
+  FittedModel one = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
+  FittedModel two = Refit(one, std::array{twin.candidate()}, Eigen::VectorXd::Zero(1),
+                          fit.SettingsOf(Discrepancy::kNone));
   Settle(one, fit.SettingsOf(Discrepancy::kNone));
   Settle(two, fit.SettingsOf(Discrepancy::kNone));
   EXPECT_LT(two.evidence.log_z(), one.evidence.log_z() + 1.0);

@@ -19,7 +19,7 @@ constexpr double kSigma = 2e-4;  // m
 
 // Drops whose commanded angles are off by a size of their own each: what the data hold, since the
 // angle told is moved and the traces are not.
-Extension WithAngles(const std::vector<double>& off, std::vector<TrialProblem>& train) {
+FittedModel WithAngles(const std::vector<double>& off, std::vector<TrialProblem>& train) {
   Dataset dataset = testing::DatasetOf({.train = kTrials, .test = 0, .sigma_m = kSigma});
   for (std::size_t i = 0; i < off.size(); ++i) dataset.trials[i].touchdown_angle_rad -= off[i];
   const NullFit fit(dataset);
@@ -35,7 +35,7 @@ TEST(HeterogeneityOf, FindsTheSizeOfEachTrialTheirMeanAndSpread) {
   for (const double b : off) square += (b - mean) * (b - mean);
   const double spread = std::sqrt(square / (kTrials - 1));
   std::vector<TrialProblem> train;
-  const Extension model = WithAngles(off, train);
+  const FittedModel model = WithAngles(off, train);
   ASSERT_TRUE(model.ok());
   const Heterogeneity h = HeterogeneityOf(model, train, 1).back();
   ASSERT_EQ(h.sizes.size(), off.size());
@@ -50,7 +50,7 @@ TEST(HeterogeneityOf, FindsTheSizeOfEachTrialTheirMeanAndSpread) {
 
 TEST(HeterogeneityOf, OfTrialsThatAgreeIsNone) {
   std::vector<TrialProblem> train;
-  const Extension model = WithAngles(std::vector<double>(kTrials, 0.012), train);
+  const FittedModel model = WithAngles(std::vector<double>(kTrials, 0.012), train);
   ASSERT_TRUE(model.ok());
   const Heterogeneity h = HeterogeneityOf(model, train, 1).back();
   EXPECT_GT(h.p_value, 0.01);

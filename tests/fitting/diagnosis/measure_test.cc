@@ -24,7 +24,7 @@ testing::World Biased(std::uint64_t seed = 5) {
 
 struct Compared {
   NullFit fit;
-  Extension after;
+  FittedModel after;
   HeldOutErrors errors_before, errors_after;
   HeldOutGain gain;
   std::vector<std::string> left_out;
@@ -78,7 +78,7 @@ TEST(HeldOutGain, OfAnEffectThatIsNotThereIsSeldomClaimed) {
   int claims = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const NullFit fit({.test = 2, .hops = 3, .seed = seed});
-    const Extension after = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
+    const FittedModel after = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
     const HeldOutGain gain =
         CompareHeldOut(fit.null, MeasureHeldOut(fit.null, 1), MeasureHeldOut(after, 1), 1, nullptr);
     claims += gain.IsClaim();
@@ -123,7 +123,7 @@ TEST(HeldOutGain, WithoutHeldOutTrialsIsNotComputed) {
 TEST(HeldOutGain, ATrialThatCannotBeSimulatedIsLeftOutByName) {
   Compared c(Biased());
   const long samples = c.gain.samples;
-  for (Extension* e : {&c.fit.null, &c.after})
+  for (FittedModel* e : {&c.fit.null, &c.after})
     e->problem.trials.back().parameters.m *= 100.0;  // the leg does not carry it
   c.Compare();
   EXPECT_EQ(c.left_out, std::vector<std::string>{c.fit.problem.trials.back().file});

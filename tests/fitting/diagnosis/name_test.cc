@@ -75,7 +75,7 @@ TEST(NameCauses, KeepsNoMemberThatDoesNotPay) {
     const Naming n = NameSix(fit);
     ASSERT_FALSE(n.best.members.empty());
     for (int i = 0; i < static_cast<int>(n.best.members.size()); ++i) {
-      Extension less = RefitWithout(n.best, i, fit.problem, fit.Settings());
+      FittedModel less = RefitWithout(n.best, i, fit.problem, fit.Settings());
       Settle(less, fit.Settings());
       EXPECT_GT(n.best.evidence.log_z() - less.evidence.log_z(), n.log_odds - 0.01)
           << n.best.members[i].Name() << ", seed " << seed;

@@ -27,7 +27,7 @@ TEST(RealHops, TableTennisBallsFeelTheDragOfABall) {
   const auto d = DiagnoseExtra("table-tennis-even");
   if (!d) GTEST_SKIP() << "table-tennis-even is not at hand";
   ASSERT_EQ(d->refusal, "");
-  const Extension& best = d->naming.best;
+  const FittedModel& best = d->naming.best;
   const auto drag = std::find_if(best.members.begin(), best.members.end(),
                                  [](const Candidate& c) { return c.Name() == "air_drag"; });
   ASSERT_NE(drag, best.members.end());

@@ -18,12 +18,12 @@ using testing::NullFit;
 // Two explanations of the same change of speed at the ground.
 struct Rivals {
   NullFit fit{testing::World{.effects = {EffectOfSize("touchdown_loss", 0.02)}}};
-  std::vector<Extension> models = {fit.RefittedWith(CandidateOf("touchdown_loss")),
-                                   fit.RefittedWith(CandidateOf("touchdown_angle_bias"))};
+  std::vector<FittedModel> models = {fit.RefittedWith(CandidateOf("touchdown_loss")),
+                                     fit.RefittedWith(CandidateOf("touchdown_angle_bias"))};
 };
 
 // A noiseless recording of `truth` by a design.
-TrialProblem Recorded(const Extension& truth, const TrialDesign& design,
+TrialProblem Recorded(const FittedModel& truth, const TrialDesign& design,
                       const std::vector<TrialProblem>& train) {
   TrialProblem trial = *std::find_if(train.begin(), train.end(),
                                      [&](const TrialProblem& t) { return t.file == design.like; });
@@ -90,8 +90,8 @@ TEST(ProposeExperiment, NamesTheRivalThatIsHardestToTellApart) {
 TEST(ProposeExperiment, SeparatesNoTwins) {
   const NullFit fit({.effects = {EffectOfSize("touchdown_loss", 0.02)}});
   const testing::Twin twin("touchdown_loss", "twin_of_loss");
-  const std::vector<Extension> models = {fit.RefittedWith(CandidateOf("touchdown_loss")),
-                                         fit.RefittedWith(twin.candidate())};
+  const std::vector<FittedModel> models = {fit.RefittedWith(CandidateOf("touchdown_loss")),
+                                           fit.RefittedWith(twin.candidate())};
   const auto proposed = ProposeExperiment(models, fit.train, 1);
   if (proposed) {
     EXPECT_LT(proposed->expected_nats, 0.01);
@@ -102,12 +102,12 @@ TEST(ProposeExperiment, SeparatesNoTwins) {
 TEST(ProposeExperiment, IsAbsentWithoutARival) {
   const NullFit fit{testing::World{}};
   EXPECT_FALSE(ProposeExperiment(std::vector{fit.null}, fit.train, 1));
-  EXPECT_FALSE(ProposeExperiment(std::vector<Extension>{}, fit.train, 1));
+  EXPECT_FALSE(ProposeExperiment(std::vector<FittedModel>{}, fit.train, 1));
 }
 
 TEST(ProposeExperiment, IsAbsentWhereNoDesignCanBeSimulated) {
   Rivals r;
-  for (Extension& model : r.models) model.shared[0] = 1e8;  // a leg like rubber
+  for (FittedModel& model : r.models) model.shared[0] = 1e8;  // a leg like rubber
   EXPECT_FALSE(ProposeExperiment(r.models, r.fit.train, 1));
 }
 

@@ -30,7 +30,7 @@ double ThreadSeconds() {
 
 // Chance under noise of what is left of a planted effect beside the accepted extension.
 double LeftP(const Diagnosis& d, const std::string& name) {
-  const Extension& best = d.naming.best;
+  const FittedModel& best = d.naming.best;
   const Candidate planted{FindEffect(name)};
   for (const Candidate& member : best.members) {
     if (member.effect == planted.effect) return 1.0;

@@ -145,7 +145,7 @@ TEST(Diagnose, StatedNoiseThatIsTooSmallRaisesNoAlarm) {
 TEST(Diagnose, ADatasetThatCannotBeFittedIsRefusedWithTheReason) {
   DiagnosisOptions options = OptionsWith(testing::kSixEffects);
   options.problem.fix = {{"E", 1e8}};  // a leg like rubber
-  options.span = FitSpan::kWhole;
+  options.span = Segmentation::kWhole;
   const Diagnosis d = Diagnose(DatasetOf({.train = 1}), options);
   EXPECT_NE(d.refusal, "");
   EXPECT_TRUE(d.naming.candidates.empty());

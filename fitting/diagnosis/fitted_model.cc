@@ -1,4 +1,4 @@
-#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/fitted_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ constexpr double kWorthFollowing = 4.0;
 constexpr double kFarOff = 10.0;
 
 // Where in the shared values member i begins.
-int PlaceOf(const Extension& e, int i) {
+int PlaceOf(const FittedModel& e, int i) {
   return e.problem.shared_count() - e.parameter_count() +
          ParameterCount(std::span(e.members).first(static_cast<std::size_t>(i)));
 }
@@ -35,7 +35,7 @@ double Inside(const SharedParameter& s, double value) {
 }
 
 // A search from where a model is.
-SolveRequest RequestFrom(const Extension& e, const RefitSettings& settings) {
+SolveRequest RequestFrom(const FittedModel& e, const RefitSettings& settings) {
   SolveRequest request;
   request.problem = &e.problem;
   request.trials = settings.train;
@@ -48,7 +48,7 @@ SolveRequest RequestFrom(const Extension& e, const RefitSettings& settings) {
   return request;
 }
 
-void Take(Extension& e, const SolveResult& result) {
+void Take(FittedModel& e, const SolveResult& result) {
   e.shared = result.shared;
   e.starts = result.starts;
   e.cost = result.cost;
@@ -98,7 +98,7 @@ bool LedOn(const SolveResult& result) { return IsUsable(result.status) && result
 
 // Where the search for a model with added candidates begins: their sizes, brought inside the
 // bounds.
-Eigen::VectorXd Beginning(const Extension& e, const Eigen::VectorXd& kept,
+Eigen::VectorXd Beginning(const FittedModel& e, const Eigen::VectorXd& kept,
                           const Eigen::VectorXd& null_values, const Eigen::VectorXd& sizes) {
   Eigen::VectorXd shared(kept.size() + sizes.size());
   shared.head(kept.size()) = kept;
@@ -112,11 +112,11 @@ Eigen::VectorXd Beginning(const Extension& e, const Eigen::VectorXd& kept,
 
 }  // namespace
 
-Eigen::VectorXd Extension::ValuesOf(int i) const {
+Eigen::VectorXd FittedModel::ValuesOf(int i) const {
   return shared.segment(PlaceOf(*this, i), members[static_cast<std::size_t>(i)].parameter_count());
 }
 
-bool Extension::AtPhysicalBound(int i) const {
+bool FittedModel::AtPhysicalBound(int i) const {
   const int first = PlaceOf(*this, i);
   const Candidate& member = members[static_cast<std::size_t>(i)];
   for (int k = 0; k < member.parameter_count(); ++k) {
@@ -130,11 +130,11 @@ bool Extension::AtPhysicalBound(int i) const {
   return false;
 }
 
-Extension Refit(const Extension& base, std::span<const Candidate> added,
-                const Eigen::VectorXd& sizes, const RefitSettings& settings) {
+FittedModel Refit(const FittedModel& base, std::span<const Candidate> added,
+                  const Eigen::VectorXd& sizes, const RefitSettings& settings) {
   // A search that gains less than this share of the forecast went into the wrong valley.
   constexpr double kFair = 0.15;
-  Extension e;
+  FittedModel e;
   e.members = base.members;
   e.members.insert(e.members.end(), added.begin(), added.end());
   e.problem = Extend(base.problem, added);
@@ -164,7 +164,8 @@ Extension Refit(const Extension& base, std::span<const Candidate> added,
   return e;
 }
 
-void RefitBeyondThresholds(Extension& model, const Extension& base, const RefitSettings& settings) {
+void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
+                           const RefitSettings& settings) {
   const Eigen::VectorXd of_added =
       NullValues(std::span(model.members).subspan(base.members.size()));
   Eigen::VectorXd null(base.shared.size() + of_added.size());
@@ -173,7 +174,7 @@ void RefitBeyondThresholds(Extension& model, const Extension& base, const RefitS
   const std::vector<Eigen::VectorXd> beginnings =
       BeginningsBeyondThresholds(model.problem, others, static_cast<int>(base.shared.size()));
   if (beginnings.empty()) return;
-  Extension from = model;
+  FittedModel from = model;
   from.starts = base.starts;
   SolveRequest request = RequestFrom(from, settings);
   // Where it begins, what stood in for it is still in place, and costs much. So short searches look
@@ -205,9 +206,9 @@ void RefitBeyondThresholds(Extension& model, const Extension& base, const RefitS
   if (LedOn(found) && (!model.ok() || model.cost - found.cost > least)) Take(model, found);
 }
 
-Extension RefitWithout(const Extension& base, int i, const FitProblem& null_problem,
-                       const RefitSettings& settings) {
-  Extension e;
+FittedModel RefitWithout(const FittedModel& base, int i, const FitProblem& null_problem,
+                         const RefitSettings& settings) {
+  FittedModel e;
   const int place = PlaceOf(base, i);
   const int count = base.members[static_cast<std::size_t>(i)].parameter_count();
   e.members = base.members;
@@ -221,7 +222,7 @@ Extension RefitWithout(const Extension& base, int i, const FitProblem& null_prob
   return e;
 }
 
-void Settle(Extension& model, const RefitSettings& settings) {
+void Settle(FittedModel& model, const RefitSettings& settings) {
   if (!model.ok()) return;
   // A trial refit may have stopped short of the minimum.
   const SolveResult found = Solve(RequestFrom(model, settings));

@@ -13,7 +13,7 @@ namespace hoplab {
 
 /// A model with candidate effects in it, fitted to the train trials. With no members it is the
 /// null fit.
-struct Extension {
+struct FittedModel {
   std::vector<Candidate> members;
   FitProblem problem;             // the null problem extended by the members
   Eigen::VectorXd shared;         // fitted: those of the null problem, then the members'
@@ -34,7 +34,7 @@ struct Extension {
   bool AtPhysicalBound(int i) const;
   int parameter_count() const { return ParameterCount(members); }
   /// Log-likelihood gained over `null` [nats].
-  double GainOver(const Extension& null) const { return null.cost - cost; }
+  double GainOver(const FittedModel& null) const { return null.cost - cost; }
 };
 
 /// What every refit of a diagnosis shares.
@@ -53,19 +53,20 @@ struct RefitSettings {
 
 /// Fits `base` with `added` candidates, from the base's values and the added ones' `sizes` off
 /// their null (own units; NaN: none). A start that cannot be simulated is moved towards null.
-Extension Refit(const Extension& base, std::span<const Candidate> added,
-                const Eigen::VectorXd& sizes, const RefitSettings& settings);
+FittedModel Refit(const FittedModel& base, std::span<const Candidate> added,
+                  const Eigen::VectorXd& sizes, const RefitSettings& settings);
 
 /// `model`, fitted from `base`, sought anew from beyond the thresholds of what it adds, where it
 /// has some; kept where that fits no better.
-void RefitBeyondThresholds(Extension& model, const Extension& base, const RefitSettings& settings);
+void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
+                           const RefitSettings& settings);
 
 /// The same model without member `i`.
-Extension RefitWithout(const Extension& base, int i, const FitProblem& null_problem,
-                       const RefitSettings& settings);
+FittedModel RefitWithout(const FittedModel& base, int i, const FitProblem& null_problem,
+                         const RefitSettings& settings);
 
 /// Ends the model's fit, seeks the noise that suits what it leaves, and takes its evidence. With
 /// `settings.discrepancy` kNone the noise stays white.
-void Settle(Extension& model, const RefitSettings& settings);
+void Settle(FittedModel& model, const RefitSettings& settings);
 
 }  // namespace hoplab

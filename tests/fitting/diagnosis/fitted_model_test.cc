@@ -1,4 +1,4 @@
-#include "fitting/diagnosis/extension.h"
+#include "fitting/diagnosis/fitted_model.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ testing::World Draggy() { return {.effects = {testing::EffectOfSize("air_drag", 
 
 TEST(Refit, OfTheTrueEffectRecoversIt) {
   const NullFit fit(Draggy());
-  const Extension e = fit.RefittedWith(CandidateOf("air_drag"));
+  const FittedModel e = fit.RefittedWith(CandidateOf("air_drag"));
   ASSERT_TRUE(e.ok());
   const Linearisation at = fit.Linearised(fit.null, {CandidateOf("air_drag")});
   const double std_error = 1.0 / std::sqrt(Information(at, 0));
@@ -37,14 +37,14 @@ TEST(Refit, OfTheTrueEffectRecoversIt) {
 
 TEST(Refit, OfTheTrueEffectBringsTheFittedValuesBackToTheTruth) {
   const NullFit fit(Draggy());
-  const Extension e = fit.RefittedWith(CandidateOf("air_drag"));
+  const FittedModel e = fit.RefittedWith(CandidateOf("air_drag"));
   EXPECT_LT(std::abs(e.shared[1] - 3.0), std::abs(fit.null.shared[1] - 3.0));
 }
 
 TEST(Refit, NeverCostsLikelihood) {
   const NullFit fit(Draggy());
   for (const std::string& name : testing::kSixEffects) {
-    const Extension e = fit.RefittedWith(CandidateOf(name));
+    const FittedModel e = fit.RefittedWith(CandidateOf(name));
     ASSERT_TRUE(e.ok()) << name;
     EXPECT_LE(e.cost, fit.null.cost + kSameCost) << name;
   }
@@ -52,8 +52,8 @@ TEST(Refit, NeverCostsLikelihood) {
 
 TEST(Refit, FromAnUnknownSizeBeginsAtNull) {
   const NullFit fit(Draggy());
-  const Extension known = fit.RefittedWith(CandidateOf("air_drag"));
-  const Extension unknown =
+  const FittedModel known = fit.RefittedWith(CandidateOf("air_drag"));
+  const FittedModel unknown =
       fit.RefittedWith(CandidateOf("air_drag"), Eigen::VectorXd::Constant(1, std::nan("")));
   EXPECT_NEAR(unknown.cost, known.cost, kSameCost);
 }
@@ -63,17 +63,17 @@ TEST(Refit, FromASizeThatCannotBeSimulatedComesCloserToNull) {
   const std::array loss = {CandidateOf("touchdown_loss")};
   RefitSettings patient = fit.Settings();
   patient.max_iterations = 200;
-  const Extension known = Refit(fit.null, loss, Eigen::VectorXd::Constant(1, 0.05), patient);
-  const Extension absurd = Refit(fit.null, loss, Eigen::VectorXd::Constant(1, 1.0), patient);
+  const FittedModel known = Refit(fit.null, loss, Eigen::VectorXd::Constant(1, 0.05), patient);
+  const FittedModel absurd = Refit(fit.null, loss, Eigen::VectorXd::Constant(1, 1.0), patient);
   ASSERT_TRUE(absurd.ok());
   EXPECT_NEAR(absurd.cost, known.cost, kSameCost);
 }
 
 TEST(Refit, OfASecondEffectKeepsTheFirst) {
   const NullFit fit(Draggy());
-  const Extension one = fit.RefittedWith(CandidateOf("air_drag"));
+  const FittedModel one = fit.RefittedWith(CandidateOf("air_drag"));
   const Candidate second = CandidateOf("touchdown_loss");
-  const Extension two = Refit(one, std::array{second}, Eigen::VectorXd::Zero(1), fit.Settings());
+  const FittedModel two = Refit(one, std::array{second}, Eigen::VectorXd::Zero(1), fit.Settings());
   ASSERT_EQ(two.members.size(), 2u);
   EXPECT_EQ(two.members[0], CandidateOf("air_drag"));
   EXPECT_EQ(two.members[1], second);
@@ -84,29 +84,29 @@ TEST(Refit, OfASecondEffectKeepsTheFirst) {
 
 TEST(Refit, WithoutAMemberIsTheModelBefore) {
   const NullFit fit(Draggy());
-  const Extension one = fit.RefittedWith(CandidateOf("air_drag"));
+  const FittedModel one = fit.RefittedWith(CandidateOf("air_drag"));
   const Candidate second = CandidateOf("gravity_scale");
-  const Extension two = Refit(one, std::array{second}, Eigen::VectorXd::Zero(1), fit.Settings());
-  const Extension without_second = RefitWithout(two, 1, fit.problem, fit.Settings());
+  const FittedModel two = Refit(one, std::array{second}, Eigen::VectorXd::Zero(1), fit.Settings());
+  const FittedModel without_second = RefitWithout(two, 1, fit.problem, fit.Settings());
   EXPECT_EQ(without_second.members, one.members);
   EXPECT_NEAR(without_second.cost, one.cost, kSameCost);
-  const Extension without_first = RefitWithout(two, 0, fit.problem, fit.Settings());
+  const FittedModel without_first = RefitWithout(two, 0, fit.problem, fit.Settings());
   EXPECT_EQ(without_first.members, std::vector{second});
   EXPECT_NEAR(without_first.cost, fit.RefittedWith(second).cost, kSameCost);
 }
 
 TEST(Refit, OfAnEffectInOneTrialLeavesTheOthersToTheSharedValues) {
   const NullFit fit(Draggy());
-  const Extension e = fit.RefittedWith({FindEffect("air_drag"), "train-2.csv"},
-                                       Eigen::VectorXd::Constant(1, kDrag));
+  const FittedModel e = fit.RefittedWith({FindEffect("air_drag"), "train-2.csv"},
+                                         Eigen::VectorXd::Constant(1, kDrag));
   ASSERT_TRUE(e.ok());
   EXPECT_EQ(e.problem.shared.back().only_recording, "train-2.csv");
   EXPECT_GT(e.cost, fit.RefittedWith(CandidateOf("air_drag")).cost + 1.0);
 }
 
 // An extension with given values of one effect, not fitted.
-Extension Holding(const std::string& effect, double value) {
-  Extension e;
+FittedModel Holding(const std::string& effect, double value) {
+  FittedModel e;
   e.members = {CandidateOf(effect)};
   e.problem = Extend(MakeProblem(testing::DatasetOf({.train = 1}), {}), e.members);
   e.shared = Eigen::Vector3d(22e9, 3.0, value);
@@ -162,7 +162,7 @@ TEST(LineariseAt, LeavesOutOneCandidateWhoseSimulationFailsAndSaysWhich) {
 TEST(LineariseAt, HasTheSumsOfProductsOfEveryRow) {
   for (const bool white : {true, false}) {
     NullFit fit({.effects = {testing::EffectOfSize("touchdown_angle_bias", 0.03)}});
-    const Extension& model = white ? fit.null : fit.settled;
+    const FittedModel& model = white ? fit.null : fit.settled;
     ASSERT_EQ(model.problem.noise.IsWhite(), white);
     const std::vector<Candidate> tested =
         testing::CandidatesOf({"air_drag", "leg_material_damping", "sensor_delay"});

@@ -1,0 +1,172 @@
+// Rigs drawn at random and hopped by a physics engine (tests/support/beam_rig.h): what diagnose
+// calls a main cause, and what lies in the rig.
+// ctest -L statistics -R ForeignRigs
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include "base/random.h"
+#include "datasets/read_dataset.h"
+#include "fitting/diagnosis/diagnosis.h"
+#include "tests/support/beam_rig.h"
+#include "tests/support/temp_folder.h"
+
+namespace hoplab::testing {
+namespace {
+
+// One change a rig can have beside what every leg has.
+struct Change {
+  const char* cause;  // of the catalogue; empty: none
+  void (*plant)(BeamRig& rig, RandomStream& random);
+};
+
+double SignOf(RandomStream& random) { return random.Uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0; }
+
+constexpr Change kChanges[] = {
+    {"", [](BeamRig&, RandomStream&) {}},
+    {"ground_slope",
+     [](BeamRig& rig, RandomStream& random) {
+       rig.slope = SignOf(random) * random.Uniform(0.015, 0.05);
+     }},
+    {"foot_coulomb_friction",
+     [](BeamRig& rig, RandomStream& random) { rig.friction = random.Uniform(0.4, 0.6); }},
+    {"camera_roll",
+     [](BeamRig& rig, RandomStream& random) {
+       rig.roll = SignOf(random) * random.Uniform(0.008, 0.03);
+     }},
+    {"hip_viscous_friction",
+     [](BeamRig& rig, RandomStream& random) { rig.hip_damping = random.Uniform(0.004, 0.02); }},
+    {"sensor_scale_x",
+     [](BeamRig& rig, RandomStream& random) {
+       rig.scale_x = 1.0 + SignOf(random) * random.Uniform(0.008, 0.03);
+     }},
+    {"sensor_scale_y",
+     [](BeamRig& rig, RandomStream& random) {
+       rig.scale_y = 1.0 + SignOf(random) * random.Uniform(0.005, 0.02);
+     }},
+    {"clock_scale",
+     [](BeamRig& rig, RandomStream& random) {
+       rig.clock = 1.0 + SignOf(random) * random.Uniform(0.004, 0.015);
+     }},
+    {"air_drag", [](BeamRig& rig, RandomStream& random) { rig.drag = random.Uniform(0.03, 0.12); }},
+};
+
+struct Drawn {
+  BeamRig rig;
+  std::string change;
+  std::vector<std::string> planted, wanted;  // all that is there; what shows for certain
+};
+
+Drawn Draw(int seed) {
+  RandomStream random(static_cast<std::uint64_t>(seed), 77);
+  Drawn out;
+  BeamRig& rig = out.rig;
+  rig.seed = seed;
+  rig.bending_stiffness = random.Uniform(18e9, 30e9) * StatedSecondMoment();
+  rig.relaxation = random.Uniform(150e-6, 700e-6);
+  rig.leg_mass = 1e-3 * std::exp(random.Uniform(std::log(1.0), std::log(60.0)));
+  rig.body_mass = random.Uniform(0.8, 1.3);
+  const Change& change = kChanges[static_cast<std::size_t>(seed) % std::size(kChanges)];
+  change.plant(rig, random);
+  out.change = change.cause;
+  out.planted = {"leg_material_damping", "leg_mass", "foot_coulomb_friction"};
+  out.wanted = {"leg_material_damping"};
+  if (rig.leg_mass >= 0.008) out.wanted.emplace_back("leg_mass");
+  if (!out.change.empty()) {
+    out.planted.push_back(out.change);
+    out.wanted.push_back(out.change);
+  }
+  return out;
+}
+
+// The largest amplitude of what is left [m].
+double LeftOf(const Diagnosis& d) {
+  double left = 0.0;
+  for (std::size_t c = 0; c < d.problem.channels.size(); ++c)
+    left = std::max(left, d.left.noise.AmplitudeOf(c) * d.problem.channels[c].sigma);
+  return left;
+}
+
+bool Has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+struct Count {
+  int main = 0, right = 0, small = 0, small_right = 0, wanted = 0, found = 0, near = 0, covered = 0,
+      rigs = 0;
+};
+
+// Half the 95 % interval, relative: the wider of the one from noise and the one between trials.
+double IntervalReach(const ParameterUncertainty& of, double value) {
+  const auto half = [&](const auto& interval) {
+    return interval ? 0.5 * (interval->second - interval->first) / value : 0.0;
+  };
+  return std::max(half(of.ci95), half(of.ci95_between_trials));
+}
+
+void DiagnoseOne(int seed, Count& count) {
+  const Drawn drawn = Draw(seed);
+  const TempFolder temp;
+  RecordRig(drawn.rig, temp.path() / "rig");
+  DiagnosisOptions options;
+  options.fit.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const Diagnosis d = Diagnose(ReadDataset(temp.path() / "rig"), options);
+  ASSERT_TRUE(d.extension) << seed;
+  std::string told;
+  std::vector<std::string> names;
+  for (const CauseReport& c : d.extension->causes) {
+    const std::string name(c.cause.effect->info.name);
+    const bool is_there = Has(drawn.planted, name);
+    names.push_back(name);
+    count.main += c.main;
+    count.right += c.main && is_there;
+    count.small += !c.main;
+    count.small_right += !c.main && is_there;
+    told += fmt::format(" {}{}{} {:.4g} ({:.0f} %, P {:.2f})", c.main ? "" : "small ",
+                        is_there ? "" : "WRONG ", name,
+                        d.naming.best.ValuesOf(static_cast<int>(d.naming.MemberOf(c.candidate)))[0],
+                        100.0 * c.share, c.probability);
+  }
+  for (const std::string& name : drawn.wanted) {
+    ++count.wanted;
+    count.found += Has(names, name);
+    if (!Has(names, name)) told += " MISSED " + name;
+  }
+  const double error =
+      d.naming.best.shared[0] * StatedSecondMoment() / drawn.rig.bending_stiffness - 1.0;
+  const ParameterUncertainty& of_E = d.extension->uncertainty.parameters.front();
+  const double reach = IntervalReach(of_E, d.naming.best.shared[0]);
+  count.near += std::abs(error) < 0.01;
+  count.covered += std::abs(error) <= reach;
+  ++count.rigs;
+  fmt::print(
+      "{:3} {:21} tau {:3.0f} us, leg {:4.1f} g, mu {:.2f}: {} ({:.1f} % explained, left {:.2f} "
+      "mm);{}; E {:+.2f} % (+- {:.2f})\n",
+      seed, drawn.change.empty() ? "-" : drawn.change, 1e6 * drawn.rig.relaxation,
+      1e3 * drawn.rig.leg_mass, drawn.rig.friction, NameOf(d.verdict),
+      100.0 * d.extension->explained, 1e3 * LeftOf(d), told, 100.0 * error, 100.0 * reach);
+  std::fflush(stdout);
+}
+
+TEST(ForeignRigs, CausesOfRigsDrawnAtRandom) {
+  const char* from = std::getenv("HOPLAB_RIG_SEED");
+  const char* many = std::getenv("HOPLAB_RIGS");
+  const int first = from != nullptr ? std::atoi(from) : 1;
+  const int rigs = many != nullptr ? std::atoi(many) : 18;
+  Count count;
+  for (int seed = first; seed < first + rigs; ++seed) DiagnoseOne(seed, count);
+  fmt::print(
+      "main causes: {} of {} are there, small ones {} of {}; of what shows, {} of {} found; E "
+      "within 1 %: {}, within its interval: {} of {}\n",
+      count.right, count.main, count.small_right, count.small, count.found, count.wanted,
+      count.near, count.covered, count.rigs);
+}
+
+}  // namespace
+}  // namespace hoplab::testing

@@ -1,0 +1,206 @@
+#include "tests/support/beam_rig.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <numbers>
+#include <numeric>
+
+#include "base/random.h"
+
+namespace hoplab::testing {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kArcs = 24, kFeet = 4;
+constexpr double kStep = 4e-5, kRow = 2e-3, kGravity = 9.81;
+constexpr double kFootRadius = 0.002;                         // of the spheres it stands on
+constexpr double kHoldStiffness = 60.0, kHoldDamping = 0.45;  // of the hip, in the air
+constexpr double kHingeArmature = 1.6e-6;
+constexpr double kWidth = 0.03, kThickness = 0.003658;
+
+struct Drop {
+  double angle_deg, height, speed;
+};
+constexpr std::array<Drop, 9> kDrops = {{{22, 0.30, 1.0},
+                                         {26, 0.33, 1.3},
+                                         {30, 0.28, 0.9},
+                                         {33, 0.31, 1.5},
+                                         {36, 0.34, 1.2},
+                                         {40, 0.29, 1.6},
+                                         {24, 0.32, 1.4},
+                                         {29, 0.26, 1.1},
+                                         {38, 0.31, 1.4}}};
+constexpr std::size_t kTrain = 6;
+
+// The chain from the hip, hinge by hinge; the tip is half a turn from the hip.
+std::string LegText(const BeamRig& rig) {
+  const double turn = kPi / kArcs, length = kPi * rig.radius / kArcs;
+  const double mass = rig.leg_mass / kArcs, inertia = mass * length * length / 12.0;
+  const auto at = [&](double angle, double radius) {
+    return std::array{-radius * std::sin(angle), -rig.radius + radius * std::cos(angle)};
+  };
+  std::string text;
+  std::array<double, 2> before = {0.0, 0.0};
+  for (int i = 0; i < kArcs; ++i) {
+    const auto begin = at(i * turn, rig.radius), middle = at((i + 0.5) * turn, rig.radius);
+    text += fmt::format("<body pos='{} 0 {}'>", begin[0] - before[0], begin[1] - before[1]);
+    text += i == 0 ? std::string("<joint name='hip' type='hinge' axis='0 -1 0' armature='1.6e-6'/>")
+                   : std::string("<joint class='bend'/>");
+    text +=
+        fmt::format("<inertial pos='{} 0 {}' mass='{}' diaginertia='{} {} {}'/>",
+                    middle[0] - begin[0], middle[1] - begin[1], mass, inertia, inertia, inertia);
+    for (int k = 0; k < kFeet; ++k) {
+      const auto foot = at((i + (k + 0.5) / kFeet) * turn, rig.radius - kFootRadius);
+      text +=
+          fmt::format("<geom class='foot' pos='{} 0 {}'/>", foot[0] - begin[0], foot[1] - begin[1]);
+    }
+    before = begin;
+  }
+  for (int i = 0; i < kArcs; ++i) text += "</body>";
+  return text;
+}
+
+std::string ModelText(const BeamRig& rig) {
+  const double stiffness = rig.bending_stiffness / (kPi * rig.radius / kArcs);
+  return fmt::format(
+             "<mujoco><compiler angle='radian'/>"
+             "<option timestep='{}' gravity='0 0 {}' integrator='implicit' cone='elliptic' "
+             "impratio='20'/>"
+             "<size nconmax='500' njmax='2000'/><default>"
+             "<default class='bend'><joint type='hinge' axis='0 -1 0' stiffness='{}' damping='{}' "
+             "armature='{}'/></default>"
+             "<default class='foot'><geom type='sphere' size='{}' contype='0' conaffinity='1' "
+             "condim='3' friction='{} 0 0' priority='1' solref='0.0003 1' solimp='0.99 0.99 "
+             "0.001'/>"
+             "</default></default><worldbody>"
+             "<geom type='plane' size='9 1 0.1' euler='0 {} 0' contype='1' conaffinity='0'/>"
+             "<body><joint name='x' type='slide' axis='1 0 0'/>"
+             "<joint name='y' type='slide' axis='0 0 1'/>"
+             "<inertial pos='0 0 0' mass='{}' diaginertia='0.001 0.001 0.001'/>",
+             kStep, -kGravity, stiffness, rig.relaxation * stiffness, kHingeArmature, kFootRadius,
+             rig.friction, -rig.slope, rig.body_mass) +
+         LegText(rig) +
+         "</body></worldbody><actuator><motor joint='hip' gear='-1'/></actuator></mujoco>";
+}
+
+using Model = std::unique_ptr<mjModel, void (*)(mjModel*)>;
+using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
+
+Model Compile(const BeamRig& rig, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "rig.xml";
+  std::ofstream(file) << ModelText(rig);
+  char message[1000] = "";
+  Model model(mj_loadXML(file.c_str(), nullptr, message, sizeof message), mj_deleteModel);
+  EXPECT_TRUE(model) << message;
+  std::filesystem::remove(file);
+  return model;
+}
+
+// The body and the hip of a model: the first three degrees of freedom.
+enum Dof { kX, kY, kHip };
+
+// Whether the hip is free. A foot that lands or slides leaves the ground for a step and another;
+// a rig's switch does not see it.
+class Stance {
+ public:
+  bool At(const mjData& data) {
+    if (data.ncon > 0) last_touch_ = data.time;
+    return data.time - last_touch_ < kReleased;
+  }
+
+ private:
+  static constexpr double kReleased = 0.005;  // s
+  double last_touch_ = -1.0;
+};
+
+// What acts from outside, at the state of now. Damping is the joint's own, which MuJoCo takes
+// implicitly.
+void Push(const BeamRig& rig, double angle, bool stands, mjModel& model, mjData& data) {
+  const double vx = data.qvel[kX], vy = data.qvel[kY];
+  const double drag = rig.drag * std::hypot(vx, vy);
+  data.qfrc_applied[kX] = -drag * vx;
+  data.qfrc_applied[kY] = -drag * vy;
+  model.dof_damping[kHip] = stands ? rig.hip_damping : kHoldDamping;
+  data.ctrl[0] = stands ? rig.hip_gain * (rig.desired_speed - vx)
+                        : -kHoldStiffness * (angle - data.qpos[kHip]);
+}
+
+void RecordDrop(const BeamRig& rig, mjModel& model, const Drop& drop, RandomStream& noise,
+                const std::filesystem::path& file) {
+  const Data data(mj_makeData(&model), mj_deleteData);
+  const double angle = drop.angle_deg * kPi / 180.0;
+  data->qpos[kY] = drop.height;
+  data->qpos[kHip] = angle;
+  data->qvel[kX] = drop.speed;
+  std::ofstream csv(file);
+  csv << "time_s,body_x_m,body_y_m\n";
+  const double cosine = std::cos(rig.roll), sine = std::sin(rig.roll);
+  int hops = 0;
+  double rising = 0.0;
+  Stance stance;
+  for (int row = 0; hops < rig.hops && row < 2000;) {
+    if (data->time * rig.clock >= row * kRow - 1e-9) {
+      const double x = data->qpos[kX], y = data->qpos[kY];
+      csv << fmt::format("{:.4f},{:.6f},{:.6f}\n", row * kRow,
+                         rig.scale_x * (x * cosine + y * sine) + rig.noise * noise.Normal(),
+                         rig.scale_y * (y * cosine - x * sine) + rig.noise * noise.Normal());
+      ++row;
+    }
+    mj_step1(&model, data.get());
+    Push(rig, angle, stance.At(*data), model, *data);
+    mj_step2(&model, data.get());
+    ASSERT_EQ(data->warning[mjWARN_BADQACC].number, 0) << "the rig fell apart";
+    const double up = data->qvel[kY];
+    if (data->ncon == 0 && rising > 0.0 && up <= 0.0) ++hops;
+    rising = up;
+  }
+}
+
+}  // namespace
+
+double StatedSecondMoment() { return kWidth * kThickness * kThickness * kThickness / 12.0; }
+
+void RecordHops(const BeamRig& rig, mjModel& model, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  std::ofstream yaml(folder / "dataset.yaml");
+  yaml << fmt::format(
+      "format: hoplab-dataset/1\nname: rig\ntitle: A chain of arcs in MuJoCo\n"
+      "source: {{kind: recorded, by: a chain of arcs in MuJoCo, licence: CC0-1.0}}\n"
+      "mechanism:\n  type: c_leg\n  body_mass_kg: {}\n  gravity_m_per_s2: {}\n"
+      "  leg: {{rest_radius_m: {}, E_Pa: {}, G_Pa: 4e9, width_m: {}, thickness_m: {}, "
+      "damping_N_s_per_m: 1.0}}\n"
+      "channels: {{body_x_m: {{sigma: {}}}, body_y_m: {{sigma: {}}}}}\ntrials:\n",
+      std::accumulate(model.body_mass, model.body_mass + model.nbody, 0.0), kGravity, rig.radius,
+      rig.told_modulus, kWidth, kThickness, rig.noise, rig.noise);
+  RandomStream noise(static_cast<std::uint64_t>(rig.seed), 1);
+  for (std::size_t i = 0; i < kDrops.size(); ++i) {
+    const char* role = i < kTrain ? "train" : "test";
+    const std::string file = fmt::format("{}-{}.csv", role, i + 1);
+    RecordDrop(rig, model, kDrops[i], noise, folder / file);
+    yaml << fmt::format("  - file: {}\n    role: {}\n    touchdown_angle_deg: {}\n", file, role,
+                        kDrops[i].angle_deg);
+    if (rig.hip_gain > 0.0)
+      yaml << fmt::format("    controller: {{kp_N_s: {}, v_des_m_per_s: {}}}\n", rig.hip_gain,
+                          rig.desired_speed);
+    yaml << fmt::format(
+        "    initial: {{x_m: {:.4f}, y_m: {:.4f}, vx_m_per_s: {:.3f}, vy_m_per_s: {:.3f}}}\n"
+        "    initial_sigma: {{x_m: 0.002, y_m: 0.002, vx_m_per_s: 0.02, vy_m_per_s: 0.02}}\n",
+        0.002 * noise.Normal(), kDrops[i].height + 0.002 * noise.Normal(),
+        kDrops[i].speed + 0.02 * noise.Normal(), 0.02 * noise.Normal());
+  }
+}
+
+void RecordRig(const BeamRig& rig, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const Model model = Compile(rig, folder);
+  ASSERT_TRUE(model);
+  RecordHops(rig, *model, folder);
+}
+
+}  // namespace hoplab::testing
