@@ -150,6 +150,12 @@ class ActiveEffects {
   bool HasJointTorque() const {
     return Any([](const EffectHooks<T>& hooks) { return hooks.add_joint_torque != nullptr; });
   }
+  /// A torque on the hip that has to know the leg's load or motion.
+  bool HasTorqueOfLoad() const {
+    return HasJointTorque() || std::any_of(entries_.begin(), entries_.end(), [](const Entry& e) {
+             return e.effect->formula && e.effect->formula->needs_load();
+           });
+  }
   bool HasLiftoffVelocity() const {
     return Any(
         [](const EffectHooks<T>& hooks) { return hooks.change_liftoff_velocity != nullptr; });

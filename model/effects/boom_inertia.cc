@@ -6,8 +6,8 @@ namespace hoplab {
 namespace {
 
 struct BoomInertia {
-  static constexpr std::array kParameters = {EffectParameter{"mu_x", "-", 0.0, -0.5, 10.0, 0.03},
-                                             EffectParameter{"mu_y", "-", 0.0, -0.5, 10.0, 0.03}};
+  static constexpr std::array kParameters = {EffectParameter{"mu_x", "-", 0.0, 0.0, 10.0, 0.03},
+                                             EffectParameter{"mu_y", "-", 0.0, 0.0, 10.0, 0.03}};
   static constexpr EffectInfo kInfo = {
       .name = "boom_inertia",
       .kind = EffectKind::kParameter,

@@ -136,7 +136,7 @@ class LeggedBody final : public HybridSystem<T> {
 
  private:
   static bool DampsAlongArc(const MechanismSetup<T>& setup);
-  static bool FrictionBends(const MechanismSetup<T>& setup);
+  static bool BendsByLoad(const MechanismSetup<T>& setup);
   static Parameters<T> ParametersOf(const MechanismSetup<T>& setup);
   bool FallsBelow(const T& touchdown) const;
   LegConditions<T> Conditions(Mode mode, const T& t, const T* z, const T* over) const;
@@ -185,7 +185,7 @@ class LeggedBody final : public HybridSystem<T> {
   LiftoffRule liftoff_;
   bool lagged_, has_body_force_, has_chord_force_, has_hip_torque_, has_hip_formula_,
       has_joint_torque_, is_driven_, has_quick_lag_, flies_freely_, extended_;
-  bool friction_bends_;
+  bool bends_by_load_;  // a torque of the hip that needs the load, M94
   bool is_bar_, has_leg_mass_, has_foot_friction_;
   bool foot_has_inertia_;  // it slides as M87 says; else it slips away at once, M64
   bool damps_along_arc_;

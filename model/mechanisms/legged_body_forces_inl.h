@@ -80,17 +80,17 @@ Vector2<T> LeggedBody<T, LegT>::BodyForce(Mode mode, const T& t, const T* z) con
   return force;
 }
 
-// The torque that bends the leg, `over` being the state over its foot. Friction at the hip has to
-// know how the leg turns first: as one that friction does not bend, M94.
+// The torque that bends the leg, `over` being the state over its foot. One that asks how the leg
+// turns is given the leg that it does not bend, M94.
 template <class T, class LegT>
 LegConditions<T> LeggedBody<T, LegT>::Conditions(Mode mode, const T& t, const T* z,
                                                  const T* over) const {
   T torque = MotorTorque(t, z);
   if (has_hip_torque_) effects_.AddHipTorque({torque, SinceFirstRow(t), z[kVx]}, torque, false);
   const LegConditions<T> driven{t, T(p_.law_terms.torque_bending * torque)};
-  if (!friction_bends_) return driven;
-  const T turning = leg_->extended().Load(mode, over, driven).angle_rate;
-  return {t, driven.torque + effects_.JointTorque({turning})};
+  if (!bends_by_load_) return driven;
+  const LegLoad<T> load = leg_->extended().Load(mode, over, driven);
+  return {t, driven.torque + WithTorqueEffects(mode, MotorTorque(t, z), load, t, z) - torque};
 }
 // What the motor gives: its command, or with a lag long enough to integrate a state.
 template <class T, class LegT>

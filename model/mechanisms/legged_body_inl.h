@@ -31,7 +31,7 @@ LeggedBody<T, LegT>::LeggedBody(const MechanismSetup<T>& setup)
                     !effects_.TouchdownAngleFalls() &&
                     (IsZero(p_.slope) || !effects_.HasTouchdownAngle())),
       extended_(p_.law_terms.active),
-      friction_bends_(FrictionBends(setup)),
+      bends_by_load_(BendsByLoad(setup)),
       is_bar_(setup.law == Law::kStraightLeg),
       has_leg_mass_(p_.law_terms.leg_mass_active),
       has_foot_friction_(p_.law_terms.foot_friction_active),
@@ -58,14 +58,15 @@ bool LeggedBody<T, LegT>::DampsAlongArc(const MechanismSetup<T>& setup) {
 }
 // M94.
 template <class T, class LegT>
-bool LeggedBody<T, LegT>::FrictionBends(const MechanismSetup<T>& setup) {
-  return setup.law == Law::kElastica && setup.effects.HasJointTorque() &&
+bool LeggedBody<T, LegT>::BendsByLoad(const MechanismSetup<T>& setup) {
+  return setup.law == Law::kElastica && setup.effects.HasTorqueOfLoad() &&
          IsZero(setup.parameters.m_toe);
 }
 template <class T, class LegT>
 Parameters<T> LeggedBody<T, LegT>::ParametersOf(const MechanismSetup<T>& setup) {
   Parameters<T> p = setup.parameters;
-  if (FrictionBends(setup)) p.law_terms.torque_active = true;
+  if (BendsByLoad(setup))
+    p.law_terms.active = p.law_terms.slopes_active = p.law_terms.torque_active = true;
   if (DampsAlongArc(setup)) p.law_terms.active = p.law_terms.slopes_active = true;
   return p;
 }
