@@ -144,7 +144,8 @@ TEST_F(Mujoco, AnExportedLegOf20gIsFittedFromItsHops) {
   const double modulus = value(Json::parse(ReadText(temp_.path() / "run/run.json")), "E");
   const Model model = Export({"--leg-mass", "0.02"});
   ASSERT_TRUE(model);
-  RecordHops({.seed = 7}, *model, temp_.path() / "drops");
+  RecordHops({.hold_stiffness = 10.0, .hold_damping = 0.08, .release = 0.0, .seed = 7}, *model,
+             temp_.path() / "drops");
   const ProcessResult run = RunHoplab({"fit", "drops", "--with", "leg_material_damping,leg_mass",
                                        "--fix", "d=0", "--json", "--out", "again"},
                                       temp_.path());

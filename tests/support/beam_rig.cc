@@ -19,8 +19,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kArcs = 24, kFeet = 4;
 constexpr double kStep = 4e-5, kRow = 2e-3, kGravity = 9.81;
-constexpr double kFootRadius = 0.002;                         // of the spheres it stands on
-constexpr double kHoldStiffness = 60.0, kHoldDamping = 0.45;  // of the hip, in the air
+constexpr double kFootRadius = 0.002;  // of the spheres it stands on
 constexpr double kHingeArmature = 1.6e-6;
 constexpr double kWidth = 0.03, kThickness = 0.003658;
 
@@ -109,14 +108,13 @@ enum Dof { kX, kY, kHip };
 // a rig's switch does not see it.
 class Stance {
  public:
-  bool At(const mjData& data) {
+  bool At(const BeamRig& rig, const mjData& data) {
     if (data.ncon > 0) last_touch_ = data.time;
-    return data.time - last_touch_ < kReleased;
+    return data.time - last_touch_ <= rig.release;
   }
 
  private:
-  static constexpr double kReleased = 0.005;  // s
-  double last_touch_ = -1.0;
+  double last_touch_ = -1.0;  // s
 };
 
 // What acts from outside, at the state of now. Damping is the joint's own, which MuJoCo takes
@@ -126,9 +124,9 @@ void Push(const BeamRig& rig, double angle, bool stands, mjModel& model, mjData&
   const double drag = rig.drag * std::hypot(vx, vy);
   data.qfrc_applied[kX] = -drag * vx;
   data.qfrc_applied[kY] = -drag * vy;
-  model.dof_damping[kHip] = stands ? rig.hip_damping : kHoldDamping;
+  model.dof_damping[kHip] = stands ? rig.hip_damping : rig.hold_damping;
   data.ctrl[0] = stands ? rig.hip_gain * (rig.desired_speed - vx)
-                        : -kHoldStiffness * (angle - data.qpos[kHip]);
+                        : -rig.hold_stiffness * (angle - data.qpos[kHip]);
 }
 
 void RecordDrop(const BeamRig& rig, mjModel& model, const Drop& drop, RandomStream& noise,
@@ -153,7 +151,7 @@ void RecordDrop(const BeamRig& rig, mjModel& model, const Drop& drop, RandomStre
       ++row;
     }
     mj_step1(&model, data.get());
-    Push(rig, angle, stance.At(*data), model, *data);
+    Push(rig, angle, stance.At(rig, *data), model, *data);
     mj_step2(&model, data.get());
     ASSERT_EQ(data->warning[mjWARN_BADQACC].number, 0) << "the rig fell apart";
     const double up = data->qvel[kY];

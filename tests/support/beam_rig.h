@@ -22,6 +22,9 @@ struct BeamRig {
   double hip_damping = 0.0;  // in stance [N m s/rad]
   double hip_gain = 0.0;     // torque = gain (desired speed - speed), in stance [N s]
   double desired_speed = 1.8;
+  // The motor that holds the hip in the air, and how long after the last contact it does.
+  double hold_stiffness = 60.0, hold_damping = 0.45;  // [N m/rad], [N m s/rad]
+  double release = 0.005;
   int hops = 3;
   // Of the camera.
   double roll = 0.0;
