@@ -78,7 +78,7 @@ struct HipMotion {
   T lead;          // sine of the chord angle, u/l [-]
   // Where a formula asks for them.
   T angle;        // leg angle theta [rad]
-  T rate;         // dtheta/dt (M38) [rad/s]
+  T rate;         // dtheta/dt (M38, M93) [rad/s]
   T compression;  // (l0 - l)/l0 [-]
 };
 
@@ -92,7 +92,7 @@ struct PlacementMotion {
 /// The hip joint at one instant, for its friction.
 template <class T>
 struct JointMotion {
-  T rate;  // dtheta/dt of the leg angle (M38) [rad/s]; a leg that rolls forward has it negative
+  T rate;  // dtheta/dt of the leg angle (M38, M93) [rad/s], negative where it rolls forward
 };
 
 /// A touch-down or lift-off, for what it does to the body's velocity.

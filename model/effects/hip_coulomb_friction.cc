@@ -11,12 +11,13 @@ struct HipCoulombFriction {
   static constexpr EffectInfo kInfo = {
       .name = "hip_coulomb_friction",
       .kind = EffectKind::kForce,
-      .equation = "T + tau_c tanh((dtheta/dt)/(0.5 rad/s)) in stance, theta the leg angle (M38)",
+      .equation =
+          "T + tau_c tanh((dtheta/dt)/(0.5 rad/s)) in stance, theta the leg angle (M38, M93)",
       .sentence =
           "the hip bearing or gear rubs with a torque that only asks which way the leg turns",
       .for_legs = true,
       .for_ball = false,
-      .dissipative = false,  // of the hop: the joint only takes (M38)
+      .dissipative = false,  // of the hop: the joint only takes (M38, M94)
       .sharp = true,
       .parameters = kParameters};
   static constexpr double kWidth = 0.5;  // rad/s

@@ -11,11 +11,11 @@ struct HipViscousFriction {
   static constexpr EffectInfo kInfo = {
       .name = "hip_viscous_friction",
       .kind = EffectKind::kForce,
-      .equation = "T + b_h dtheta/dt in stance, theta the leg angle (M38)",
+      .equation = "T + b_h dtheta/dt in stance, theta the leg angle (M38, M93)",
       .sentence = "the hip bearing resists turning in proportion to its speed",
       .for_legs = true,
       .for_ball = false,
-      .dissipative = false,  // of the hop: the joint only takes (M38)
+      .dissipative = false,  // of the hop: the joint only takes (M38, M94)
       .parameters = kParameters};
 
   template <class T>

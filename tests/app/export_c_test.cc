@@ -40,8 +40,9 @@ int main(int argc, char **argv) {
     leg.contact = contact;
     leg.phi = phi;
     lost = leg_load_at(&leg, &hip, &load);
-    printf("%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g", lost, load.fx, load.fy, load.torque,
-           load.contact_x, load.length, load.arc, load.angle, load.contact_rate);
+    printf("%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g", lost, load.fx, load.fy,
+           load.torque, load.contact_x, load.length, load.arc, load.angle, load.angle_rate,
+           load.contact_rate);
     leg_decide(&leg, &hip, angle);
     printf(" %d %.17g %.17g %.17g\n", (int)leg.mode, leg.contact, hip.vx, hip.vy);
   }
@@ -58,7 +59,7 @@ struct State {
 // What one of the two says of a state.
 struct Answer {
   int lost = 0;
-  double fx, fy, torque, contact_x, length, arc, angle, contact_rate;
+  double fx, fy, torque, contact_x, length, arc, angle, angle_rate, contact_rate;
   int next = 0;
   double next_contact, vx, vy;
 };
@@ -190,7 +191,8 @@ class ExportedLeg {
     std::istringstream out(run({(temp_.path() / "driver").string(), "states"}));
     std::vector<Answer> answers;
     for (Answer a; out >> a.lost >> a.fx >> a.fy >> a.torque >> a.contact_x >> a.length >> a.arc >>
-                   a.angle >> a.contact_rate >> a.next >> a.next_contact >> a.vx >> a.vy;)
+                   a.angle >> a.angle_rate >> a.contact_rate >> a.next >> a.next_contact >> a.vx >>
+                   a.vy;)
       answers.push_back(a);
     EXPECT_EQ(answers.size(), states.size());
     return answers;
@@ -237,6 +239,36 @@ class ExportedLeg {
     return worst;
   }
 
+  // The rate of the leg angle against differences of the angle along the hip's way.
+  double CompareRates() {
+    constexpr double kStep = 1e-5;  // s
+    std::vector<State> states = Grid();
+    std::erase_if(states, [](const State& s) { return s.mode == Mode::kFlight; });
+    const std::vector<Answer> at = CFile(states);
+    const auto moved = [&](double by) {
+      std::vector<State> there = states;
+      for (std::size_t i = 0; i < there.size(); ++i) {
+        there[i].z[0] += by * there[i].z[2];
+        there[i].z[1] += by * there[i].z[3];
+        there[i].contact += by * at[i].contact_rate;
+      }
+      return CFile(there);
+    };
+    const std::vector<Answer> behind = moved(-kStep), ahead = moved(kStep);
+    double worst = 0.0;
+    int found = 0;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      if (at[i].lost != 0 || behind[i].lost != 0 || ahead[i].lost != 0) continue;
+      ++found;
+      const double rate = (ahead[i].angle - behind[i].angle) / (2.0 * kStep);
+      const double off = std::abs(at[i].angle_rate - rate) / (1.0 + std::abs(rate));
+      EXPECT_LT(off, 1e-5) << Describe(states[i]);
+      worst = std::max(worst, off);
+    }
+    EXPECT_GT(found, static_cast<int>(states.size()) / 2);
+    return worst;
+  }
+
  private:
   double Reach() const { return model_.law == Law::kStraightLeg ? p_.l0 : p_.r; }
   std::string Describe(const State& s) const {
@@ -280,6 +312,13 @@ const std::vector<Law> kLaws = {Law::kThesis,          Law::kNoSlip,   Law::kCon
 TEST(ExportC, EveryLawIsTheLibrarysOverAGridOfStates) {
   for (const Law law : kLaws) {
     const double worst = ExportedLeg(ModelOf(law)).Compare();
+    std::printf("  %-16s worst difference %.1e\n", std::string(NameOf(law)).c_str(), worst);
+  }
+}
+
+TEST(ExportC, TheRateOfTheLegAngleIsThatOfTheAngle) {
+  for (const Law law : kLaws) {
+    const double worst = ExportedLeg(ModelOf(law)).CompareRates();
     std::printf("  %-16s worst difference %.1e\n", std::string(NameOf(law)).c_str(), worst);
   }
 }

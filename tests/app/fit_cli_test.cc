@@ -138,7 +138,7 @@ TEST_F(FitCli, TellsTheLegAngleThatAnotherEnginesEncoderRead) {
   of_arc = std::sqrt(of_arc / rows);
   std::printf("  leg angle in stance, %d rows: off by %.1f mrad; pi - phi by %.0f mrad\n", rows,
               1e3 * of_hub, 1e3 * of_arc);
-  EXPECT_LT(of_hub, 0.02);
+  EXPECT_LT(of_hub, 0.002);
   EXPECT_GT(of_arc, 0.2);
 }
 
