@@ -14,7 +14,8 @@ namespace hoplab {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kFeet = 4;              // spheres an arc meets the ground with
+// Spheres the leg meets the ground with: on few it rolls like a cogwheel.
+constexpr int kFeet = 288;
 constexpr double kFootRadius = 0.02;  // of the leg's radius
 constexpr double kLeastShare = 1e-3;  // of the weighed mass, where the leg's own is not known
 constexpr double kHeldFriction = 1.0;
@@ -22,7 +23,7 @@ constexpr double kHeldFriction = 1.0;
 // microsecond.
 constexpr double kStepsPerRadian = 2.0;
 // Steps in which a contact settles.
-constexpr double kContactSteps = 4.0;
+constexpr double kContactSteps = 2.5;
 
 // What the model has of the effects, beside those that change a parameter of it.
 constexpr std::array kWritten = {"leg_material_damping",   "leg_mass",
@@ -143,6 +144,7 @@ std::string ArcBodies(const Beam& beam) {
   const double mass = beam.leg_mass / beam.arcs;
   // A thin rod's.
   const double inertia = mass * beam.length * beam.length / 12.0;
+  const int feet = std::max(kFeet / beam.arcs, 1);
   std::string text, close;
   std::array<double, 2> before = {0.0, 0.0};
   for (int i = 0; i < beam.arcs; ++i) {
@@ -155,8 +157,8 @@ std::string ArcBodies(const Beam& beam) {
     text += fmt::format("{}  <inertial pos=\"{} 0 {}\" mass=\"{}\" diaginertia=\"{} {} {}\"/>\n",
                         indent, N(middle[0] - begin[0]), N(middle[1] - begin[1]), N(mass),
                         N(inertia), N(inertia), N(inertia));
-    for (int k = 0; k < kFeet; ++k) {
-      const std::array<double, 2> at = beam.At((i + (k + 0.5) / kFeet) * turn, r - foot);
+    for (int k = 0; k < feet; ++k) {
+      const std::array<double, 2> at = beam.At((i + (k + 0.5) / feet) * turn, r - foot);
       text += fmt::format("{}  <geom class=\"foot\" pos=\"{} 0 {}\"/>\n", indent,
                           N(at[0] - begin[0]), N(at[1] - begin[1]));
     }

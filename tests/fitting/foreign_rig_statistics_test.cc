@@ -169,12 +169,12 @@ TEST(ForeignRigs, CausesOfRigsDrawnAtRandom) {
       count.right, count.main, count.small_right, count.small, count.found, count.wanted,
       count.near, count.covered, count.rigs);
   if (rigs != kRigs || first != 1) return;
-  // The bounds are 80 and 95 %. Known: rig 5, a heavy leg that rings, misses two causes.
+  // The bounds are 80 and 95 %. Known: rig 7, whose slow clock is told as gravity.
   EXPECT_GE(count.right, 0.95 * count.main);
   EXPECT_GE(count.found, 0.95 * count.wanted);
   EXPECT_GE(count.near, 16);
-  // A known miss: the intervals do not know what our laws are off by, half a per cent.
-  EXPECT_GE(count.covered, 11);
+  // A known miss: beside larger causes a leg of 1 to 3 g is not named, and E pays for it.
+  EXPECT_GE(count.covered, 12);
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 namespace hoplab::testing {
 
 /// A hopper in MuJoCo that shares nothing with the program but the laws of nature: its leg is a
-/// chain of rigid arcs on linear hinges, its foot meets the floor through MuJoCo's contacts, its
-/// hip is held by a PD in the air and is free in stance but for a torque. SI units; angles in
-/// radians.
+/// chain of rigid arcs on linear hinges, its foot meets the floor through MuJoCo's contacts: along
+/// the whole arc, or on a row of studs. Its hip is held by a PD in the air and is free in stance
+/// but for a torque. SI units; angles in radians.
 struct BeamRig {
   double radius = 0.09;
   double bending_stiffness = 2.691;  // E I of the strip [N m^2]
@@ -17,6 +17,7 @@ struct BeamRig {
   double leg_mass = 0.010;
   double body_mass = 1.0;
   double friction = 1.0;
+  int studs = 0;             // on each of the 24 arcs; 0: it stands on the arc itself
   double slope = 0.0;        // of the floor, rising ahead
   double drag = 0.0;         // force on the body over speed squared [N s^2/m^2]
   double hip_damping = 0.0;  // in stance [N m s/rad]
