@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -8,10 +9,12 @@
 
 namespace hoplab::testing {
 
-/// Runs the program under test in `folder`.
+/// Runs the program under test in `folder`. A diagnosis of a driven leg takes a minute, on a busy
+/// machine three.
 inline ProcessResult RunHoplab(const std::vector<std::string>& arguments,
                                const std::filesystem::path& folder) {
-  ProcessRequest request{.command = {HOPLAB_BINARY}, .folder = folder};
+  ProcessRequest request{
+      .command = {HOPLAB_BINARY}, .folder = folder, .timeout = std::chrono::seconds(400)};
   request.command.insert(request.command.end(), arguments.begin(), arguments.end());
   return RunProcess(request);
 }
