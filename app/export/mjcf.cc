@@ -22,7 +22,7 @@ constexpr double kHeldFriction = 1.0;
 // Steps a hinge's own oscillation is spread over: its armature, else the chain asks for steps of a
 // microsecond.
 constexpr double kStepsPerRadian = 2.0;
-// Steps in which a contact settles.
+// Steps in which a contact settles; MuJoCo asks for two.
 constexpr double kContactSteps = 2.5;
 
 // What the model has of the effects, beside those that change a parameter of it.

@@ -80,8 +80,10 @@ TEST_F(DiagnoseCli, FindsASlipperyFloorThatNoSlopeTellsOf) {
 // A driven leg of another engine: 22 GPa, 10 g, a floor of friction 1. The floor hardly shows
 // without the leg's mass, and the mass not without the floor.
 TEST_F(DiagnoseCli, FindsWhatADrivenLegOfAnEngineHas) {
+  // The whole catalogue takes a minute, beside other tests two.
   const ProcessResult run =
-      Hoplab({"diagnose", ShippedDataset("rig-controlled"), "--json", "--quiet"});
+      RunHoplab({"diagnose", ShippedDataset("rig-controlled"), "--json", "--quiet"}, temp_.path(),
+                std::chrono::seconds(400));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto diagnosis = nlohmann::json::parse(run.out);
   std::set<std::string> main;

@@ -9,12 +9,11 @@
 
 namespace hoplab::testing {
 
-/// Runs the program under test in `folder`. A diagnosis of a driven leg takes a minute, on a busy
-/// machine three.
+/// Runs the program under test in `folder`.
 inline ProcessResult RunHoplab(const std::vector<std::string>& arguments,
-                               const std::filesystem::path& folder) {
-  ProcessRequest request{
-      .command = {HOPLAB_BINARY}, .folder = folder, .timeout = std::chrono::seconds(400)};
+                               const std::filesystem::path& folder,
+                               std::chrono::seconds timeout = std::chrono::seconds(120)) {
+  ProcessRequest request{.command = {HOPLAB_BINARY}, .folder = folder, .timeout = timeout};
   request.command.insert(request.command.end(), arguments.begin(), arguments.end());
   return RunProcess(request);
 }

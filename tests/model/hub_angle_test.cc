@@ -56,7 +56,8 @@ TEST(HubAngle, IsTheTangentOfTheShotElasticaAtItsOtherEnd) {
 
 // Of a hop with friction at the joint, from touch-down to lift-off.
 struct Rubbed {
-  double lost, at_joint, across_chord;  // of the hopper; rubbed; taken from the body alone [J]
+  double start, lost;             // energy of the hopper; what it loses [J]
+  double at_joint, across_chord;  // rubbed; taken from the body alone [J]
 };
 
 Rubbed HopThatRubs(double b_h, double stiffer) {
@@ -85,7 +86,8 @@ Rubbed HopThatRubs(double b_h, double stiffer) {
   q.row_times = times;
   q.channels = channels;
   const Trajectory run = Simulate(q);
-  Rubbed out{Energy(q, Mode::kFlight, q.initial) - EnergyAtEnd(q, run), 0.0, 0.0};
+  const double start = Energy(q, Mode::kFlight, q.initial);
+  Rubbed out{start, start - EnergyAtEnd(q, run), 0.0, 0.0};
   for (std::size_t i = 0; i < times.size(); ++i) {
     const double* row = &run.samples[channels.size() * i];
     const double torque = row[0], u = row[5] - row[1], y = row[2];
@@ -108,6 +110,9 @@ TEST(HubAngle, FrictionTakesWhatItRubsAtTheJoint) {
     std::printf(
         "  E x %2.0f: the hopper loses %.5f of what friction rubs, %.3f from the body alone\n",
         c.stiffer, share, from_body);
+    if (c.stiffer == 1.0) {
+      EXPECT_GT(of.at_joint, 1e-3 * of.start);
+    }
     EXPECT_NEAR(share, 1.0, c.bound);
     EXPECT_LT(from_body, 0.1);
   }
