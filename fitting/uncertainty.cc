@@ -146,11 +146,21 @@ Covariances CovariancesOf(const Known& known, const Eigen::VectorXd& sv, const E
   for (int j = rank; j < m; ++j) out.unseen_share += V.col(j).cwiseAbs2();
 
   // The values are those of least squares; a discrepancy of covariance K beside the white noise
-  // spreads them by C S'(I + K) S C instead of C = (S'S)^-1.
-  out.spread = C;
+  // spreads them by C S'(I + K) S C instead of C = (S'S)^-1. What a model lacks, it lacks in every
+  // trial: its trials' discrepancies push a value the same way, and more trials do not average it
+  // out. So their pushes, of standard deviation s_i, add up as sum s_i, the most that any
+  // correlation between trials allows, and not as the root of sum s_i^2.
+  Eigen::VectorXd pushed = Eigen::VectorXd::Zero(m);
+  Eigen::MatrixXd apart = Eigen::MatrixXd::Zero(m, m);
   for (const Reduced& r : known.reduced) {
-    if (r.smooth.size() > 0) out.spread += C * r.smooth * C;
+    if (r.smooth.size() == 0) continue;
+    const Eigen::MatrixXd one = C * r.smooth * C;
+    apart += one;
+    pushed += one.diagonal().cwiseMax(0.0).cwiseSqrt();
   }
+  const Eigen::VectorXd alone = apart.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::VectorXd wider = (alone.array() > 0.0).select(pushed.cwiseQuotient(alone), 1.0);
+  out.spread = C + wider.asDiagonal() * apart * wider.asDiagonal();
 
   // Between trials: C (sum of trial scores squared) C, the scores being what each trial pulls.
   Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(m, m);

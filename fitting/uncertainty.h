@@ -19,6 +19,9 @@ struct ParameterUncertainty {
   /// the model misses more than noise. Absent with fewer than 3 trials.
   std::optional<double> std_error_between_trials;
   std::optional<std::pair<double, double>> ci95_between_trials;
+  /// Of a diagnosis: `ci95` if the told model were certain. There `ci95` and `ci95_between_trials`
+  /// also hold the value of every model that the data leave nearly as likely (OtherModel).
+  std::optional<std::pair<double, double>> ci95_given_model;
   bool at_bound = false;
   /// The square of `std_error` over what white noise alone would give.
   double inflation = 1.0;

@@ -47,6 +47,26 @@ Json MovementsRecord(const std::vector<Movement>& movements) {
   return out;
 }
 
+Json OtherModelsRecord(const Diagnosis& d) {
+  const std::vector<SharedParameter>& shared = d.naming.best.problem.shared;
+  const auto name = [&](int place) {
+    return d.naming.candidates[static_cast<std::size_t>(place)].candidate.Name();
+  };
+  Json out = Json::array();
+  for (const OtherModel& other : d.extension->other_models) {
+    Json moves = Json::object();
+    for (std::size_t k = 0; k < shared.size(); ++k)
+      moves[shared[k].name] = NumberOrNull(other.moved[static_cast<Eigen::Index>(k)]);
+    out.push_back(
+        {{"cause", name(other.candidate)},
+         {"instead_of", other.instead_of < 0 ? Json(nullptr) : Json(name(other.instead_of))},
+         {"sizes", std::vector<double>(other.size.begin(), other.size.end())},
+         {"log_odds", NumberOrNull(other.log_odds)},
+         {"moves", moves}});
+  }
+  return out;
+}
+
 Json ExtensionRecord(const Diagnosis& d) {
   if (!d.extension) return nullptr;
   const ExtensionReport& e = *d.extension;
@@ -57,6 +77,7 @@ Json ExtensionRecord(const Diagnosis& d) {
     after[m.name] = NumberOrNull(m.after);
   }
   return {{"parameters", ParametersRecord({&best.problem, &best.shared, &e.uncertainty})},
+          {"other_models", OtherModelsRecord(d)},
           {"test_before", HeldOutRecord(d.problem, d.before)},
           {"test_after", HeldOutRecord(best.problem, e.after)},
           {"heldout_gain",

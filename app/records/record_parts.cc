@@ -61,6 +61,7 @@ Json ParametersRecord(const FittedValues& fitted) {
                    {"ci95_between_trials", IntervalRecord(u.ci95_between_trials)},
                    {"bounds", Json::array({s.lower, s.upper})},
                    {"scale", s.scale}});
+    if (u.ci95_given_model) out.back()["ci95_given_model"] = IntervalRecord(u.ci95_given_model);
   }
   return out;
 }

@@ -162,6 +162,47 @@ std::string MeaningLines(const Diagnosis& d, bool colours) {
   return text;
 }
 
+// "E 0.14 GPa less" of the value that moves most, in its standard errors; empty if by less than
+// half of one.
+std::string MovedText(const Diagnosis& d, const OtherModel& other) {
+  double most = 0.5;
+  std::string text;
+  for (int k = 0; k < d.problem.shared_count(); ++k) {
+    const auto& error = d.extension->uncertainty.parameters[static_cast<std::size_t>(k)].std_error;
+    const double moved = std::abs(other.moved[k]);
+    if (!error || !(moved > most * *error)) continue;
+    most = moved / *error;
+    const SharedParameter& s = d.problem.shared[static_cast<std::size_t>(k)];
+    const ReadableUnit unit = ReadableUnitOf(moved, s.unit);
+    text = fmt::format("{} {} {} {}", s.name, Significant(moved * unit.factor, 2), unit.unit,
+                       other.moved[k] < 0.0 ? "less" : "more");
+  }
+  return text;
+}
+
+// Models that are not told and not ruled out, where a fitted value depends on them.
+std::string OtherModelsLine(const Diagnosis& d, bool colours) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::string> texts;
+  const auto candidate = [&](int place) -> const Candidate& {
+    return d.naming.candidates[static_cast<std::size_t>(place)].candidate;
+  };
+  for (const OtherModel& other : d.extension->other_models) {
+    const std::string moved = MovedText(d, other);
+    if (moved.empty() || texts.size() == kMost) continue;
+    const Candidate& c = candidate(other.candidate);
+    const EffectParameter& p = c.Parameter(0);
+    const std::string place =
+        other.instead_of < 0 ? "" : " for " + CauseText(candidate(other.instead_of));
+    texts.push_back(fmt::format("with {} {}{} {}", CauseText(c),
+                                SizeText(p.null + other.size[0], std::string(p.unit)), place,
+                                moved));
+  }
+  if (texts.empty()) return "";
+  return Labelled("perhaps", "not told and not ruled out, so the intervals hold it: " + Join(texts),
+                  colours);
+}
+
 // What no cause explains, as the noise model sees it.
 std::string LeftLine(const Diagnosis& d, bool colours) {
   if (d.left.noise.IsWhite()) return "";
@@ -186,7 +227,7 @@ std::string SureLine(const Diagnosis& d, bool colours) {
 
 std::string CauseLines(const Diagnosis& d, bool colours) {
   return CauseTable(d, colours) + MeaningLines(d, colours) + VariesLines(d, colours) +
-         SmallLine(d, colours);
+         SmallLine(d, colours) + OtherModelsLine(d, colours);
 }
 
 std::string DoubtLines(const Diagnosis& d, bool colours) {

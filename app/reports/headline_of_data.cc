@@ -8,11 +8,17 @@
 namespace hoplab {
 namespace {
 
-// The interval that counts: between trials where the model misses more than the noise.
+double WidthOf(const Json& parameter, const std::string& key) {
+  return NumberAt(parameter, key + "/1") - NumberAt(parameter, key + "/0");
+}
+
+// The wider interval, where the model misses more than the noise: trials may differ by more than
+// the discrepancy says, and may share an error that does not show between them.
 std::string IntervalNote(const Json& record, const Json& parameter) {
   const bool misfit =
       JsonAt(record, "/misfit").is_boolean() && JsonAt(record, "/misfit").get<bool>();
-  const bool between = misfit && JsonAt(parameter, "/ci95_between_trials").is_array();
+  const bool between = misfit && JsonAt(parameter, "/ci95_between_trials").is_array() &&
+                       !(WidthOf(parameter, "/ci95") > WidthOf(parameter, "/ci95_between_trials"));
   const std::string key = between ? "/ci95_between_trials" : "/ci95";
   const double low = NumberAt(parameter, key + "/0"), high = NumberAt(parameter, key + "/1");
   if (std::isnan(low) || std::isnan(high)) return "no interval";

@@ -149,6 +149,8 @@ class Pipeline {
     all.insert(all.end(), basis_.probes.begin(), basis_.probes.end());
     const Linearisation at = LineariseAt(best, all, train_, options_.fit.jobs);
     report.remainder = Detect(at, others, basis_, Seed(kRemainderStream));
+    report.other_models = OtherModelsOf(d_.naming, at, others);
+    HoldOtherModels(report.other_models, best, report.uncertainty);
     RefitSettings settings = Settings();
     report.white_square = 2.0 * best.cost;
     report.explained = 1.0 - LeftShare(d_.detection, report.white_square, best.parameter_count());

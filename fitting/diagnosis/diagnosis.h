@@ -13,6 +13,7 @@
 #include "fitting/diagnosis/localise.h"
 #include "fitting/diagnosis/measure.h"
 #include "fitting/diagnosis/name.h"
+#include "fitting/diagnosis/other_models.h"
 #include "fitting/diagnosis/probes.h"
 #include "fitting/diagnosis/separate.h"
 #include "fitting/diagnosis/shares.h"
@@ -92,7 +93,8 @@ struct Leftover {
 
 /// What the accepted extension is worth.
 struct ExtensionReport {
-  Uncertainty uncertainty;  // of the extended model
+  Uncertainty uncertainty;  // of the extended model, its intervals hold other_models too
+  std::vector<OtherModel> other_models;  // not told and not ruled out, the likeliest first
   HeldOutErrors after;
   HeldOutGain gain;
   std::vector<std::string> left_out;  // held-out trials that could not be compared

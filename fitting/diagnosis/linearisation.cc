@@ -167,6 +167,7 @@ Linearisation Assemble(const std::vector<LinearisedTrial>& trials, int fitted, i
   out.length = out.length.cwiseSqrt();
   out.fitted_basis.resize(rows, 0);
   out.along_fitted.resize(0, tested);
+  out.fitted_shift = Eigen::MatrixXd::Zero(fitted, tested);
   if (fitted > 0 && rows > 0) {
     out.fitted_basis = BasisOf(S);
     const Eigen::MatrixXd& Q = out.fitted_basis;
@@ -179,6 +180,8 @@ Linearisation Assemble(const std::vector<LinearisedTrial>& trials, int fitted, i
       out.columns -= Q * along;
       out.along_fitted += along;
     }
+    out.fitted_shift =
+        -S.completeOrthogonalDecomposition().solve(Eigen::MatrixXd(Q * out.along_fitted));
   }
   if (!every_row) {
     out.raw.resize(0);

@@ -151,6 +151,34 @@ TEST(Fit, RecoversGeneratedValuesWithinItsIntervals) {
   EXPECT_EQ(covered, 2 * kSeeds);  // three standard errors: 99.7 % each
 }
 
+// What the model lacks it lacks in every trial: the same trials once more bring the white part of a
+// variance down, not the discrepancy's.
+TEST(Uncertainty, ADiscrepancyIsNotAveragedOutByMoreTrials) {
+  FitProblem p = MakeProblem(SmallDataset(), {});
+  const FitResult fit = Fit(p, {});
+  p.noise.amplitude.assign(p.channels.size(), 2.0);
+  p.noise.time_scale = 0.05;
+  std::vector<TrialProblem> trials = TrialsOf(p, TrialRole::kTrain);
+  std::vector<OwnValues> starts = fit.starts;
+  const Uncertainty once = AssessUncertainty(p, trials, fit.shared, starts, {}, 1);
+  const std::size_t n = trials.size();
+  for (std::size_t i = 0; i < 3 * n; ++i) {
+    trials.push_back(trials[i]);
+    starts.push_back(starts[i]);
+  }
+  const Uncertainty four = AssessUncertainty(p, trials, fit.shared, starts, {}, 1);
+  for (int k = 0; k < 2; ++k) {
+    const ParameterUncertainty &a = once.parameters[k], &b = four.parameters[k];
+    const auto white = [](const ParameterUncertainty& u) {
+      return *u.std_error * *u.std_error / u.inflation;
+    };
+    const double smooth = *a.std_error * *a.std_error - white(a);
+    EXPECT_GT(smooth, white(a));
+    EXPECT_NEAR(white(b) / white(a), 0.25, 1e-6);
+    EXPECT_NEAR((*b.std_error * *b.std_error - white(b)) / smooth, 1.0, 1e-6);
+  }
+}
+
 TEST(Uncertainty, AgreesWithTheProfile) {
   const FitProblem p = MakeProblem(SmallDataset(), {});
   const FitResult fit = Fit(p, {});

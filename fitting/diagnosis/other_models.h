@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fitting/diagnosis/name.h"
+#include "fitting/uncertainty.h"
+
+namespace hoplab {
+
+/// A model that is not told, and that the data leave nearly as likely as the told one.
+struct OtherModel {
+  int candidate = -1;      // place in Naming::candidates of what it has more, or in another's place
+  int instead_of = -1;     // place of that other; -1: it is there beside all told causes
+  double log_odds = 0.0;   // over the told model [nats]
+  Eigen::VectorXd size;    // of the candidate, own units
+  Eigen::VectorXd moved;   // what each shared value of the told model is less or more in it, own
+                           // units; 0 for a value it does not have
+  Eigen::VectorXd spread;  // standard deviation this adds to each by what is not known of `size`
+};
+
+/// Models less likely than this share of the told one are ruled out.
+inline constexpr double kRuledOut = 0.05;
+
+/// The rivals of told causes, and the told model with one cause more where the evidence of the
+/// linear model for it is not below kRuledOut of the told model's. The search leaves out a cause
+/// that explains too little to be named, but such a cause may still move a fitted value.
+/// `at`: the told model linearised with candidates it does not have as its first columns, in the
+/// order of `others`.
+std::vector<OtherModel> OtherModelsOf(const Naming& naming, const Linearisation& at,
+                                      std::span<const Candidate> others);
+
+/// Both 95 % intervals of each value, widened until they hold the 95 % interval of each of `models`
+/// too; what they were is kept as `ci95_given_model`. `told`: the model of `uncertainty`.
+void HoldOtherModels(std::span<const OtherModel> models, const FittedModel& told,
+                     Uncertainty& uncertainty);
+
+}  // namespace hoplab
