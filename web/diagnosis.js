@@ -68,9 +68,23 @@ function causesPart(causes, extension) {
     ...causes.filter((c) => c.varies).flatMap((c) => c.varies.map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
       paragraph(`${v.name}: mean ${quantity(v.mean, v.unit, 3)}, spread ${quantity(v.spread, v.unit, 2)}.`),
       dataTable(['trial', v.name], v.trials.map((t) => [t.trial, quantity(t.value, v.unit, 3)]), 'lr')))),
+    otherModelsPart(extension),
     paragraph(`Probability that the cause is outside the catalogue: ${isNumber(run.probability_unlisted) ? run.probability_unlisted.toFixed(2) : notComputed}.`),
     left.length && extension ? paragraph(`What is left is a smooth error of ${left.map(([ch, l]) => `${splitUnit(ch).name} ${quantity(l.amplitude, unit(ch), 3)} over ${quantity(l.time_scale_s, 's', 2)}`).join(', ')}: ${shareText(run.left_share ?? 0)} of the misfit.`) : undefined,
     explained(...asked, 'share', 'probability', 'main-cause', 'discrepancy'));
+}
+
+// Models that are not told and not ruled out: what they are, and what they make of the told model's values.
+function otherModelsPart(extension) {
+  const others = list(extension?.other_models);
+  if (!others.length) return undefined;
+  const parameters = list(extension.parameters);
+  const moved = (m, p) => (isNumber(m.moves[p.name]) && m.moves[p.name] !== 0 ? quantity(m.moves[p.name], p.unit, 2) : '');
+  return details(`Not told and not ruled out: ${others.length} more ${others.length === 1 ? 'model' : 'models'} that the intervals hold, too`,
+    paragraph('Each has a cause more, or another in the place of one. Odds against the told model; what lies below a twentieth is ruled out.'),
+    dataTable(['with', 'in the place of', 'size', 'odds', ...parameters.map((p) => `${p.name} by`)], others.map((m) => [
+      m.cause, m.instead_of ?? '', m.parameters.map((p) => quantity(p.value, p.unit, 2)).join('; '), significant(Math.exp(m.log_odds), 2),
+      ...parameters.map((p) => moved(m, p))]), `lllr${'r'.repeat(parameters.length)}`));
 }
 
 function ladderTable(candidates) {

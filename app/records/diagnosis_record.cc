@@ -49,20 +49,27 @@ Json MovementsRecord(const std::vector<Movement>& movements) {
 
 Json OtherModelsRecord(const Diagnosis& d) {
   const std::vector<SharedParameter>& shared = d.naming.best.problem.shared;
-  const auto name = [&](int place) {
-    return d.naming.candidates[static_cast<std::size_t>(place)].candidate.Name();
+  const auto candidate = [&](int place) -> const Candidate& {
+    return d.naming.candidates[static_cast<std::size_t>(place)].candidate;
   };
   Json out = Json::array();
   for (const OtherModel& other : d.extension->other_models) {
-    Json moves = Json::object();
+    const Candidate& cause = candidate(other.candidate);
+    Json parameters = Json::array(), moves = Json::object();
+    for (int i = 0; i < cause.parameter_count(); ++i) {
+      const EffectParameter& p = cause.Parameter(i);
+      parameters.push_back({{"name", std::string(p.name)},
+                            {"value", NumberOrNull(p.null + other.size[i])},
+                            {"unit", std::string(p.unit)}});
+    }
     for (std::size_t k = 0; k < shared.size(); ++k)
       moves[shared[k].name] = NumberOrNull(other.moved[static_cast<Eigen::Index>(k)]);
-    out.push_back(
-        {{"cause", name(other.candidate)},
-         {"instead_of", other.instead_of < 0 ? Json(nullptr) : Json(name(other.instead_of))},
-         {"sizes", std::vector<double>(other.size.begin(), other.size.end())},
-         {"log_odds", NumberOrNull(other.log_odds)},
-         {"moves", moves}});
+    const bool rival = other.instead_of >= 0;
+    out.push_back({{"cause", cause.Name()},
+                   {"instead_of", rival ? Json(candidate(other.instead_of).Name()) : Json(nullptr)},
+                   {"parameters", parameters},
+                   {"log_odds", NumberOrNull(other.log_odds)},
+                   {"moves", moves}});
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -9,7 +10,7 @@
 namespace hoplab {
 namespace {
 
-constexpr double kNormal975 = 1.959963984540054;
+constexpr double kBeyond = 0.025;  // of the probability, past either end of an interval
 
 // log of the evidence of the told model with one cause more over that without, by Laplace: the gain
 // at the best size, the prior there, and the volume the data leave.
@@ -23,6 +24,14 @@ double LogOdds(const Candidate& candidate, const Score& score, const Eigen::Matr
            std::log(p.typical);
   }
   return sum;
+}
+
+// How many of its standard deviations an interval has to reach into a model: as far as leaves
+// kBeyond of the probability past its end, the told model and this one being all there are. Below
+// kRuledOut it need not even hold its middle.
+double ReachInto(double log_odds) {
+  const double share = 1.0 / (1.0 + std::exp(-log_odds));
+  return boost::math::quantile(boost::math::complement(boost::math::normal(), kBeyond / share));
 }
 
 bool Possible(const Candidate& candidate, const Eigen::VectorXd& size) {
@@ -51,7 +60,7 @@ std::optional<OtherModel> WithOneMore(const Naming& naming, const Linearisation&
   out.candidate = PlaceOf(naming, candidate);
   out.size = score.size;
   out.log_odds = LogOdds(candidate, score, covariance, naming.log_odds);
-  if (out.candidate < 0 || !(out.log_odds >= std::log(kRuledOut))) return std::nullopt;
+  if (out.candidate < 0 || !(out.log_odds > std::log(kRuledOut))) return std::nullopt;
   out.moved = out.spread = Eigen::VectorXd::Zero(told.shared.size());
   const std::vector<int> fitted = FreeShared(told.problem, told.shared);
   for (std::size_t k = 0; k < fitted.size(); ++k) {
@@ -86,7 +95,7 @@ std::vector<OtherModel> OtherModelsOf(const Naming& naming, const Linearisation&
   for (std::size_t m = 0; m < naming.groups.size(); ++m) {
     for (std::size_t k = 1; k < naming.groups[m].size(); ++k) {
       const double odds = naming.group_weights[m][k] / naming.group_weights[m][0];
-      if (!(odds >= kRuledOut)) continue;
+      if (!(odds > kRuledOut)) continue;
       const FittedModel& rival = naming.rivals[m][k];
       OtherModel other = Rival(naming.best, rival);
       other.candidate = naming.groups[m][k];
@@ -96,7 +105,8 @@ std::vector<OtherModel> OtherModelsOf(const Naming& naming, const Linearisation&
           naming.candidates[static_cast<std::size_t>(other.candidate)].candidate;
       other.size = Eigen::VectorXd::Zero(candidate.parameter_count());
       for (std::size_t i = 0; i < rival.members.size(); ++i)
-        if (rival.members[i] == candidate) other.size = rival.ValuesOf(static_cast<int>(i));
+        if (rival.members[i] == candidate)
+          other.size = rival.ValuesOf(static_cast<int>(i)) - NullValues({&candidate, 1});
       out.push_back(std::move(other));
     }
   }
@@ -119,7 +129,7 @@ void HoldOtherModels(std::span<const OtherModel> models, const FittedModel& told
     p.ci95_given_model = p.ci95;
     for (const OtherModel& other : models) {
       const double middle = told.shared[k] + other.moved[k];
-      const double half = kNormal975 * std::hypot(*p.std_error, other.spread[k]);
+      const double half = ReachInto(other.log_odds) * std::hypot(*p.std_error, other.spread[k]);
       for (auto* interval : {&p.ci95, &p.ci95_between_trials}) {
         if (!interval->has_value()) continue;
         auto& [low, high] = **interval;

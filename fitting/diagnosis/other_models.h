@@ -20,8 +20,9 @@ struct OtherModel {
   Eigen::VectorXd spread;  // standard deviation this adds to each by what is not known of `size`
 };
 
-/// Models less likely than this share of the told one are ruled out.
-inline constexpr double kRuledOut = 0.05;
+/// Models less likely than this share of the told one are ruled out: they have a twentieth of the
+/// probability of both.
+inline constexpr double kRuledOut = 1.0 / 19.0;
 
 /// The rivals of told causes, and the told model with one cause more where the evidence of the
 /// linear model for it is not below kRuledOut of the told model's. The search leaves out a cause
@@ -31,8 +32,9 @@ inline constexpr double kRuledOut = 0.05;
 std::vector<OtherModel> OtherModelsOf(const Naming& naming, const Linearisation& at,
                                       std::span<const Candidate> others);
 
-/// Both 95 % intervals of each value, widened until they hold the 95 % interval of each of `models`
-/// too; what they were is kept as `ci95_given_model`. `told`: the model of `uncertainty`.
+/// Both 95 % intervals of each value, widened until no more than 2.5 % of the probability lies past
+/// either end where the told model and any one of `models` are all there are; what they were is
+/// kept as `ci95_given_model`. `told`: the model of `uncertainty`.
 void HoldOtherModels(std::span<const OtherModel> models, const FittedModel& told,
                      Uncertainty& uncertainty);
 

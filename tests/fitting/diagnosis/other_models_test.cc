@@ -115,6 +115,7 @@ TEST(OtherModels, IntervalsHoldThemAndAreCutAtTheBounds) {
   u.parameters[0].ci95_between_trials = {90.0, 110.0};
   u.parameters[1].std_error = 4.0;
   u.parameters[1].ci95 = {192.0, 208.0};
+  other.log_odds = 40.0;  // as good as certain
   HoldOtherModels({&other, 1}, c.naming.best, u);
   EXPECT_EQ(u.parameters[0].ci95, std::make_pair(98.0, 103.5));
   EXPECT_EQ(u.parameters[0].ci95_given_model, std::make_pair(98.0, 102.0));
@@ -122,6 +123,30 @@ TEST(OtherModels, IntervalsHoldThemAndAreCutAtTheBounds) {
   EXPECT_NEAR(u.parameters[1].ci95->first, 198.0 - 1.959963984540054 * 5.0, 1e-12);
   EXPECT_EQ(u.parameters[1].ci95->second, 208.0);
   EXPECT_FALSE(u.parameters[1].ci95_between_trials);
+}
+
+TEST(OtherModels, AnIntervalLeavesTwoAndAHalfPerCentOfBothModelsPastItsEnd) {
+  const LinearCase c(0.01, 40.0);
+  for (const double log_odds : {-2.9, -1.0, 0.0, 3.0}) {
+    OtherModel other;
+    other.log_odds = log_odds;
+    other.moved = Eigen::Vector2d(6.0, 0.0);
+    other.spread = Eigen::Vector2d(1.0, 0.0);
+    Uncertainty u;
+    u.parameters.resize(2);
+    u.parameters[0].std_error = 1.0;
+    u.parameters[0].ci95 = {98.04, 101.96};
+    HoldOtherModels({&other, 1}, c.naming.best, u);
+    const double end = u.parameters[0].ci95->second;
+    EXPECT_EQ(u.parameters[0].ci95->first, 98.04);
+    EXPECT_GE(end, 106.0);
+    const auto beyond = [](double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); };
+    const double odds = std::exp(log_odds);
+    // The told model has nothing there that counts.
+    EXPECT_NEAR(
+        (beyond(end - 100.0) + odds * beyond((end - 106.0) / std::sqrt(2.0))) / (1.0 + odds), 0.025,
+        1e-8);
+  }
 }
 
 }  // namespace
