@@ -36,7 +36,8 @@ struct Linearisation {
   /// What of each column lies along that basis: columns + fitted_basis * along_fitted is s_j with
   /// the starts alone projected out, which may be cut to one trial.
   Eigen::MatrixXd along_fitted;
-  /// What one unit of a tested value moves each fitted one by, per scale; one column a tested value.
+  /// What one unit of a tested value moves each fitted one by, per scale; one column a tested
+  /// value.
   Eigen::MatrixXd fitted_shift;
   Eigen::VectorXd leverage;  // share of each row the fitted values can explain, 0..1
   int fitted_rank = 0;       // dimensions projected out
