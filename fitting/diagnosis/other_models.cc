@@ -43,6 +43,14 @@ bool Possible(const Candidate& candidate, const Eigen::VectorXd& size) {
   return true;
 }
 
+// The data tell its size to within a typical one. Of what they cannot show they say nothing for or
+// against, and what it would do to the fitted values has no end.
+bool Shows(const Candidate& candidate, const Eigen::MatrixXd& covariance) {
+  for (int i = 0; i < candidate.parameter_count(); ++i)
+    if (!(std::sqrt(covariance(i, i)) <= candidate.Parameter(i).typical)) return false;
+  return true;
+}
+
 int PlaceOf(const Naming& naming, const Candidate& candidate) {
   for (std::size_t i = 0; i < naming.candidates.size(); ++i)
     if (naming.candidates[i].candidate == candidate) return static_cast<int>(i);
@@ -56,6 +64,7 @@ std::optional<OtherModel> WithOneMore(const Naming& naming, const Linearisation&
   if (score.rank < hypothesis.count || !Possible(candidate, score.size)) return std::nullopt;
   const Eigen::MatrixXd A = at.columns.middleCols(hypothesis.first, hypothesis.count);
   const Eigen::MatrixXd covariance = (A.transpose() * A).inverse();
+  if (!Shows(candidate, covariance)) return std::nullopt;
   OtherModel out;
   out.candidate = PlaceOf(naming, candidate);
   out.size = score.size;

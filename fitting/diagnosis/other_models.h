@@ -25,7 +25,8 @@ struct OtherModel {
 inline constexpr double kRuledOut = 1.0 / 19.0;
 
 /// The rivals of told causes, and the told model with one cause more where the evidence of the
-/// linear model for it is not below kRuledOut of the told model's. The search leaves out a cause
+/// linear model for it is not below kRuledOut of the told model's and the data tell its size to
+/// within a typical one. The search leaves out a cause
 /// that explains too little to be named, but such a cause may still move a fitted value.
 /// `at`: the told model linearised with candidates it does not have as its first columns, in the
 /// order of `others`.

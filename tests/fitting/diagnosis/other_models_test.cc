@@ -102,6 +102,12 @@ TEST(OtherModels, WhatTheDataRuleOutIsNotAmongThem) {
   EXPECT_TRUE(LinearCase(50.0, 200.0).Others().empty());
 }
 
+// Gravity off by 0.02 +- 0.008, a typical size is 0.005: its odds alone would not rule it out.
+TEST(OtherModels, WhatTheDataCannotShowIsNotAmongThem) {
+  EXPECT_TRUE(LinearCase(0.02, 3.0).Others().empty());
+  EXPECT_FALSE(LinearCase(0.005, 6.0).Others().empty());
+}
+
 TEST(OtherModels, IntervalsHoldThemAndAreCutAtTheBounds) {
   LinearCase c(0.01, 40.0);
   c.naming.best.problem.shared[0].upper = 103.5;
