@@ -19,6 +19,7 @@ struct Range {
   std::string Text() const;
 };
 
+inline constexpr Range kAnyNumber = {};
 /// (0, high]: what a mass, a length, a stiffness must lie in.
 constexpr Range Positive(double high, const char* unit) { return {0.0, high, true, false, unit}; }
 /// [0, high].

@@ -4,10 +4,12 @@
 
 namespace hoplab {
 
+inline constexpr double kPi = std::numbers::pi;
+
 /// Angle [deg] to [rad]. Degrees occur only at the border: files, options, reports.
-constexpr double DegToRad(double angle_deg) { return angle_deg * (std::numbers::pi / 180.0); }
+constexpr double DegToRad(double angle_deg) { return angle_deg * (kPi / 180.0); }
 
 /// Angle [rad] to [deg].
-constexpr double RadToDeg(double angle_rad) { return angle_rad * (180.0 / std::numbers::pi); }
+constexpr double RadToDeg(double angle_rad) { return angle_rad * (180.0 / kPi); }
 
 }  // namespace hoplab

@@ -16,9 +16,9 @@ foreach(entry IN LISTS FILES)
   if(NOT clash EQUAL -1)
     message(FATAL_ERROR "${name} holds the mark that ends a text")
   endif()
-  string(APPEND texts "constexpr char kText${number}[] = R\"~hoplab~(${content})~hoplab~\";\n")
+  string(APPEND texts "constexpr char k${FUNCTION}${number}[] = R\"~hoplab~(${content})~hoplab~\";\n")
   string(APPEND cases
-    "  if (name == \"${name}\") return {kText${number}, sizeof kText${number} - 1};\n")
+    "  if (name == \"${name}\") return {k${FUNCTION}${number}, sizeof k${FUNCTION}${number} - 1};\n")
   math(EXPR number "${number} + 1")
 endforeach()
 file(WRITE ${OUTPUT} "// Written by cmake; do not edit.

@@ -10,7 +10,7 @@
 namespace hoplab {
 namespace {
 
-constexpr const char* kFormat = "hoplab-effect/1";
+constexpr const char* kEffectFormat = "hoplab-effect/1";
 constexpr std::size_t kMostBytes = 64 << 10;
 constexpr Range kBound = Within(1e15, "");
 
@@ -37,7 +37,7 @@ EffectFile ReadEffectBlock(const YamlCursor& block) {
   if (block.node().kind == YamlNode::Kind::kNull)
     block.Fail("is empty; must begin with format: hoplab-effect/1",
                "See docs/adding/formula.md for an example.");
-  CheckFormat(block, kFormat);
+  CheckFormat(block, kEffectFormat);
   block.AllowOnly({"format", "name", "acts_as", "formula", "parameters", "sentence"});
   EffectFile file;
   file.origin.place = block.place();

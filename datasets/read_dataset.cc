@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFormat = "hoplab-dataset/1";
+constexpr const char* kDatasetFormat = "hoplab-dataset/1";
 constexpr const char* kYamlName = "dataset.yaml";
 constexpr std::uint64_t kMaxCsvBytes = 64ull << 20;       // one trial, about a million rows
 constexpr std::uint64_t kMaxDatasetBytes = 512ull << 20;  // all trials
@@ -101,7 +101,7 @@ class DatasetReader {
       root_.Fail("is empty; must begin with format: hoplab-dataset/1",
                  "See datasets/README.md for an example.");
     // The format first: a file of another format has other keys.
-    CheckFormat(root_, kFormat);
+    CheckFormat(root_, kDatasetFormat);
     root_.AllowOnly({"format", "name", "title", "source", "mechanism", "controller", "initial",
                      "initial_sigma", "channels", "clocks", "inputs", "known", "effects",
                      "trials"});

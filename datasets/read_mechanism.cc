@@ -17,7 +17,6 @@ const Names kSectionByStrip = {"width_m", "thickness_m"};
 const Names kSectionByMoments = {"second_moment_m4", "area_m2"};
 
 constexpr Range kLength = Positive(100, "m");
-constexpr Range kModulus = Positive(1e13, "Pa");
 constexpr Range kDamping = NonNegative(1e6, "N s/m");
 constexpr Range kFraction = NonNegative(1, "");
 

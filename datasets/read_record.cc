@@ -16,7 +16,7 @@
 namespace hoplab {
 namespace {
 
-constexpr const char* kAngle = "touchdown_angle_deg";
+constexpr const char* kAngleKey = "touchdown_angle_deg";
 constexpr const char* kSigma = "touchdown_angle_sigma_deg";
 
 using Kind = YamlNode::Kind;
@@ -31,7 +31,7 @@ void ReadAngleList(const YamlCursor& list, Trial& trial) {
 // Where a trial's angle stands, for messages.
 InputError AngleError(const Trial& trial, const std::string& value, const std::string& rule,
                       const std::string& remedy) {
-  return InputError({trial.origin.place, kAngle + value, rule, remedy});
+  return InputError({trial.origin.place, kAngleKey + value, rule, remedy});
 }
 
 double HeightAt(const Trial& trial, double angle_rad) {
@@ -140,7 +140,7 @@ void CheckClock(const Dataset& dataset, const std::string& clock, const std::str
 
 void ReadTouchdownAngles(const YamlCursor& item, Trial& trial) {
   const MechanismKind type = trial.mechanism.type;
-  const std::optional<YamlCursor> angle = item.Optional(kAngle);
+  const std::optional<YamlCursor> angle = item.Optional(kAngleKey);
   const std::optional<YamlCursor> sigma = item.Optional(kSigma);
   if (FindInput(trial.inputs, InputKind::kLegAngle) != nullptr) {
     for (const std::optional<YamlCursor>& given : {angle, sigma})

@@ -8,7 +8,6 @@ namespace {
 
 constexpr std::size_t kMostLegs = 4;
 constexpr Range kPlace = Within(100, "m");
-constexpr Range kModulus = Positive(1e13, "Pa");
 constexpr Range kAngle = Within(1e3, "rad");
 
 // [x, y]

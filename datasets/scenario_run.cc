@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/input_error.h"
+#include "base/range.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "datasets/read_record.h"
@@ -14,9 +15,8 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-constexpr const char* kFormat = "hoplab-scenario/1";
+constexpr const char* kScenarioFormat = "hoplab-scenario/1";
 constexpr int kMaxHops = 1'000'000;
-constexpr Range kAnyNumber = {};
 constexpr Range kStopTime = Positive(1e6, "s");
 
 NamedNumber ReadNamedNumber(const std::string& name, const YamlCursor& cursor) {
@@ -157,7 +157,7 @@ void CheckRoot(const YamlCursor& root) {
   if (root.node().kind == Kind::kNull)
     root.Fail("is empty; must begin with format: hoplab-scenario/1",
               "See datasets/README.md for an example.");
-  CheckFormat(root, kFormat);
+  CheckFormat(root, kScenarioFormat);
   root.AllowOnly({"format", "name", "law", "mechanism", "controller", "touchdown_angle_deg",
                   "start_angle_deg", "inputs", "initial", "stop", "effects", "search", "sweep",
                   "dataset"});

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/input_error.h"
+#include "base/range.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "datasets/read_robot.h"
@@ -18,7 +19,6 @@ using Kind = YamlNode::Kind;
 
 constexpr int kMaxBudget = 1'000'000'000;
 constexpr int kMaxSamples = 10'000'000;
-constexpr Range kAnyNumber = {};
 
 // What ReadRunAt leaves out.
 const std::vector<std::string> kTaskBlocks = {"search", "sweep", "dataset"};

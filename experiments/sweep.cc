@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 #include <numeric>
 
 #include "base/input_error.h"
+#include "base/nan.h"
 #include "base/random.h"
 #include "base/text.h"
 #include "experiments/fingerprint.h"
@@ -14,7 +14,6 @@
 namespace hoplab {
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMaxRows = 10'000'000;
 
 // One value per row in each of `samples` equal slices of the range, in random order.
@@ -111,7 +110,7 @@ SweepRow SweepPlan::Compute(int i) const {
     return ComputeSweepRow(HopperOfScenario(scenario, integrator_), outputs_);
   } catch (const InputError& error) {
     // Each value was held against its range before; together they may still not fit.
-    return {std::vector<double>(outputs_.size(), kMissing), "bad_input", error.what()};
+    return {std::vector<double>(outputs_.size(), kNaN), "bad_input", error.what()};
   }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/input_error.h"
+#include "base/nan.h"
 #include "base/text.h"
 #include "experiments/leg_stiffness.h"
 #include "optimize/convergence_time.h"
@@ -14,7 +15,6 @@
 namespace hoplab {
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSampleStep = 1e-3;  // s
 constexpr std::array kSampled = {Channel::kContact, Channel::kLegAngle, Channel::kLegLength,
                                  Channel::kHipTorque};
@@ -26,8 +26,8 @@ struct Results {
   Trajectory run;
   ConvergenceTime convergence;
   std::optional<FixedPoint> steady;
-  double stiffness_min = kMissing, stiffness_max = kMissing;  // N/m
-  double torque_max = kMissing;                               // N m
+  double stiffness_min = kNaN, stiffness_max = kNaN;  // N/m
+  double torque_max = kNaN;                           // N m
 };
 
 void ReadSamples(Results& results) {
@@ -50,12 +50,12 @@ const Event* LastApex(const Trajectory& run) {
 
 double LastApexHeight(const Results& r) {
   const Event* apex = LastApex(r.run);
-  return apex ? apex->y : kMissing;
+  return apex ? apex->y : kNaN;
 }
 
 double LastApexSpeed(const Results& r) {
   const Event* apex = LastApex(r.run);
-  return apex ? apex->vx : kMissing;
+  return apex ? apex->vx : kNaN;
 }
 
 double EnergyAt(const Results& r, double y, double vx, double vy) {
@@ -65,13 +65,13 @@ double EnergyAt(const Results& r, double y, double vx, double vy) {
 
 double EnergyPercent(const Results& r) {
   const Event* apex = LastApex(r.run);
-  if (!apex) return kMissing;
+  if (!apex) return kNaN;
   const auto& s = r.request.initial;
   return 100.0 * EnergyAt(r, apex->y, apex->vx, apex->vy) / EnergyAt(r, s[1], s[2], s[3]);
 }
 
 double BandPercent(const Results& r) {
-  if (!r.convergence.converged()) return kMissing;
+  if (!r.convergence.converged()) return kNaN;
   return r.convergence.band == ConvergenceTime::Band::kOnePercent ? 1.0 : 2.0;
 }
 
@@ -87,7 +87,7 @@ const std::vector<Column>& Columns() {
       {{"convergence_time_s", "s"}, [](R r) { return r.convergence.time; }},
       {{"convergence_hops", ""},
        [](R r) {
-         return r.convergence.converged() ? static_cast<double>(r.convergence.hops) : kMissing;
+         return r.convergence.converged() ? static_cast<double>(r.convergence.hops) : kNaN;
        }},
       {{"convergence_band_percent", "%"}, BandPercent},
       {{"steady_speed_m_per_s", "m/s"}, [](R r) { return r.convergence.steady_speed; }},
@@ -102,11 +102,11 @@ const std::vector<Column>& Columns() {
       {{"stiffness_max_N_per_m", "N/m", true}, [](R r) { return r.stiffness_max; }},
       {{"max_torque_N_m", "N m", true}, [](R r) { return r.torque_max; }},
       {{"fixed_point_vx_m_per_s", "m/s", false, true},
-       [](R r) { return r.steady->found() ? r.steady->state[0] : kMissing; }},
+       [](R r) { return r.steady->found() ? r.steady->state[0] : kNaN; }},
       {{"fixed_point_y_m", "m", false, true},
-       [](R r) { return r.steady->found() ? r.steady->state[1] : kMissing; }},
+       [](R r) { return r.steady->found() ? r.steady->state[1] : kNaN; }},
       {{"period_s", "s", false, true},
-       [](R r) { return r.steady->found() ? r.steady->hop.period : kMissing; }},
+       [](R r) { return r.steady->found() ? r.steady->hop.period : kNaN; }},
       {{"spectral_radius", "", false, true}, [](R r) { return r.steady->spectral_radius; }}};
   return columns;
 }
@@ -173,7 +173,7 @@ SweepRow ComputeSweepRow(const Hopper& hopper, const std::vector<const SweepOutp
       return c.output.name == output->name;
     });
     const bool known = complete || output->needs_fixed_point || SurvivesAFall(output->name);
-    row.values.push_back(known ? column->value(results) : kMissing);
+    row.values.push_back(known ? column->value(results) : kNaN);
   }
   return row;
 }

@@ -6,7 +6,7 @@ namespace hoplab {
 namespace {
 
 // Own columns closer than this to the span of the others are one direction seen twice.
-constexpr double kRankTolerance = 1e-10;
+constexpr double kStartRankTolerance = 1e-10;
 
 // Leaves the sums of products of the columns of `m` as they are, in min(rows, columns) rows.
 Eigen::MatrixXd Compressed(Eigen::MatrixXd m) {
@@ -32,7 +32,7 @@ Eigen::MatrixXd OwnBasis(const TrialProblem& trial, const TrialEvaluation& evalu
   own.conservativeResize(Eigen::NoChange, free);
   if (free == 0) return own;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(own);
-  qr.setThreshold(kRankTolerance);
+  qr.setThreshold(kStartRankTolerance);
   if (qr.rank() == 0) return Eigen::MatrixXd(own.rows(), 0);
   return qr.householderQ() * Eigen::MatrixXd::Identity(own.rows(), qr.rank());
 }

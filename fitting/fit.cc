@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/nan.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "fitting/apex_segments.h"
@@ -16,8 +16,6 @@ namespace {
 
 // Relative change of the cost that ends a search for where another begins.
 constexpr double kBeginning = 1e-6;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<OwnValues> StartsOf(const std::vector<TrialProblem>& trials) {
   std::vector<OwnValues> starts;

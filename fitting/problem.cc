@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/input_error.h"
+#include "base/nan.h"
 #include "base/text.h"
 #include "fitting/driven_trial.h"
 #include "fitting/model_of_spec.h"
@@ -15,8 +16,6 @@
 
 namespace hoplab {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class Builder {
  public:

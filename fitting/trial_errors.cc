@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/nan.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "fitting/growing_horizon.h"
@@ -12,8 +13,6 @@
 
 namespace hoplab {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Half a squared residual a sample beyond which a refitted start is tried from elsewhere, too, and
 // how often.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/input_error.h"
+#include "base/nan.h"
 #include "fitting/model_of_spec.h"
 #include "fitting/robot_problem.h"
 #include "model/mechanism_traits.h"
@@ -12,7 +13,6 @@
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Sizes of a change of start that matter where no prior tells one: [m], [m], [m/s], [m/s].
 constexpr std::array<double, 4> kStartScale = {0.01, 0.01, 0.05, 0.05};
 constexpr std::array<const char*, 4> kStartNames = {"x0", "y0", "vx0", "vy0"};

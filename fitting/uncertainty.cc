@@ -8,16 +8,16 @@
 #include <cmath>
 #include <limits>
 
+#include "base/nan.h"
 #include "base/parallel.h"
 #include "fitting/eliminated_trial.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Singular values below this share of the largest are rounding: sensitivities are good to about
 // 1e-9 of their column.
-constexpr double kRankTolerance = 1e-8;
+constexpr double kIdentifiedRankTolerance = 1e-8;
 constexpr double kNormal975 = 1.959963984540054;
 
 struct Reduced {
@@ -112,7 +112,7 @@ Known Gather(const FitProblem& problem, const std::vector<TrialProblem>& trials,
 void FindWeakDirections(const Eigen::VectorXd& sv, const Eigen::MatrixXd& V,
                         const std::vector<int>& active, int count, Identifiability& id) {
   const int m = static_cast<int>(active.size());
-  for (int j = 0; j < m; ++j) id.rank += sv[j] > kRankTolerance * sv[0] && sv[j] > 0.0;
+  for (int j = 0; j < m; ++j) id.rank += sv[j] > kIdentifiedRankTolerance * sv[0] && sv[j] > 0.0;
   id.condition_number = id.rank == m ? sv[0] / sv[m - 1] : std::numeric_limits<double>::infinity();
   for (int j = m - 1; j >= 0; --j) {
     const bool unseen = j >= id.rank;

@@ -1,7 +1,6 @@
 #include "model/simulate.h"
 
-#include <limits>
-
+#include "base/nan.h"
 #include "model/mechanisms/ball.h"
 #include "model/mechanisms/leg.h"
 #include "model/mechanisms/robot.h"
@@ -26,10 +25,9 @@ void Simulate(const SimulationRequest& request, Trajectory& out) {
   out.Clear();
   out.directions = static_cast<int>(request.directions.size());
   out.channels = static_cast<int>(request.channels.size());
-  constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
   const std::size_t cells = request.row_times.size() * request.channels.size();
-  out.samples.assign(cells, kMissing);
-  out.sensitivities.assign(cells * request.directions.size(), kMissing);
+  out.samples.assign(cells, kNaN);
+  out.sensitivities.assign(cells * request.directions.size(), kNaN);
   RunRequest(request, MechanismFor(request), out);
 }
 

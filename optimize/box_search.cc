@@ -9,9 +9,9 @@
 namespace hoplab {
 namespace {
 
-class Seeker {
+class BoxSeeker {
  public:
-  explicit Seeker(const BoxSearchRequest& request) : request_(request) {}
+  explicit BoxSeeker(const BoxSearchRequest& request) : request_(request) {}
 
   BoxSearchResult Search() {
     const std::size_t n = request_.low.size();
@@ -45,7 +45,7 @@ class Seeker {
     until_ = result_.evaluations + evaluations;
     search.set_xtol_rel(1e-9);
     if (!first_step.empty()) search.set_initial_step(first_step);
-    search.set_min_objective(&Seeker::Call, this);
+    search.set_min_objective(&BoxSeeker::Call, this);
     search_ = &search;
     double value = 0.0;
     try {
@@ -60,7 +60,7 @@ class Seeker {
   bool Stopped() const { return request_.stop && *request_.stop; }
 
   static double Call(unsigned n, const double* x, double*, void* self_pointer) {
-    Seeker& self = *static_cast<Seeker*>(self_pointer);
+    BoxSeeker& self = *static_cast<BoxSeeker*>(self_pointer);
     if (self.Stopped() || self.result_.evaluations >= self.until_) {
       self.search_->force_stop();
       return 0.0;
@@ -91,7 +91,7 @@ class Seeker {
 
 BoxSearchResult SearchBox(const BoxSearchRequest& request) {
   HOPLAB_CHECK(!request.low.empty() && request.low.size() == request.high.size());
-  return Seeker(request).Search();
+  return BoxSeeker(request).Search();
 }
 
 }  // namespace hoplab

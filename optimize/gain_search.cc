@@ -28,10 +28,10 @@ constexpr std::array<AlgorithmName, 6> kAlgorithms = {{
 }};
 
 // One seed's search: counts, scores and remembers every point. Variables run from 0 to 1.
-class Seeker {
+class SeedSeeker {
  public:
-  Seeker(const SearchProblem& problem, const GainSearchOptions& options, std::size_t index,
-         std::mutex& mutex)
+  SeedSeeker(const SearchProblem& problem, const GainSearchOptions& options, std::size_t index,
+             std::mutex& mutex)
       : problem_(problem), options_(options), index_(index), mutex_(mutex) {
     result_.seed = options.seed + index;
   }
@@ -151,7 +151,7 @@ class Seeker {
     if (first_step > 0.0) search.set_initial_step(first_step);
     goal_ = goal;
     search_ = &search;
-    search.set_min_objective(&Seeker::Call, this);
+    search.set_min_objective(&SeedSeeker::Call, this);
     double value = 0.0;
     try {
       search.optimize(unit, value);
@@ -163,7 +163,7 @@ class Seeker {
   }
 
   static double Call(unsigned, const double* unit, double*, void* self_pointer) {
-    Seeker& self = *static_cast<Seeker*>(self_pointer);
+    SeedSeeker& self = *static_cast<SeedSeeker*>(self_pointer);
     if (self.Stopped() || self.result_.evaluations >= self.until_) {
       self.search_->force_stop();
       return self.result_.best.score;
@@ -222,7 +222,7 @@ GainSearchResult SearchGains(const SearchProblem& problem, const GainSearchOptio
   result.seeds.resize(static_cast<std::size_t>(std::max(options.seeds, 1)));
   std::mutex mutex;
   ParallelFor(static_cast<int>(result.seeds.size()), options.jobs, [&](int i) {
-    result.seeds[i] = Seeker(problem, options, static_cast<std::size_t>(i), mutex).Search();
+    result.seeds[i] = SeedSeeker(problem, options, static_cast<std::size_t>(i), mutex).Search();
   });
   for (std::size_t i = 0; i < result.seeds.size(); ++i) {
     const SeedResult& seed = result.seeds[i];

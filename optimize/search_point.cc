@@ -3,22 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/nan.h"
 #include "model/mechanism_traits.h"
 #include "optimize/stride_map.h"
 #include "optimize/stride_search.h"
 
 namespace hoplab {
 namespace {
-
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-
-// [0, inf) to [0, 1), keeping the order.
-double Squash(double x) { return std::isfinite(x) ? x / (1.0 + x) : 1.0; }
-
-void SetVerdict(SearchPoint& point, PointVerdict verdict, double within) {
-  point.verdict = verdict;
-  point.score = static_cast<int>(verdict) + std::clamp(within, 0.0, 1.0);
-}
 
 // By how much the constraints are broken, relative to their size; names the worst.
 double Violation(const SearchProblem& problem, Law law, SearchPoint& point) {
@@ -54,7 +45,7 @@ void Measure(const Hopper& hopper, const Trajectory& run, SearchPoint& point) {
   point.flexure = run.max_flexure;
   point.outcome = run.outcome;
   const double touchdown = TouchdownHeightOf(hopper);
-  point.clearance = kMissing;
+  point.clearance = kNaN;
   for (const Event& event : run.events) {
     if (event.kind == EventKind::kApex)
       point.clearance = std::fmin(point.clearance, event.y - touchdown);
@@ -137,7 +128,7 @@ void ScoreTime(const SearchProblem& problem, const Hopper& hopper, SearchPoint& 
     point.spectral_radius = steady.spectral_radius;
     if (!steady.stable()) {
       SetVerdict(point, PointVerdict::kNoConvergence, Squash(steady.spectral_radius - 1.0));
-      point.objective = kMissing;
+      point.objective = kNaN;
       return;
     }
     within = (1.0 - problem.weight) * share + problem.weight * steady.spectral_radius;
@@ -147,6 +138,13 @@ void ScoreTime(const SearchProblem& problem, const Hopper& hopper, SearchPoint& 
 }
 
 }  // namespace
+
+double Squash(double x) { return std::isfinite(x) ? x / (1.0 + x) : 1.0; }
+
+void SetVerdict(SearchPoint& point, PointVerdict verdict, double within) {
+  point.verdict = verdict;
+  point.score = static_cast<int>(verdict) + std::clamp(within, 0.0, 1.0);
+}
 
 std::string_view NameOf(Objective objective) {
   switch (objective) {
@@ -192,7 +190,7 @@ std::string_view NameOf(PointVerdict verdict) {
 
 double TouchdownHeightOf(const Hopper& hopper) {
   const auto height = TraitsOf(hopper.request.law).touchdown_height;
-  return height ? height(hopper.request.parameters) : kMissing;
+  return height ? height(hopper.request.parameters) : kNaN;
 }
 
 FixedPoint SteadyHop(const Hopper& hopper, const std::optional<ApexState>& near) {

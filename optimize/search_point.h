@@ -83,6 +83,11 @@ struct SearchPoint {
   std::string gait;                                                     // its GaitKind
 };
 
+/// [0, inf) to [0, 1), keeping the order; 1 for what is not finite.
+double Squash(double x);
+/// Sets verdict and score; `within` tells how near the next better verdict is, from 0 to 1.
+void SetVerdict(SearchPoint& point, PointVerdict verdict, double within);
+
 SearchPoint EvaluatePoint(const SearchProblem& problem, std::span<const double> x);
 
 /// Fixed point that hopping from the hopper's start leads to, searched from `near` if that is

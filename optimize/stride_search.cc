@@ -15,14 +15,6 @@ constexpr double kNear = 0.05;
 // Newton's residual while searching: the point that is kept is found again to rounding.
 constexpr FixedPointOptions kRough{.tolerance = 1e-7, .max_iterations = 6};
 
-// [0, inf) to [0, 1), keeping the order.
-double Squash(double x) { return std::isfinite(x) ? x / (1.0 + x) : 1.0; }
-
-void SetVerdict(SearchPoint& point, PointVerdict verdict, double within) {
-  point.verdict = verdict;
-  point.score = static_cast<int>(verdict) + std::clamp(within, 0.0, 1.0);
-}
-
 double ChangeOf(const StrideMap& map, const SectionState& from, const SectionState& to) {
   const std::vector<SectionComponent> components = map.Components(from);
   double change = 0.0;

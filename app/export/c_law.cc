@@ -18,7 +18,7 @@ namespace hoplab {
 namespace {
 
 // Effects whose terms the file has.
-constexpr std::array kWritten = {
+constexpr std::array kWrittenInC = {
     "rest_radius_scale",     "leg_hardening",        "second_order_bending",
     "leg_material_damping",  "leg_hysteresis",       "leg_quadratic_damping",
     "foot_coulomb_friction", "hip_viscous_friction", "hip_coulomb_friction",
@@ -31,13 +31,6 @@ constexpr std::array kOfTheBody = {
     "leg_mass",          "magnus_lift",       "angle_input_delay",      "angle_input_scale",
     "force_input_delay", "force_input_scale", "torque_input_delay"};
 
-bool IsAmong(std::string_view name, const auto& names) {
-  for (const char* each : names) {
-    if (name == each) return true;
-  }
-  return false;
-}
-
 // M94: friction that the statics of the leg have to know.
 bool BendsTheLeg(const ExportedModel& model, std::string_view effect) {
   return model.law == Law::kElastica &&
@@ -48,7 +41,7 @@ void CheckEffects(const ExportedModel& model, const std::string& place) {
   for (const EffectSetting& e : model.effects) {
     const EffectInfo& info = e.effect->info;
     if (!BendsTheLeg(model, info.name) &&
-        (IsAmong(info.name, kWritten) || IsAmong(info.name, kOfTheBody) ||
+        (IsAmong(info.name, kWrittenInC) || IsAmong(info.name, kOfTheBody) ||
          info.kind == EffectKind::kObservation))
       continue;
     std::string remedy = "Fit without it (--with names what is fitted).";
@@ -64,7 +57,7 @@ std::vector<std::string> LeftOut(const ExportedModel& model) {
   std::vector<std::string> lines;
   for (const EffectSetting& e : model.effects) {
     const EffectInfo& info = e.effect->info;
-    if (IsAmong(info.name, kWritten)) continue;
+    if (IsAmong(info.name, kWrittenInC)) continue;
     std::string what = "acts on the body";
     if (info.kind == EffectKind::kObservation) what = "is the sensors'";
     if (info.name == "leg_mass")
@@ -90,7 +83,7 @@ std::string HeadOf(const ExportedModel& model, const Parameters<double>& p) {
                         InfoOf(id).unit);
   }
   for (const EffectSetting& e : model.effects) {
-    if (IsAmong(e.effect->info.name, kWritten)) text += "     " + DescribeEffect(e) + "\n";
+    if (IsAmong(e.effect->info.name, kWrittenInC)) text += "     " + DescribeEffect(e) + "\n";
   }
   const std::vector<std::string> left_out = LeftOut(model);
   if (!left_out.empty()) text += "   Not in this file:\n";

@@ -205,6 +205,10 @@ std::string ExactNumber(double value) {
   return text;
 }
 
+bool IsAmong(std::string_view name, std::span<const char* const> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 std::string DescribeEffect(const EffectSetting& setting) {
   const EffectInfo& info = setting.effect->info;
   std::vector<std::string> values;

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/records/stored_run.h"
@@ -41,6 +43,9 @@ ExportedModel ModelOfRun(const std::filesystem::path& folder, const StoredRun& r
 
 /// A number as C and XML read it back exactly.
 std::string ExactNumber(double value);
+
+/// Whether a list of effects holds this one.
+bool IsAmong(std::string_view name, std::span<const char* const> names);
 
 /// "E = 22.98 GPa", for the head of a file.
 std::string DescribeEffect(const EffectSetting& setting);

@@ -4,16 +4,15 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "app/terminal/quantity.h"
 #include "base/input_error.h"
+#include "base/units.h"
 #include "model/leg_compliance.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Spheres the leg meets the ground with: on few it rolls like a cogwheel.
 constexpr int kFeet = 288;
 constexpr double kFootRadius = 0.02;  // of the leg's radius
@@ -26,25 +25,18 @@ constexpr double kStepsPerRadian = 2.0;
 constexpr double kContactSteps = 2.5;
 
 // What the model has of the effects, beside those that change a parameter of it.
-constexpr std::array kWritten = {"leg_material_damping",   "leg_mass",
-                                 "foot_coulomb_friction",  "hip_viscous_friction",
-                                 "hip_coulomb_friction",   "guide_viscous_friction",
-                                 "guide_coulomb_friction", "boom_inertia",
-                                 "rest_radius_scale",      "body_mass_scale",
-                                 "gravity_scale",          "higher_order_bending",
-                                 "second_order_bending",   "torque_bending",
-                                 "tip_rotation",           "rolling_law"};
+constexpr std::array kWrittenInMjcf = {"leg_material_damping",   "leg_mass",
+                                       "foot_coulomb_friction",  "hip_viscous_friction",
+                                       "hip_coulomb_friction",   "guide_viscous_friction",
+                                       "guide_coulomb_friction", "boom_inertia",
+                                       "rest_radius_scale",      "body_mass_scale",
+                                       "gravity_scale",          "higher_order_bending",
+                                       "second_order_bending",   "torque_bending",
+                                       "tip_rotation",           "rolling_law"};
 // They change the leg itself, and a chain of arcs on linear hinges cannot show them.
 constexpr std::array kOfTheLeg = {"leg_hardening",   "leg_hysteresis", "leg_quadratic_damping",
                                   "stiffness_drift", "foot_slip",      "ground_compliance",
                                   "touchdown_loss"};
-
-bool IsAmong(std::string_view name, const auto& names) {
-  for (const char* each : names) {
-    if (name == each) return true;
-  }
-  return false;
-}
 
 void Check(const ExportedModel& model, const std::string& place) {
   if (MechanismOf(model.law) != MechanismKind::kCLeg) {
@@ -123,7 +115,7 @@ std::string HeadOf(const ExportedModel& model, const Beam& beam) {
     text += fmt::format("     E was fitted under the law {}; arcs bend as under elastica.\n",
                         NameOf(model.law));
   for (const EffectSetting& e : model.effects) {
-    if (!IsAmong(e.effect->info.name, kWritten))
+    if (!IsAmong(e.effect->info.name, kWrittenInMjcf))
       text += "     Not in this model: " + DescribeEffect(e) + "\n";
   }
   for (const std::string& kind : model.driven_by)

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <limits>
 #include <set>
+
+#include "base/nan.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLevel = 0.05;  // of all values of a run together
 constexpr double kTwoSided95 = 1.959963984540054;
 

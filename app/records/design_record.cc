@@ -3,19 +3,17 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 
 #include "app/records/csv.h"
 #include "app/records/record_parts.h"
 #include "app/terminal/quantity.h"
+#include "base/nan.h"
 #include "fitting/diagnosis/name.h"
 
 namespace hoplab {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double Bits(double nats) { return nats / std::numbers::ln2; }
 

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "app/records/csv.h"
 #include "app/records/trajectory_tables.h"
 #include "app/records/trial_tables.h"
+#include "base/nan.h"
 
 namespace hoplab {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view ChannelNameOf(const FitProblem& problem, int channel) {
   return NameOf(channel < 0 ? Channel::kContact

@@ -44,7 +44,7 @@ std::string Shortened(const std::function<std::string(std::size_t most)>& senten
   return sentence(1);
 }
 
-std::vector<std::string> NamesOf(const Diagnosis& d, const std::vector<int>& places) {
+std::vector<std::string> CauseTexts(const Diagnosis& d, const std::vector<int>& places) {
   std::vector<std::string> names;
   for (const int place : places)
     names.push_back(CauseText(d.naming.candidates[static_cast<std::size_t>(place)].candidate));
@@ -83,7 +83,7 @@ std::string HeldOutClause(const Diagnosis& d) {
 std::string GroupText(const Diagnosis& d, const CauseReport& c, std::size_t most) {
   const std::vector<int>& group = d.naming.GroupOf(c.candidate);
   if (group.size() < 2) return CauseText(c.cause);
-  const std::vector<std::string> names = NamesOf(d, group);
+  const std::vector<std::string> names = CauseTexts(d, group);
   return group.size() == 2 && most > 1 ? names[0] + " or " + names[1]
                                        : "one of " + FirstOf(names, most);
 }

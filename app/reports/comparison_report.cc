@@ -93,7 +93,7 @@ std::vector<std::string> ErrorLines(const Json& record) {
 }
 
 // "eta 0.046, 96 % of the misfit, probability 0.89".
-std::string CauseText(const Json& own) {
+std::string NamedCauseText(const Json& own) {
   if (own["found"] != Json(true))
     return own["looked_for"] == Json(true) ? "not found" : "not looked for";
   std::vector<std::string> parts;
@@ -160,7 +160,7 @@ std::string ComparisonReport(const Json& record, bool colours) {
   };
   part(ValueLines(record));
   part(ErrorLines(record));
-  part(NamedLines("causes", record["causes"], "name", "runs", CauseText));
+  part(NamedLines("causes", record["causes"], "name", "runs", NamedCauseText));
   part(NamedLines("set otherwise", record["changed"], "key", "values", SettingText));
   return text + "\n";
 }

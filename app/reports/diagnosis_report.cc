@@ -23,7 +23,7 @@ using enum TextTable::Align;
 constexpr std::size_t kMostPlaces = 4, kMostHops = 4;
 constexpr double kSmallShare = 0.05;
 
-std::string Headline(const Diagnosis& d) {
+std::string DiagnosisSentence(const Diagnosis& d) {
   long train = 0, test = 0, samples = 0;
   for (const TrialProblem& t : d.problem.trials) {
     ++(t.role == TrialRole::kTrain ? train : test);
@@ -211,7 +211,7 @@ std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, boo
   const Diagnosis& d = run.diagnosis;
   std::string text = Styled(Printable(dataset.name, 100), Emphasis::kBold, colours);
   if (!dataset.title.empty()) text += "  " + Printable(dataset.title, 100);
-  text += "\n" + Headline(d);
+  text += "\n" + DiagnosisSentence(d);
   if (const std::string failure = run.Failure(); !failure.empty())
     return text + NoVerdict(d, failure, colours);
 

@@ -12,10 +12,10 @@ struct EffectAdvice {
   std::string check;  // a sentence: what on the rig shows it, or removes it
   /// Effects that moved the data alike, "a, b", nearest first: of four hops of six trials under the
   /// speed controller, law large_deflection, fitted values and starts projected out, the columns of
-  /// two of their parameters had a cosine beyond kAlike. Other trials may tell them apart.
+  /// two of their parameters had a cosine beyond kAlikeCosine. Other trials may tell them apart.
   std::string look_alikes;
 };
-inline constexpr double kAlike = 0.93;
+inline constexpr double kAlikeCosine = 0.93;
 
 /// Null for an effect nobody has written about.
 const EffectAdvice* AdviceOn(std::string_view effect);

@@ -30,7 +30,7 @@ std::string IntervalText(const std::optional<Interval>& interval, double factor,
          Fixed(interval->high * factor, decimals);
 }
 
-std::string Headline(const FitRun& run) {
+std::string FitSentence(const FitRun& run) {
   long train = 0, test = 0, samples = 0;
   for (const TrialProblem& t : run.problem.trials) {
     ++(t.role == TrialRole::kTrain ? train : test);
@@ -98,7 +98,7 @@ std::string ErrorLine(const FitRun& run, const RoleErrors& errors) {
 std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
   std::string text = Styled(Printable(dataset.name, 100), Emphasis::kBold, colours);
   if (!dataset.title.empty()) text += "  " + Printable(dataset.title, 100);
-  text += "\n" + Headline(run) + "\n";
+  text += "\n" + FitSentence(run) + "\n";
   if (!run.has_result) return text + Labelled("no result", run.Failure(), colours);
   if (!run.faults.empty()) {
     text += "\n";

@@ -86,8 +86,9 @@ void AddShift(const std::string& text, TraceOptions* options) {
   if (!value || !std::isfinite(*value))
     throw UsageError("--shift: " + Printable(text) + "; must be CHANNEL=NUMBER:UNIT, as y=-35:mm");
   const Dimension dimension = TargetDimension(channel);
-  const std::optional<Unit> unit = colon < amount.size() ? FindUnit(amount.substr(colon + 1))
-                                                         : FindUnit(UnitNames(dimension).front());
+  const std::optional<LogUnit> unit = colon < amount.size()
+                                          ? FindUnit(amount.substr(colon + 1))
+                                          : FindUnit(UnitNames(dimension).front());
   if (!unit || unit->dimension != dimension)
     throw InputError({"--shift", Printable(text),
                       TargetName(channel) + " is " + DimensionName(dimension),

@@ -128,10 +128,10 @@ void FindUnitOf(const Table& table, const std::string& said, ColumnMap* map, Map
   if (stated.empty() && general != table.units.end()) stated = general->second;
   mapped->unit = {UnitNames(wanted).front(), wanted, 0, 1};  // for messages
   if (!said.empty()) {
-    const std::optional<Unit> unit = FindUnit(said);
+    const std::optional<LogUnit> unit = FindUnit(said);
     if (!unit || unit->dimension != wanted)
       FailUnit(table, *mapped, said, target + " is " + DimensionName(wanted));
-    const std::optional<Unit> in_file = FindUnit(stated);
+    const std::optional<LogUnit> in_file = FindUnit(stated);
     if (!stated.empty() && (!in_file || in_file->name != unit->name))
       map->warnings.push_back(table.file + ": " + table.columns[mapped->column].name + " is in " +
                               stated + " by the file and in " + unit->name +
@@ -140,7 +140,7 @@ void FindUnitOf(const Table& table, const std::string& said, ColumnMap* map, Map
     return;
   }
   if (!stated.empty()) {
-    const std::optional<Unit> unit = FindUnit(stated);
+    const std::optional<LogUnit> unit = FindUnit(stated);
     if (!unit) FailUnit(table, *mapped, stated, "is no unit that is known");
     if (unit->dimension != wanted)
       FailUnit(table, *mapped, stated, target + " is " + DimensionName(wanted));

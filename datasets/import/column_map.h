@@ -33,7 +33,7 @@ struct MappedColumn {
   std::optional<Channel> channel;  // absent: time
   std::size_t column = 0;          // of the table
   bool negate = false;
-  Unit unit;
+  LogUnit unit;
   bool guessed = false;  // the column or its unit is neither in the file nor said by the user
   std::string why;       // "falls at 9.79 m/s^2"
 };

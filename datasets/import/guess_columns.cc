@@ -26,7 +26,7 @@ std::vector<double> Numbers(const Table& table, std::size_t column) {
   return values;
 }
 
-double Factor(const Unit& unit) { return unit.factor * std::pow(10.0, unit.power_of_ten); }
+double Factor(const LogUnit& unit) { return unit.factor * std::pow(10.0, unit.power_of_ten); }
 
 std::string Rounded(double value) {
   char text[32];
@@ -94,7 +94,7 @@ std::string ThingOf(const std::string& lower_stem) {
 
 struct Height {
   std::size_t column = 0;
-  Unit unit;
+  LogUnit unit;
   bool negate = false;
   double fall = 0;
 };
@@ -127,11 +127,11 @@ class ChannelGuesser {
 
   // The unit by the file itself, of a column or of its kind; nothing if it is silent or of another
   // kind.
-  std::optional<Unit> StatedUnit(std::size_t column, Dimension dimension) const {
+  std::optional<LogUnit> StatedUnit(std::size_t column, Dimension dimension) const {
     std::string text = table_.columns[column].unit;
     const auto general = table_.units.find(dimension);
     if (text.empty() && general != table_.units.end()) text = general->second;
-    const std::optional<Unit> unit = FindUnit(text);
+    const std::optional<LogUnit> unit = FindUnit(text);
     return unit && unit->dimension == dimension ? unit : std::nullopt;
   }
 
@@ -178,13 +178,13 @@ class ChannelGuesser {
   void GuessHeight() {
     for (const std::size_t i : Positions()) {
       const double per_unit = Fall(table_, i, times_);
-      std::vector<Unit> units;
+      std::vector<LogUnit> units;
       if (const auto stated = StatedUnit(i, Dimension::kLength)) {
         units = {*stated};
       } else {
         for (const char* name : {"m", "mm", "cm"}) units.push_back(*FindUnit(name));
       }
-      for (const Unit& unit : units) {
+      for (const LogUnit& unit : units) {
         // ApparentGravity looks for what falls; upside down it would rise.
         const double fall = per_unit * Factor(unit);
         const double rise = FallUpsideDown(i) * Factor(unit);
@@ -315,7 +315,7 @@ std::optional<GuessedUnit> GuessUnit(const Table& table, const ColumnMap& map,
   if (mapped.channel == Channel::kBodyY) {
     const double per_unit = Fall(table, mapped.column, Times(table, map));
     for (const char* name : {"m", "mm", "cm"}) {
-      const Unit unit = *FindUnit(name);
+      const LogUnit unit = *FindUnit(name);
       const double fall = per_unit * Factor(unit);
       if (IsGravity(fall))
         return GuessedUnit{

@@ -21,7 +21,7 @@ MappedColumn GuessTime(const Table& table);
 std::vector<MappedColumn> GuessChannels(const Table& table, const ColumnMap& map);
 
 struct GuessedUnit {
-  Unit unit;
+  LogUnit unit;
   std::string why;
 };
 

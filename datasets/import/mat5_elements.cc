@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "base/input_error.h"
+#include "datasets/import/limits.h"
 
 namespace hoplab {
 namespace {
@@ -46,8 +47,6 @@ enum Class : std::uint32_t {
   kOpaqueClass = 17,
 };
 
-constexpr int kDeepest = 24;
-constexpr std::size_t kMostValues = 2'000'000;
 constexpr std::size_t kTag = 8;
 constexpr std::size_t kMostInflated = 1ull << 30;
 constexpr std::uint32_t kComplexFlag = 0x800;
@@ -189,9 +188,9 @@ std::string Mat5Elements::Inflated(const Element& packed) {
 
 Mat5Variable Mat5Elements::Matrix(const Element& element, int depth, bool numbers) {
   Mat5Variable variable;
-  if (++values_ > kMostValues) Damaged(element.at, "holds more than 2e6 values");
+  if (++values_ > kMostObjectValues) Damaged(element.at, "holds more than 2e6 values");
   if (element.data.empty()) return variable;  // how an empty cell is written
-  if (depth > kDeepest) Damaged(element.at, "is nested more than 24 levels deep");
+  if (depth > kDeepestValue) Damaged(element.at, "is nested more than 24 levels deep");
   Span span{element.data, 0};
   const Element flags = Next(&span, kUint32);
   if (flags.data.size() != 8) Damaged(element.at, "its flags are no 8 bytes");

@@ -10,13 +10,13 @@
 
 #include "base/input_error.h"
 #include "datasets/import/hdf5_handle.h"
+#include "datasets/import/limits.h"
 #include "datasets/import/mat_objects.h"
 
 namespace hoplab {
 namespace {
 
-constexpr int kDeepest = 24, kDeepestStruct = 4;
-constexpr std::size_t kMostValues = 2'000'000, kMostStored = 1ull << 27;
+constexpr std::size_t kMostStored = 1ull << 27;
 constexpr std::array<const char*, 10> kClasses = {"double", "single", "int8",   "uint8", "int16",
                                                   "uint16", "int32",  "uint32", "int64", "uint64"};
 
@@ -92,8 +92,8 @@ class Mat73Reader {
   }
 
   MatValue Value(hid_t object, const std::string& path, int depth) {
-    if (++values_ > kMostValues) Damaged(path, "holds more than 2e6 values");
-    if (depth > kDeepest) Damaged(path, "is nested more than 24 levels deep");
+    if (++values_ > kMostObjectValues) Damaged(path, "holds more than 2e6 values");
+    if (depth > kDeepestValue) Damaged(path, "is nested more than 24 levels deep");
     if (H5Iget_type(object) == H5I_GROUP) return Struct(object, path, depth);
     MatValue value;
     if (H5Iget_type(object) != H5I_DATASET) return value;

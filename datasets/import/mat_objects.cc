@@ -15,6 +15,7 @@
 #include <cstring>
 
 #include "base/input_error.h"
+#include "datasets/import/limits.h"
 #include "datasets/import/mat5_elements.h"
 
 namespace hoplab {
@@ -25,7 +26,6 @@ constexpr std::uint32_t kOldest = 2, kNewest = 4;
 constexpr std::size_t kNamesBegin = 40, kRegionsBegin = 8;
 constexpr std::size_t kPerClass = 4, kPerObject = 6, kPerProperty = 3;
 constexpr std::size_t kFirstCell = 2;
-constexpr int kDeepestStruct = 4;
 constexpr std::size_t kHeader = 128, kOffsetAt = 116;
 
 const std::vector<std::uint32_t>* WordsOf(const MatValue& value) {

@@ -8,12 +8,11 @@
 #include <cmath>
 
 #include "base/input_error.h"
+#include "datasets/import/limits.h"
 #include "datasets/import/number_block.h"
 
 namespace hoplab {
 namespace {
-
-constexpr std::size_t kWidestMatrix = 256;
 
 // Where a table keeps what, in either form.
 struct Parts {

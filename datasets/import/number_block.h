@@ -13,9 +13,6 @@
 
 namespace hoplab {
 
-/// More numbers than any log of hops has; more of them would only fill the memory.
-inline constexpr std::size_t kMostNumbers = 20'000'000;
-
 /// The shortest text that gives the number back; empty for NaN.
 template <class Number>
 std::string NumberText(Number value) {

@@ -7,6 +7,7 @@
 
 #include "base/input_error.h"
 #include "datasets/import/hdf5_handle.h"
+#include "datasets/import/limits.h"
 #include "datasets/import/number_block.h"
 #include "datasets/import/table.h"
 #include "datasets/text_file.h"
@@ -15,9 +16,6 @@ namespace hoplab {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kWidestMatrix = 256;
-constexpr std::uint64_t kMostBytes = 1ull << 30;
 
 // What the attribute `units` or `unit` of a dataset says; empty if it has none.
 std::string UnitAttribute(hid_t dataset) {

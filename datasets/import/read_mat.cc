@@ -15,6 +15,7 @@
 
 #include "base/input_error.h"
 #include "base/text.h"
+#include "datasets/import/limits.h"
 #include "datasets/import/mat_tables.h"
 #include "datasets/import/number_block.h"
 #include "datasets/import/table.h"
@@ -24,10 +25,6 @@ namespace hoplab {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kDeepestStruct = 4;
-constexpr std::size_t kWidestMatrix = 256;
-constexpr std::uint64_t kMostBytes = 1ull << 30;
 
 struct CloseMat {
   void operator()(mat_t* file) const { Mat_Close(file); }

@@ -58,7 +58,7 @@ class MotiveReader {
     for (std::size_t i = 0; i + 1 < pairs.size(); i += 2)
       settings_[std::string(pairs[i])] = pairs[i + 1];
     const std::string_view units = settings_["Length Units"];
-    const std::optional<Unit> unit = FindUnit(units);
+    const std::optional<LogUnit> unit = FindUnit(units);
     if (!unit || unit->dimension != Dimension::kLength)
       Fail(0, "Length Units = " + Printable(units), "is no unit of length",
            "Export again with Meters, Centimeters or Millimeters.");

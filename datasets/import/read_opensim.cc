@@ -91,7 +91,7 @@ class TrcReader : OpenSimReader {
       if (settings_[key].empty())
         Fail(2, key, "is missing in lines 2 and 3", "Export the markers again as TRC.");
     const std::string units(settings_["Units"]);
-    const std::optional<Unit> unit = FindUnit(units);
+    const std::optional<LogUnit> unit = FindUnit(units);
     if (!unit || unit->dimension != Dimension::kLength)
       Fail(2, "Units = " + Printable(units), "is no unit of length",
            "Known: " + Join(UnitNames(Dimension::kLength)) + ".");

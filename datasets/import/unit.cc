@@ -64,7 +64,9 @@ bool SameLetters(std::string_view a, std::string_view b) {
   return a.size() == b.size() && EditDistance(a, b) == 0;
 }
 
-Unit ToUnit(const UnitRow& row) { return {row.name, row.dimension, row.power_of_ten, row.factor}; }
+LogUnit ToUnit(const UnitRow& row) {
+  return {row.name, row.dimension, row.power_of_ten, row.factor};
+}
 
 // The unit at the end of "body_y_m" or "pitch deg"; a single word that is a unit is a name.
 ColumnTitle SplitAtWord(std::string_view title) {
@@ -93,11 +95,11 @@ const char* DimensionName(Dimension dimension) {
 }
 
 Dimension DimensionOf(Channel channel) {
-  const std::optional<Unit> unit = FindUnit(ChannelUnit(channel));
+  const std::optional<LogUnit> unit = FindUnit(ChannelUnit(channel));
   return unit ? unit->dimension : Dimension::kNone;
 }
 
-std::optional<Unit> FindUnit(std::string_view text) {
+std::optional<LogUnit> FindUnit(std::string_view text) {
   text = Trim(text);
   for (const UnitRow& row : Rows()) {
     const bool alias = std::find(row.aliases.begin(), row.aliases.end(), text) != row.aliases.end();
@@ -124,7 +126,7 @@ std::vector<std::string> UnitNames(Dimension dimension) {
   return names;
 }
 
-std::string ToSi(std::string_view number, const Unit& unit) {
+std::string ToSi(std::string_view number, const LogUnit& unit) {
   if (unit.factor == 1) return ShiftDecimal(number, unit.power_of_ten);
   return FormatDouble(ParseDouble(number).value_or(0) * unit.factor);
 }

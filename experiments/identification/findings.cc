@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/nan.h"
 #include "experiments/identification/study_residuals.h"
 
 namespace hoplab {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 void FindSpread(IdentificationResult& result) {
   constexpr double kAsGood = 2.0;

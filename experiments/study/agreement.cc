@@ -4,16 +4,15 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/statistics/bivariate_statistics.hpp>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "base/check.h"
+#include "base/nan.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kFewestPairs = 3;
 
 using Columns = std::pair<std::vector<double>, std::vector<double>>;
@@ -71,7 +70,7 @@ double Sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; }
 
 Agreement AgreementOf(std::span<const double> published, std::span<const double> ours) {
   const auto [p, o] = CompletePairs(published, ours);
-  Agreement agreement{static_cast<int>(p.size()), kMissing, kMissing, kMissing};
+  Agreement agreement{static_cast<int>(p.size()), kNaN, kNaN, kNaN};
   if (p.empty()) return agreement;
   const auto n = static_cast<double>(p.size());
   double square = 0.0;
@@ -88,13 +87,13 @@ Agreement AgreementOf(std::span<const double> published, std::span<const double>
 
 double RankCorrelation(std::span<const double> a, std::span<const double> b) {
   const auto [x, y] = CompletePairs(a, b);
-  if (x.size() < kFewestPairs || IsConstant(x) || IsConstant(y)) return kMissing;
+  if (x.size() < kFewestPairs || IsConstant(x) || IsConstant(y)) return kNaN;
   return boost::math::statistics::correlation_coefficient(MeanRanks(x), MeanRanks(y));
 }
 
 Trend TrendOf(std::span<const double> a, std::span<const double> b) {
   const auto [x, y] = CompletePairs(a, b);
-  if (x.size() < kFewestPairs || IsConstant(x)) return {kMissing, kMissing};
+  if (x.size() < kFewestPairs || IsConstant(x)) return {kNaN, kNaN};
   if (IsConstant(y)) return {0.0, 1.0};
   double s = 0.0;  // concordant less discordant pairs
   for (std::size_t i = 0; i < x.size(); ++i) {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/nan.h"
 #include "experiments/study/agreement.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 // What the study's adjectives are taken to mean.
 constexpr double kStandstill = 0.1;     // m/s: "nearly vertical"
 constexpr int kSeveral = 3;             // hops
@@ -25,7 +25,7 @@ using Column = double ApexPoint::*;
 double Number(bool value) { return value ? 1.0 : 0.0; }
 
 double NextApexHeight(const HoppingRun& run) {
-  return run.apexes.size() > 1 ? run.apexes[1].height_m : kMissing;
+  return run.apexes.size() > 1 ? run.apexes[1].height_m : kNaN;
 }
 
 // The first stance's samples.
@@ -51,7 +51,7 @@ bool FallsThenRises(const std::vector<HoppingSample>& stance) {
 // How much stiffer the leg is at its last sample than at its softest one after its stiffest, over
 // the latter; NaN without a stance.
 double RiseBeforeLiftoff(const std::vector<HoppingSample>& stance) {
-  if (stance.empty()) return kMissing;
+  if (stance.empty()) return kNaN;
   const auto softer = [](const HoppingSample& a, const HoppingSample& b) {
     return a.stiffness_N_per_m < b.stiffness_N_per_m;
   };
@@ -68,14 +68,14 @@ bool Strictly(const std::vector<ApexPoint>& apexes, Column column, double sign) 
 }
 
 double GainPerHop(const HoppingRun& run) {
-  if (run.apexes.size() < 2) return kMissing;
+  if (run.apexes.size() < 2) return kNaN;
   return (run.apexes.back().speed_m_per_s - run.apexes.front().speed_m_per_s) /
          static_cast<double>(run.apexes.size() - 1);
 }
 
 // Mean of the last five apexes; NaN for fewer.
 double LastMean(const HoppingRun& run, Column column) {
-  if (run.apexes.size() < kSteadyApexes + 1) return kMissing;
+  if (run.apexes.size() < kSteadyApexes + 1) return kNaN;
   double sum = 0.0;
   for (std::size_t i = run.apexes.size() - kSteadyApexes; i < run.apexes.size(); ++i)
     sum += run.apexes[i].*column;
@@ -85,7 +85,7 @@ double LastMean(const HoppingRun& run, Column column) {
 // Largest deviation of the last five from their mean, over the mean.
 double LastSpread(const HoppingRun& run, Column column) {
   const double mean = LastMean(run, column);
-  if (std::isnan(mean)) return kMissing;
+  if (std::isnan(mean)) return kNaN;
   double spread = 0.0;
   for (std::size_t i = run.apexes.size() - kSteadyApexes; i < run.apexes.size(); ++i)
     spread = std::max(spread, std::abs(run.apexes[i].*column / mean - 1.0));
@@ -294,8 +294,8 @@ std::vector<StudyCheck> JudgeEnergyGain(const std::vector<double>& percent) {
   for (std::size_t i = 1; i < percent.size(); ++i)
     shrinks = shrinks && percent[i] < percent[i - 1] - kPrintedStep;
   const std::vector<StudyNumber> ends = {
-      {"smallest_angle", percent.empty() ? kMissing : percent.front(), "%"},
-      {"largest_angle", percent.empty() ? kMissing : percent.back(), "%"}};
+      {"smallest_angle", percent.empty() ? kNaN : percent.front(), "%"},
+      {"largest_angle", percent.empty() ? kNaN : percent.back(), "%"}};
   return {{"without damping every jump gains energy", !percent.empty() && gains, ends},
           {"the gain shrinks with the touch-down angle, step by step", shrinks, ends}};
 }

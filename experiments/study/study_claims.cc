@@ -14,7 +14,7 @@
 namespace hoplab {
 namespace {
 
-constexpr double kStanceStep = 1e-4;  // s: first and last sample of a stance stand for its ends
+constexpr double kStanceEndStep = 1e-4;  // s: first and last sample of a stance stand for its ends
 constexpr double kAngles[] = {25.0, 30.0, 35.0, 40.0, 45.0};  // deg, of table 6.5
 constexpr double kFromRestAngle = 15.0;                       // deg, of claim (b)
 constexpr double kAside = 5.0;       // deg: its smaller and its larger angle
@@ -28,7 +28,7 @@ HoppingRun Run(const Study& study, const CaptionSettings& settings, double step 
 
 Checks JudgeA(const Study& study) {
   const auto jump = [&](bool rolling, double d) {
-    return Run(study, StudyCaptions::SingleJump(rolling, d), kStanceStep);
+    return Run(study, StudyCaptions::SingleJump(rolling, d), kStanceEndStep);
   };
   return JudgeSingleJumps({jump(false, 0), jump(false, 3), jump(true, 0), jump(true, 3)});
 }
@@ -200,14 +200,14 @@ void AddCauses(const Study& study, StudyClaim& claim) {
       worst_consistent, worst_error, rolling, tip, gain, read);
 }
 
-struct ClaimPlan {
+struct StudyClaimPlan {
   const char* name;
   const char* statement;
   Checks (*judge)(const Study&);
   void (*add)(const Study&, StudyClaim&) = nullptr;  // more alternatives, what explains it
 };
 
-const ClaimPlan kPlans[] = {
+const StudyClaimPlan kClaimPlans[] = {
     {"claim-a",
      "Single jump: a lower apex with damping, a leg that shortens and lengthens again and leaves "
      "the ground longer and softer than it came; upright, it stiffens again before lift-off",
@@ -240,14 +240,14 @@ const ClaimPlan kPlans[] = {
 
 std::vector<std::string> StudyClaimNames() {
   std::vector<std::string> names;
-  for (const ClaimPlan& plan : kPlans) names.emplace_back(plan.name);
+  for (const StudyClaimPlan& plan : kClaimPlans) names.emplace_back(plan.name);
   return names;
 }
 
 StudyClaim RunStudyClaim(const std::string& name, const Study& study) {
-  const auto plan = std::find_if(std::begin(kPlans), std::end(kPlans),
-                                 [&](const ClaimPlan& p) { return name == p.name; });
-  HOPLAB_CHECK(plan != std::end(kPlans));
+  const auto plan = std::find_if(std::begin(kClaimPlans), std::end(kClaimPlans),
+                                 [&](const StudyClaimPlan& p) { return name == p.name; });
+  HOPLAB_CHECK(plan != std::end(kClaimPlans));
   StudyClaim claim;
   claim.name = name;
   claim.statement = plan->statement;

@@ -11,9 +11,9 @@
 namespace hoplab {
 namespace {
 
-constexpr double kJumpStep = 5e-4;     // s: a single jump takes half a second
-constexpr double kHoppingStep = 4e-3;  // s: fifteen seconds
-constexpr double kStanceStep = 1e-3;   // s, for means over stances
+constexpr double kJumpStep = 5e-4;        // s: a single jump takes half a second
+constexpr double kHoppingStep = 4e-3;     // s: fifteen seconds
+constexpr double kStanceMeanStep = 1e-3;  // s, for means over stances
 
 // What is plotted: a column of the data and how it is read off a sample.
 struct Quantity {
@@ -40,7 +40,7 @@ enum class CurveSet {
   kStraightLeg
 };
 
-struct FigurePlan {
+struct StudyFigurePlan {
   const char* number;
   const Quantity* across;
   const Quantity* up;
@@ -48,7 +48,7 @@ struct FigurePlan {
   double damping;  // N s/m; of a set with both, not used
 };
 
-const FigurePlan kPlans[] = {
+const StudyFigurePlan kFigurePlans[] = {
     // Nothing is stated for 4.5 and 4.6; they settle, as the straight leg of 6.32 to 6.34 does.
     {"4.5", &kTime, &kHeight, CurveSet::kStraightLeg, 3},
     {"4.6", &kTime, &kSpeed, CurveSet::kStraightLeg, 3},
@@ -83,7 +83,9 @@ const FigurePlan kPlans[] = {
     {"6.33", &kTime, &kHeight, CurveSet::kBothLegs, 3},
     {"6.34", &kTime, &kEnergy, CurveSet::kBothLegs, 3}};
 
-std::string NameOfFigure(const FigurePlan& plan) { return std::string("figure-") + plan.number; }
+std::string NameOfFigure(const StudyFigurePlan& plan) {
+  return std::string("figure-") + plan.number;
+}
 
 const char* DampingText(double damping) { return damping == 0.0 ? "d = 0" : "d = 3 N s/m"; }
 
@@ -92,7 +94,7 @@ struct LabelledRun {
   CaptionSettings settings;
 };
 
-std::vector<LabelledRun> RunsOf(const FigurePlan& plan, const Study& study) {
+std::vector<LabelledRun> RunsOf(const StudyFigurePlan& plan, const Study& study) {
   const double d = plan.damping;
   const std::string damping = DampingText(d);
   switch (plan.curves) {
@@ -171,7 +173,8 @@ CaptionSettings StudyCaptions::Controlled(double damping) {
 
 CaptionSettings StudyCaptions::Straight(const Study& study, double damping) {
   CaptionSettings settings = Controlled(damping);
-  const StraightSpringLeg leg = MeanLeg(RunHopping(HopperOfCaption(study, settings), kStanceStep));
+  const StraightSpringLeg leg =
+      MeanLeg(RunHopping(HopperOfCaption(study, settings), kStanceMeanStep));
   if (std::isnan(leg.rest_length_m))
     throw InputError(
         {study.constants.origin.place, "",
@@ -183,14 +186,14 @@ CaptionSettings StudyCaptions::Straight(const Study& study, double damping) {
 
 std::vector<std::string> StudyFigureNames() {
   std::vector<std::string> names;
-  for (const FigurePlan& plan : kPlans) names.push_back(NameOfFigure(plan));
+  for (const StudyFigurePlan& plan : kFigurePlans) names.push_back(NameOfFigure(plan));
   return names;
 }
 
 StudyFigure RunStudyFigure(const std::string& name, const Study& study) {
-  const auto plan = std::find_if(std::begin(kPlans), std::end(kPlans),
-                                 [&](const FigurePlan& p) { return NameOfFigure(p) == name; });
-  HOPLAB_CHECK(plan != std::end(kPlans));
+  const auto plan = std::find_if(std::begin(kFigurePlans), std::end(kFigurePlans),
+                                 [&](const StudyFigurePlan& p) { return NameOfFigure(p) == name; });
+  HOPLAB_CHECK(plan != std::end(kFigurePlans));
   StudyFigure figure;
   figure.name = name;
   figure.title = plan->up->column.label + ": " + SubjectOf(plan->curves);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/check.h"
+#include "base/nan.h"
 #include "base/parallel.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/score.h"
@@ -14,7 +15,6 @@
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // What the search sees of a design that cannot be simulated: worse than any that can, whose
 // logarithm is that of an entropy (at most that of the rivals' number) or of a share.
 constexpr double kWorthless = 10.0;
@@ -100,7 +100,7 @@ class Search {
     int asked = 0;
     for (const std::size_t i : order) {
       if (static_cast<int>(distinct.size()) == count || !tried[i].failure.empty()) break;
-      const auto differs = [&](const DesignTried& d) { return Apart(d, tried[i]) >= kAlike; };
+      const auto differs = [&](const DesignTried& d) { return Apart(d, tried[i]) >= kAlikePlans; };
       if (!std::all_of(distinct.begin(), distinct.end(), differs)) continue;
       if (!sturdy) {
         distinct.push_back(tried[i]);

@@ -69,7 +69,7 @@ struct DesignSearchResult {
 /// no design to tell.
 inline constexpr double kSettingError = 0.02;
 /// Designs that differ by less than this share of every range count as one.
-inline constexpr double kAlike = 0.15;
+inline constexpr double kAlikePlans = 0.15;
 
 /// Looks for the trial that leaves the least entropy of `weights` over the rivals (at least two): a
 /// global search by the linear forecast, then a local one, then refits for the most promising,

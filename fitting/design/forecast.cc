@@ -6,19 +6,19 @@
 #include <limits>
 #include <numbers>
 
+#include "base/nan.h"
 #include "base/parallel.h"
 #include "fitting/eliminated_trial.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kRefitIterations = 40;
 constexpr double kNormal975 = 1.959963984540054;
 // Singular values below this share of the largest are rounding, as in AssessUncertainty.
-constexpr double kRankTolerance = 1e-8;
+constexpr double kSeenRankTolerance = 1e-8;
 // More nats than that are as good as certain, and beyond what a linear model can know.
-constexpr double kMostNats = 1000.0;
+constexpr double kMostNatsApart = 1000.0;
 
 std::vector<int> FreePlaces(const FittedModel& model) {
   std::vector<int> free;
@@ -237,8 +237,8 @@ double LogExpectedEntropy(std::span<const double> weights, const Eigen::MatrixXd
     if (!(weights[i] > 0.0)) continue;
     for (double z = -kEnd; z <= kEnd; z += kStep) {
       for (std::size_t j = 0; j < k; ++j) {
-        const double d =
-            std::min(nats(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), kMostNats);
+        const double d = std::min(nats(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)),
+                                  kMostNatsApart);
         log_weights[j] = std::log(std::max(weights[j], 1e-300)) -
                          (i == j ? 0.0 : d + std::sqrt(2.0 * std::max(d, 0.0)) * z);
       }
@@ -280,7 +280,7 @@ SharpeningForecast ForecastInterval(const FittedModel& model,
   double variance = 0.0;
   for (Eigen::Index j = 0; j < n; ++j) {
     const double along = svd.matrixV()(place, j);
-    const bool seen = j < sv.size() && sv[j] > kRankTolerance * sv[0] && sv[j] > 0.0;
+    const bool seen = j < sv.size() && sv[j] > kSeenRankTolerance * sv[0] && sv[j] > 0.0;
     if (!seen && along * along > 1e-10) return out;
     if (seen) variance += along * along / (sv[j] * sv[j]);
   }

@@ -6,18 +6,18 @@
 namespace hoplab {
 namespace {
 
-constexpr double kMostOthers = 2.0;  // no more causes were planted together
-constexpr double kMostNats = 50.0;   // a gap beyond is no surer
+constexpr double kMostOthers = 2.0;      // no more causes were planted together
+constexpr double kMostNatsOfGap = 50.0;  // a gap beyond is no surer
 // Sizes in the trials that spread by less than this share of their mean are alike, however many
 // rows tell them apart.
-constexpr double kAlike = 0.1;
+constexpr double kAlikeSizes = 0.1;
 constexpr double kLeastChance = 1e-10, kLeastShare = 1e-4;
 
 double Rarity(double p_value) { return -std::log10(std::max(p_value, kLeastChance)); }
 
 // 0: all trials say the same size; 1: they differ by more than a tenth of it.
 double Spread(const Heterogeneity& h) {
-  const double alike = kAlike * std::abs(h.mean);
+  const double alike = kAlikeSizes * std::abs(h.mean);
   return h.spread < alike ? h.spread / alike : 1.0;
 }
 
@@ -44,7 +44,7 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
   for (CauseReport& c : report.causes) {
     const std::size_t member = naming.MemberOf(c.candidate);
     NameFeatures& f = c.features = common;
-    f.gap = std::log1p(std::clamp(naming.gaps[member], 0.0, kMostNats));
+    f.gap = std::log1p(std::clamp(naming.gaps[member], 0.0, kMostNatsOfGap));
     f.decided = f.gain * f.gap;
     f.group = static_cast<double>(naming.groups[member].size() - 1);
     const auto first = sizes.begin() + static_cast<std::ptrdiff_t>(FirstValue(best, member));

@@ -3,17 +3,16 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
+#include "base/nan.h"
 #include "fitting/apex_segments.h"
 #include "fitting/trial_evaluator.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // The first flight is read up to this share of the time to its touch-down: models and data differ
 // about the rest.
 constexpr double kFlightShare = 0.8;

@@ -5,16 +5,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 
+#include "base/nan.h"
 #include "base/random.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kResamples = 200;
-constexpr double kRankTolerance = 1e-6;
+constexpr double kForceRankTolerance = 1e-6;
 // Subsets of terms whose BIC differs by less than rounding of their fits say the same.
 constexpr double kTie = 1e-4;
 constexpr std::array kTermNames = {"1", "s", "s^2", "s^3"};
@@ -43,7 +42,7 @@ Estimate EstimateGroup(const Linearisation& at, const ProbeGroup& group) {
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   Eigen::VectorXd inverse = svd.singularValues();
-  for (double& s : inverse) s = s > kRankTolerance * svd.singularValues()[0] ? 1.0 / s : 0.0;
+  for (double& s : inverse) s = s > kForceRankTolerance * svd.singularValues()[0] ? 1.0 / s : 0.0;
   const Eigen::MatrixXd half = svd.matrixV() * inverse.asDiagonal();
   out.size = -(half * (svd.matrixU().transpose() * at.r)).cwiseQuotient(scale);
   out.covariance = half * half.transpose();

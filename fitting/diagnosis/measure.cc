@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/nan.h"
 #include "base/random.h"
 #include "fitting/apex_segments.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kDraws = 2000;
 constexpr int kFewestBlocks = 4;
 constexpr int kFewestRows = 10;  // of a block

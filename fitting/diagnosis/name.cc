@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "base/nan.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/pairs.h"
 #include "fitting/diagnosis/pool.h"
@@ -16,7 +17,6 @@
 namespace hoplab {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Models settled at each step of the search.
 constexpr int kSingleWidth = 4, kForwardWidth = 3, kPairsSettled = 2;
 constexpr std::size_t kScoreWidth = 4;

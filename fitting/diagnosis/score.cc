@@ -6,15 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "base/nan.h"
 #include "base/random.h"
 
 namespace hoplab {
 namespace {
 
 constexpr int kDraws = 4000;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Singular values of a hypothesis' normalised columns below this are one column seen twice.
-constexpr double kRankTolerance = 1e-4;
+constexpr double kScoreRankTolerance = 1e-4;
 
 double NormalTail(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
 
@@ -53,7 +53,7 @@ Basis BasisOf(const Linearisation& at, const Hypothesis& h) {
     return out;
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
-  qr.setThreshold(kRankTolerance);
+  qr.setThreshold(kScoreRankTolerance);
   out.Q = qr.householderQ() * Eigen::MatrixXd::Identity(A.rows(), qr.rank());
   return out;
 }
@@ -121,7 +121,7 @@ Score ScoreOf(const Linearisation& at, const Hypothesis& h) {
   Eigen::VectorXd scale(h.count);
   for (int i = 0; i < h.count; ++i) scale[i] = A.col(i).norm() > 0.0 ? A.col(i).norm() : 1.0;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A * scale.cwiseInverse().asDiagonal());
-  qr.setThreshold(kRankTolerance);
+  qr.setThreshold(kScoreRankTolerance);
   out.size = -qr.solve(at.r).cwiseQuotient(scale);
   return out;
 }

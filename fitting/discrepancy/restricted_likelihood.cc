@@ -10,7 +10,7 @@ namespace hoplab {
 namespace {
 
 // A diagonal of R below this share of its column's length: a direction nothing sees.
-constexpr double kRankTolerance = 1e-10;
+constexpr double kColumnTolerance = 1e-10;
 
 bool OnBound(const SharedParameter& s, double value) {
   const double near = 1e-6 * s.scale;
@@ -23,7 +23,7 @@ double LogDiagonal(const Eigen::MatrixXd& R, Eigen::Index count, const Eigen::Ve
   double sum = 0.0;
   for (Eigen::Index k = 0; k < count; ++k) {
     const double d = std::abs(R(k, k));
-    if (d > kRankTolerance * length[k]) sum += std::log(d);
+    if (d > kColumnTolerance * length[k]) sum += std::log(d);
   }
   return sum;
 }

@@ -25,8 +25,8 @@ struct UnitNames : x3::symbols<Unit> {
   }
 } const kUnitNames;
 
-const x3::rule<struct ProductTag, Unit> kProduct = "product";
-const x3::rule<struct FactorTag, Unit> kFactor = "factor";
+const x3::rule<struct UnitProductTag, Unit> kUnitProduct = "product";
+const x3::rule<struct FactorTag, Unit> kUnitFactor = "factor";
 
 const auto kSet = [](auto& ctx) { x3::_val(ctx) = x3::_attr(ctx); };
 const auto kRaise = [](auto& ctx) { x3::_val(ctx) = x3::_val(ctx).ToThe(x3::_attr(ctx)); };
@@ -34,13 +34,13 @@ const auto kTimes = [](auto& ctx) { x3::_val(ctx) = x3::_val(ctx) * x3::_attr(ct
 const auto kOver = [](auto& ctx) { x3::_val(ctx) = x3::_val(ctx) / x3::_attr(ctx); };
 
 // A name ends where its letters do.
-const auto kFactor_def = ((x3::lexeme[kUnitNames >> !x3::alpha])[kSet] |
-                          ('(' >> kProduct >> ')')[kSet]) >>
-                         -('^' >> x3::double_[kRaise]);
-const auto kProduct_def = kFactor[kSet] >>
-                          *(('/' >> kFactor[kOver]) | (-x3::lit('*') >> kFactor[kTimes]));
+const auto kUnitFactor_def = ((x3::lexeme[kUnitNames >> !x3::alpha])[kSet] |
+                              ('(' >> kUnitProduct >> ')')[kSet]) >>
+                             -('^' >> x3::double_[kRaise]);
+const auto kUnitProduct_def = kUnitFactor[kSet] >> *(('/' >> kUnitFactor[kOver]) |
+                                                     (-x3::lit('*') >> kUnitFactor[kTimes]));
 
-BOOST_SPIRIT_DEFINE(kProduct, kFactor)
+BOOST_SPIRIT_DEFINE(kUnitProduct, kUnitFactor)
 
 // "m^2" of a base unit to a power.
 void Append(const char* name, double power, std::string& to) {
@@ -97,7 +97,7 @@ std::optional<Unit> ParseUnit(std::string_view text) {
   Unit unit;
   const char* first = text.data();
   const char* const last = first + text.size();
-  if (!x3::phrase_parse(first, last, kProduct, x3::blank, unit) || first != last)
+  if (!x3::phrase_parse(first, last, kUnitProduct, x3::blank, unit) || first != last)
     return std::nullopt;
   for (const double p : unit.power)
     if (!(std::abs(p) < 100.0)) return std::nullopt;

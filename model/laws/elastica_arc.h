@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/nan.h"
 #include "model/hybrid/discrete_state.h"
 #include "model/laws/elastica/energy.h"
 #include "model/laws/leg_load.h"
@@ -199,7 +200,6 @@ class ElasticaArc {
   static constexpr double kToeTolerance = kJetWidth<T> == 0 ? 1e-7 : 1e-13;
 
   static Equilibrium Lost() {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     Equilibrium e{};
     e.at.phi = e.f = e.inverse[0][0] = e.inverse[1][1] = kNaN;
     return e;

@@ -82,7 +82,7 @@ template <class T>
 ClampedPlace<T> Robot<T>::PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const {
   return {z[Contact(i)] - z[kX] - hip.x,
           z[kY] + hip.y,
-          robot_detail::kPi - hip.angle + 2.0 * robot_detail::kPi * leg.turns,
+          kPi - hip.angle + 2.0 * kPi * leg.turns,
           FootMoves(i) ? T(hip.vx - z[FootSpeed(i)]) : hip.vx,
           hip.vy,
           -hip.rate};
@@ -91,14 +91,14 @@ ClampedPlace<T> Robot<T>::PlaceAt(const Leg& leg, int i, const Hip& hip, const T
 // Whole turns that bring an angle into (-pi, pi].
 template <class T>
 int Robot<T>::TurnsOf(double angle) {
-  return static_cast<int>(std::ceil((angle - robot_detail::kPi) / (2.0 * robot_detail::kPi)));
+  return static_cast<int>(std::ceil((angle - kPi) / (2.0 * kPi)));
 }
 
 // M74: how far below its hip the unloaded leg reaches [m].
 template <class T>
 T Robot<T>::Reach(const T& angle) const {
   using std::cos;
-  const T b = angle - 2.0 * robot_detail::kPi * TurnsOf(Value(angle));
+  const T b = angle - 2.0 * kPi * TurnsOf(Value(angle));
   return Value(b) > 0.0 ? T(p_.r * (1.0 + cos(b))) : T(2.0 * p_.r * cos(b));
 }
 
@@ -179,7 +179,7 @@ Mode Robot<T>::Resume(std::span<const Foot> feet, const T* z) {
     leg.piece = leg.clock.PieceAt(0.0);
     const double angle = Value(z[Pitch()] - p_.slope + z[Angle(i)]);
     leg.turns = TurnsOf(angle);
-    const double tip = std::max(0.0, 2.0 * robot_detail::kPi * leg.turns - angle);
+    const double tip = std::max(0.0, 2.0 * kPi * leg.turns - angle);
     if (IsDown(leg)) leg.arc.StartAt(leg.stance == Stance::kToe ? tip : 0.0);
   }
   FindLimits(0.0, z);

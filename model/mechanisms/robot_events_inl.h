@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/units.h"
 #include "model/laws/leg_load.h"
 #include "model/mechanisms/robot.h"
 
@@ -12,7 +12,6 @@
 namespace hoplab {
 
 namespace robot_detail {
-inline constexpr double kPi = std::numbers::pi;
 // A leg that has rolled up to this arc has fallen [rad].
 inline constexpr double kLeastArc = 0.2;
 // A leg that begins deeper below the ground than this cannot stand on it [rest radii].
@@ -169,7 +168,7 @@ std::optional<Outcome> Robot<T>::Land(int i, const T& t, T* z, bool comes_down) 
   Leg& leg = leg_[i];
   const Hip hip = HipOf(frame, i, z);
   leg.turns = TurnsOf(Value(hip.angle));
-  const T angle = hip.angle - 2.0 * robot_detail::kPi * leg.turns;
+  const T angle = hip.angle - 2.0 * kPi * leg.turns;
   const bool rolling = Value(angle) > 0.0;
   const T lead = (rolling ? 1.0 : 2.0) * p_.r * sin(angle);
   z[Contact(i)] = z[kX] + hip.x + lead;

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/units.h"
 #include "model/jet.h"
 #include "model/laws/clamped/rule.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFirst = 0.2, kLast = 3.6;
 constexpr int kPieces = 256;
 constexpr double kWidth = (kLast - kFirst) / kPieces;

@@ -67,9 +67,9 @@ typename Robot<T>::LegInertia Robot<T>::StandingLeg(int i, const LegPlace& at) c
   const Leg& own = leg_[i];
   const T zero(0.0), &r = p_.r;
   const bool rolling = own.stance == Stance::kRolling;
-  const T angle = at.hip.angle - 2.0 * robot_detail::kPi * own.turns;
+  const T angle = at.hip.angle - 2.0 * kPi * own.turns;
   // On its toe the whole leg turns with its base.
-  const F shape = LegShapeAt(rolling ? robot_detail::kPi - Value(angle) : robot_detail::kPi);
+  const F shape = LegShapeAt(rolling ? kPi - Value(angle) : kPi);
   const T off = rolling ? T(Value(angle) - angle) : zero;  // of Psi
   const auto of = [&](int k) { return T(shape.value[k] + shape.slope[k] * off); };
   const auto by = [&](int k) { return T(-shape.slope[k] - shape.bend[k] * off); };
@@ -158,7 +158,7 @@ Vector2<T> Robot<T>::PressOf(int i, const LegPlace& at, const T* z) const {
   using std::cos;
   using std::sin;
   const Leg& leg = leg_[i];
-  const T angle = at.hip.angle - 2.0 * robot_detail::kPi * leg.turns;
+  const T angle = at.hip.angle - 2.0 * kPi * leg.turns;
   const T c = p_.r * cos(angle), s = p_.r * sin(angle);
   T lead = 2.0 * s, height = 2.0 * c;
   if (leg.stance == Stance::kRolling) {

@@ -14,7 +14,7 @@ namespace {
 
 using Words = std::set<std::string>;
 
-Words LinesOf(const std::string& text) {
+Words CompletionsOf(const std::string& text) {
   std::istringstream in(text);
   Words lines;
   for (std::string line; std::getline(in, line);) {
@@ -53,13 +53,13 @@ class CompletionCli : public ::testing::Test {
     script += ")\nCOMP_CWORD=" + std::to_string(words.size()) +
               "\n$(complete -p hoplab | sed 's/.*-F \\([^ ]*\\) .*/\\1/')\n"
               "printf '%s\\n' \"${COMPREPLY[@]}\"";
-    return LinesOf(RunShell("/bin/bash", script));
+    return CompletionsOf(RunShell("/bin/bash", script));
   }
 
   Words Fish(const std::string& line) const {
     Words words;
     for (const std::string& offered :
-         LinesOf(RunShell("/usr/bin/fish", "source ./fish; complete -C '" + line + "'")))
+         CompletionsOf(RunShell("/usr/bin/fish", "source ./fish; complete -C '" + line + "'")))
       words.insert(offered.substr(0, offered.find('\t')));
     return words;
   }

@@ -240,11 +240,6 @@ TEST_F(DiagnoseCli, TheEvidenceAddsUpToTheScore) {
   EXPECT_NEAR(sum / score, 1.0, 0.1);
 }
 
-std::string WithoutSeconds(const std::string& record) {
-  const std::size_t begin = record.find(" \"seconds\"");
-  return record.substr(0, begin) + record.substr(record.find('\n', begin));
-}
-
 TEST_F(DiagnoseCli, TheNumberOfThreadsChangesNothing) {
   GenerateWindy();
   std::vector<std::string> records;

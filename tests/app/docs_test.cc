@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ReadText;
 
-const fs::path kSource = HOPLAB_SOURCE_DIR;
+const fs::path kDocsSource = HOPLAB_SOURCE_DIR;
 const std::vector<std::string> kFolders = {"base",     "model",       "datasets", "fitting",
                                            "optimize", "experiments", "app",      "web",
                                            "tests",    "bench",       "docs"};
@@ -25,7 +25,7 @@ const std::vector<std::string> kFolders = {"base",     "model",       "datasets"
 std::vector<fs::path> FilesWith(const std::set<std::string>& extensions) {
   std::vector<fs::path> files;
   for (const std::string& folder : kFolders) {
-    for (const auto& entry : fs::recursive_directory_iterator(kSource / folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(kDocsSource / folder)) {
       if (entry.is_regular_file() && extensions.contains(entry.path().extension()))
         files.push_back(entry.path());
     }
@@ -44,7 +44,7 @@ std::set<std::string> Matches(const std::string& text, const std::regex& pattern
 // mass stand in a table.
 std::map<std::string, int> EquationsOfTheSheet() {
   std::map<std::string, int> defined;
-  std::istringstream sheet(ReadText(kSource / "model/README.md"));
+  std::istringstream sheet(ReadText(kDocsSource / "model/README.md"));
   const std::regex line_begin("^    (?:  )?(M[0-9]+[a-z]?) ");
   for (std::string line; std::getline(sheet, line);) {
     std::smatch found;
@@ -55,7 +55,7 @@ std::map<std::string, int> EquationsOfTheSheet() {
 
 TEST(Docs, EveryEquationTheCodeCitesStandsInTheSheetOnce) {
   const std::map<std::string, int> defined = EquationsOfTheSheet();
-  const std::string sheet = ReadText(kSource / "model/README.md");
+  const std::string sheet = ReadText(kDocsSource / "model/README.md");
   const std::set<std::string> in_tables =
       Matches(sheet, std::regex("\\| (?:[a-z -]+, )?(M4[3-6])[: ]"));
   for (const auto& [name, times] : defined) EXPECT_EQ(times, 1) << name << " means two things";
@@ -85,8 +85,8 @@ std::string ProseOf(const fs::path& page) {
 
 TEST(Docs, EveryRelativeLinkLeadsToAFile) {
   std::vector<fs::path> pages = FilesWith({".md"});
-  pages.push_back(kSource / "README.md");
-  pages.push_back(kSource / "CHANGELOG.md");
+  pages.push_back(kDocsSource / "README.md");
+  pages.push_back(kDocsSource / "CHANGELOG.md");
   int links = 0;
   for (const fs::path& page : pages) {
     for (const std::string& link :
@@ -99,12 +99,12 @@ TEST(Docs, EveryRelativeLinkLeadsToAFile) {
 }
 
 TEST(Docs, TheIndexLeadsToEveryPage) {
-  const std::string index = ReadText(kSource / "docs/README.md");
+  const std::string index = ReadText(kDocsSource / "docs/README.md");
   for (const fs::path& page : FilesWith({".md"})) {
-    const std::string name = fs::relative(page, kSource / "docs").string();
+    const std::string name = fs::relative(page, kDocsSource / "docs").string();
     const bool decision = name.starts_with("decisions/");
     if (page.parent_path().string().find("tests") != std::string::npos || name == "README.md" ||
-        decision || page.parent_path().parent_path() != kSource / "docs")
+        decision || page.parent_path().parent_path() != kDocsSource / "docs")
       continue;
     EXPECT_NE(index.find("(" + name + ")"), std::string::npos) << name;
   }
@@ -121,7 +121,7 @@ TEST(Docs, IncludesBetweenTheRoomsOfAppPointDown) {
   const std::regex include("#include \"app/([a-z_]+)/[a-z_/]+[.]h\"");
   int seen = 0;
   for (const std::string& room : rooms) {
-    for (const auto& entry : fs::directory_iterator(kSource / "app" / room)) {
+    for (const auto& entry : fs::directory_iterator(kDocsSource / "app" / room)) {
       if (!entry.is_regular_file()) continue;
       for (const std::string& other : Matches(ReadText(entry.path()), include)) {
         EXPECT_LE(height(other), height(room)) << entry.path() << " includes app/" << other;
@@ -130,7 +130,7 @@ TEST(Docs, IncludesBetweenTheRoomsOfAppPointDown) {
     }
   }
   EXPECT_GE(seen, 200);
-  for (const auto& entry : fs::directory_iterator(kSource / "app")) {
+  for (const auto& entry : fs::directory_iterator(kDocsSource / "app")) {
     if (!entry.is_directory()) continue;
     EXPECT_LT(height(entry.path().filename().string()), std::ssize(rooms)) << entry.path();
   }
@@ -138,7 +138,7 @@ TEST(Docs, IncludesBetweenTheRoomsOfAppPointDown) {
 
 TEST(Docs, TheCatalogueOfEffectsIsWhatTheCodeSays) {
   const std::span<const Effect* const> all = AllEffects();
-  EXPECT_EQ(ReadText(kSource / "docs/effects.md"), EffectCatalogue({all.begin(), all.end()}))
+  EXPECT_EQ(ReadText(kDocsSource / "docs/effects.md"), EffectCatalogue({all.begin(), all.end()}))
       << "hoplab effects --markdown > docs/effects.md";
 }
 

@@ -18,7 +18,7 @@ namespace hoplab {
 namespace {
 
 using testing::ReadText;
-const std::filesystem::path kSource = HOPLAB_SOURCE_DIR;
+const std::filesystem::path kTextsSource = HOPLAB_SOURCE_DIR;
 
 TEST(Explain, EveryLawEffectAndWordHasTwoParagraphs) {
   std::size_t effects = 0, laws = 0, words = 0;
@@ -121,7 +121,7 @@ TEST(Explain, AReportHasTheSameTextForItsWordsItsLawAndItsEffects) {
 TEST(Explain, EveryWordAReportsPageAsksForExists) {
   int asked = 0;
   const std::regex call("explained\\(([^)]*)\\)"), name("'([^']+)'");
-  for (const auto& entry : std::filesystem::directory_iterator(kSource / "web")) {
+  for (const auto& entry : std::filesystem::directory_iterator(kTextsSource / "web")) {
     if (entry.path().extension() != ".js") continue;
     const std::string text = ReadText(entry.path());
     for (std::sregex_iterator c(text.begin(), text.end(), call), end; c != end; ++c) {

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 #include "app/export/c_law.h"
 #include "base/input_error.h"
+#include "base/units.h"
 #include "model/mechanisms/leg.h"
 #include "tests/support/requests.h"
 #include "tests/support/run_process.h"
@@ -17,7 +17,6 @@ namespace {
 
 using namespace testing;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSame = 1e-12;
 
 // Reads states, writes what the file says of them.

@@ -157,11 +157,6 @@ TEST_F(FitCli, JsonIsAllThatStandsOnStandardOutput) {
   EXPECT_TRUE(nlohmann::json::accept(run.out));
 }
 
-std::string WithoutSeconds(const std::string& record) {
-  const std::size_t begin = record.find(" \"seconds\"");
-  return record.substr(0, begin) + record.substr(record.find('\n', begin));
-}
-
 TEST_F(FitCli, TheNumberOfThreadsChangesNothing) {
   std::vector<std::string> records;
   for (const char* jobs : {"1", "2"}) {

@@ -58,4 +58,10 @@ inline nlohmann::json ReadRecord(const std::filesystem::path& folder) {
   return nlohmann::json::parse(ReadText(folder / "run.json"));
 }
 
+/// A run.json without the line that tells how long the run took.
+inline std::string WithoutSeconds(const std::string& record) {
+  const std::size_t begin = record.find(" \"seconds\"");
+  return record.substr(0, begin) + record.substr(record.find('\n', begin));
+}
+
 }  // namespace hoplab::testing

@@ -33,7 +33,7 @@ TEST(LookAlikes, AreThoseWhoseColumnsNearlyCoincide) {
       const std::string &a = owner[static_cast<std::size_t>(i)],
                         &b = owner[static_cast<std::size_t>(j)];
       const double size = std::abs(cosines(i, j));
-      if (a != b && size > kAlike) alike[a][b] = std::max(alike[a][b], size);
+      if (a != b && size > kAlikeCosine) alike[a][b] = std::max(alike[a][b], size);
     }
   }
   for (const std::string& effect : std::set<std::string>(owner.begin(), owner.end())) {

@@ -1,15 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "app/terminal/quantity.h"
 #include "app/terminal/text_table.h"
 #include "app/terminal/warnings.h"
+#include "base/nan.h"
 
 namespace hoplab {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Quantity, LargeAndSmallValuesGetAPrefix) {
   EXPECT_EQ(ReadableUnitOf(22.98e9, "Pa").unit, "GPa");

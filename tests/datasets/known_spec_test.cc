@@ -16,7 +16,7 @@ using testing::ReadWithYaml;
 Dataset With(const std::string& known) {
   return ReadWithYaml("trials:\n", "known: " + known + "\ntrials:\n");
 }
-std::string ErrorWith(const std::string& known) {
+std::string KnownErrorWith(const std::string& known) {
   return ErrorWithYaml("trials:\n", "known: " + known + "\ntrials:\n");
 }
 
@@ -59,7 +59,7 @@ void PrintTo(const BadKnown& bad, std::ostream* out) { *out << bad.known; }
 class BadKnownTest : public ::testing::TestWithParam<BadKnown> {};
 
 TEST_P(BadKnownTest, IsToldWithPlaceValueRuleAndRemedy) {
-  EXPECT_EQ(ErrorWith(GetParam().known), GetParam().says);
+  EXPECT_EQ(KnownErrorWith(GetParam().known), GetParam().says);
 }
 
 INSTANTIATE_TEST_SUITE_P(

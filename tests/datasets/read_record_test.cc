@@ -16,7 +16,7 @@ using testing::InputErrorOf;
 using testing::Replace;
 
 // Two drops: down through 0.17 m (touch-down at 25 deg: 0.1716 m), up, down again.
-const char* const kHops =
+const char* const kRecordedHops =
     "time_s,body_y_m,leg_angle_rad,hip_torque_N_m,command\n"
     "0.0,0.30,0.50,0.1,1\n"
     "0.1,0.19,0.44,0.2,1\n"
@@ -24,7 +24,7 @@ const char* const kHops =
     "0.3,0.25,0.60,0.4,2\n"
     "0.4,0.18,0.40,0.5,3\n"
     "0.5,0.14,0.20,0.6,3\n";
-const char* const kYaml =
+const char* const kRecordYaml =
     "format: hoplab-dataset/1\n"  // 1
     "name: hops\n"                // 2
     "mechanism:\n"                // 3
@@ -39,22 +39,22 @@ const char* const kYaml =
     "    role: train\n"                       // 11
     "    touchdown_angle_deg: 25\n";          // 12
 
-Dataset Read(const std::string& yaml, const std::string& csv = kHops) {
+Dataset ReadRecord(const std::string& yaml, const std::string& csv = kRecordedHops) {
   return ReadDatasetText(yaml, {{"a.csv", csv}}, "hops");
 }
-// kYaml with one line changed.
-Dataset With(const std::string& from, const std::string& to) {
-  return Read(Replace(kYaml, from, to));
+// kRecordYaml with one line changed.
+Dataset RecordWith(const std::string& from, const std::string& to) {
+  return ReadRecord(Replace(kRecordYaml, from, to));
 }
-std::string ErrorWith(const std::string& from, const std::string& to,
-                      const std::string& csv = kHops) {
-  return InputErrorOf([&] { Read(Replace(kYaml, from, to), csv); });
+std::string RecordErrorWith(const std::string& from, const std::string& to,
+                            const std::string& csv = kRecordedHops) {
+  return InputErrorOf([&] { ReadRecord(Replace(kRecordYaml, from, to), csv); });
 }
-std::string ErrorOfAngle(const std::string& angle, const std::string& csv = kHops) {
-  return ErrorWith("touchdown_angle_deg: 25", "touchdown_angle_deg: " + angle, csv);
+std::string ErrorOfAngle(const std::string& angle, const std::string& csv = kRecordedHops) {
+  return RecordErrorWith("touchdown_angle_deg: 25", "touchdown_angle_deg: " + angle, csv);
 }
 std::string ErrorOfInputs(const std::string& inputs) {
-  return ErrorWith("trials:", "inputs: " + inputs + "\ntrials:");
+  return RecordErrorWith("trials:", "inputs: " + inputs + "\ntrials:");
 }
 void ExpectRoundTrip(const Dataset& dataset) {
   std::map<std::string, std::string> files = FormatDataset(dataset);
@@ -65,7 +65,7 @@ void ExpectRoundTrip(const Dataset& dataset) {
 // ---- angles
 
 TEST(TouchdownAngles, AreAListOnePerTouchdown) {
-  const Dataset dataset = With("deg: 25", "deg: [25, 22.5]");
+  const Dataset dataset = RecordWith("deg: 25", "deg: [25, 22.5]");
   const Trial& trial = dataset.trials[0];
   EXPECT_EQ(trial.touchdown_angles_rad, (std::vector<double>{DegToRad(25), DegToRad(22.5)}));
   EXPECT_EQ(trial.touchdown_angle_rad, DegToRad(25));
@@ -73,7 +73,7 @@ TEST(TouchdownAngles, AreAListOnePerTouchdown) {
 }
 
 TEST(TouchdownAngles, AreReadFromTheMeasuredColumnAtContact) {
-  const Dataset dataset = With("deg: 25", "deg: {from: leg_angle}");
+  const Dataset dataset = RecordWith("deg: 25", "deg: {from: leg_angle}");
   const std::vector<double>& angles = dataset.trials[0].touchdown_angles_rad;
   ASSERT_EQ(angles.size(), 2u);
   // Between 0.1 s, 0.19 m and 0.2 s, 0.15 m, where y - H(angle) changes sign: the angle of a trace
@@ -88,16 +88,17 @@ TEST(TouchdownAngles, AreReadFromTheMeasuredColumnAtContact) {
 TEST(TouchdownAngles, AreReadWhereTheContactColumnSaysWhenItHasOne) {
   const std::string csv =
       "time_s,contact,leg_angle_rad\n0,0,0.5\n0.1,0,0.4\n0.2,1,0.3\n0.3,0,0.6\n0.4,1,0.5\n";
-  const Dataset dataset = Read(Replace(Replace(kYaml, "deg: 25", "deg: {from: leg_angle}"),
-                                       "{body_y_m: {sigma: 0.001}}", "{contact: {}}"),
-                               csv);
+  const Dataset dataset =
+      ReadRecord(Replace(Replace(kRecordYaml, "deg: 25", "deg: {from: leg_angle}"),
+                         "{body_y_m: {sigma: 0.001}}", "{contact: {}}"),
+                 csv);
   ASSERT_EQ(dataset.trials[0].touchdown_angles_rad.size(), 2u);
   EXPECT_NEAR(dataset.trials[0].touchdown_angles_rad[0], 0.35, 1e-12);
   EXPECT_NEAR(dataset.trials[0].touchdown_angles_rad[1], 0.55, 1e-12);
 }
 
 TEST(TouchdownAngles, WithASigmaEachHopHasItsOwnAboutTheOneGiven) {
-  const Dataset dataset = With("deg: 25\n", "deg: 25\n    touchdown_angle_sigma_deg: 0.5\n");
+  const Dataset dataset = RecordWith("deg: 25\n", "deg: 25\n    touchdown_angle_sigma_deg: 0.5\n");
   const Trial& trial = dataset.trials[0];
   EXPECT_EQ(trial.touchdown_angles_rad, (std::vector<double>{DegToRad(25), DegToRad(25)}));
   EXPECT_EQ(trial.touchdown_angle_sigma_rad, DegToRad(0.5));
@@ -145,7 +146,7 @@ TEST(BadTouchdownAngles, AreToldWithPlaceValueRuleAndRemedy) {
 // ---- inputs
 
 TEST(Inputs, AreColumnsThatDriveTheSimulation) {
-  const Dataset dataset = With(
+  const Dataset dataset = RecordWith(
       "trials:",
       "clocks: {motor: {offset_s: 0.001, sigma_s: 0.002, per: trial}}\n"
       "inputs:\n"
@@ -172,11 +173,11 @@ TEST(Inputs, AreColumnsThatDriveTheSimulation) {
 
 TEST(Inputs, OfATrialArePutOverTheDatasets) {
   const std::string yaml = Replace(
-      Replace(kYaml, "trials:",
+      Replace(kRecordYaml, "trials:",
               "inputs: {hip_torque_N_m:, body_force_y_N: {column: command}}\n"
               "trials:"),
       "deg: 25\n", "deg: 25\n    inputs: {body_force_y_N: null, hip_torque_N_m: {scale: 3}}\n");
-  const Dataset dataset = Read(yaml);
+  const Dataset dataset = ReadRecord(yaml);
   EXPECT_EQ(dataset.inputs.size(), 2u);
   ASSERT_EQ(dataset.trials[0].inputs.size(), 1u);
   EXPECT_EQ(dataset.trials[0].inputs[0].scale, 3);
@@ -185,8 +186,8 @@ TEST(Inputs, OfATrialArePutOverTheDatasets) {
 
 TEST(Inputs, ALegAngleSaysWhereTheLegTouchesDown) {
   const Dataset dataset =
-      Read(Replace(Replace(kYaml, "trials:", "inputs: {leg_angle_rad: {}}\ntrials:"),
-                   "    touchdown_angle_deg: 25\n", ""));
+      ReadRecord(Replace(Replace(kRecordYaml, "trials:", "inputs: {leg_angle_rad: {}}\ntrials:"),
+                         "    touchdown_angle_deg: 25\n", ""));
   EXPECT_TRUE(dataset.trials[0].touchdown_angles_rad.empty());
   ExpectRoundTrip(dataset);
 }
@@ -231,27 +232,27 @@ TEST(BadInputs, AreToldWithPlaceValueRuleAndRemedy) {
       {ErrorOfInputs("{leg_angle_rad: {}}"),
        "hops/dataset.yaml:13: trials[0].touchdown_angle_deg; the input leg_angle_rad says at which "
        "angle the leg touches down. Remove one of the two."},
-      {ErrorWith("trials:", controller + "inputs: {hip_torque_N_m: {}}\ntrials:"),
+      {RecordErrorWith("trials:", controller + "inputs: {hip_torque_N_m: {}}\ntrials:"),
        "hops/dataset.yaml:10: trials[0].inputs.hip_torque_N_m; the hip torque comes from the log, "
        "and a controller is given too. Remove one of the two; `controller: null` in a trial takes "
        "it away there."},
       {InputErrorOf([&] {
-         Read(Replace(Replace(kYaml, "  leg:", toe),
-                      "trials:", "inputs: {hip_torque_N_m: {}}\ntrials:"));
+         ReadRecord(Replace(Replace(kRecordYaml, "  leg:", toe),
+                            "trials:", "inputs: {hip_torque_N_m: {}}\ntrials:"));
        }),
        "hops/dataset.yaml:10: trials[0].inputs.hip_torque_N_m; a leg with a toe mass is moved by "
        "its "
        "placement, not by a log. Remove toe_mass_kg or this input."},
-      {ErrorWith("trials:", "inputs: {hip_torque_N_m: {}}\ntrials:",
-                 "time_s,body_y_m,hip_torque_N_m\n0,0.3,\n0.1,0.29,\n"),
+      {RecordErrorWith("trials:", "inputs: {hip_torque_N_m: {}}\ntrials:",
+                       "time_s,body_y_m,hip_torque_N_m\n0,0.3,\n0.1,0.29,\n"),
        "hops/dataset.yaml:9: inputs.hip_torque_N_m; hops/a.csv has no sample in the column "
        "hip_torque_N_m. Fill it in, or write hip_torque_N_m: null under `inputs` of the trial."},
-      {ErrorWith("trials:", "inputs: {hip_torque_N_m: {column: u}}\ntrials:",
-                 "time_s,body_y_m,u\n0,0.3,1\n0.1,0.29,5e7\n"),
+      {RecordErrorWith("trials:", "inputs: {hip_torque_N_m: {column: u}}\ntrials:",
+                       "time_s,body_y_m,u\n0,0.3,1\n0.1,0.29,5e7\n"),
        "hops/a.csv, row 2: u = 5e7; must be in [-1e6, 1e6] N m to drive hip_torque_N_m. Check the "
        "unit: N m is meant."},
-      {ErrorWith("deg: 25\n", "deg: 25\n",
-                 "time_s,body_y_m,body_force_x_kN\n0,0.3,1\n0.1,0.29,5\n"),
+      {RecordErrorWith("deg: 25\n", "deg: 25\n",
+                       "time_s,body_y_m,body_force_x_kN\n0,0.3,1\n0.1,0.29,5\n"),
        "hops/a.csv:1: column body_force_x_kN; is written body_force_x_N: the unit in its name does "
        "not belong to it. Rename it to body_force_x_N and give the value in N."},
   });
@@ -260,10 +261,10 @@ TEST(BadInputs, AreToldWithPlaceValueRuleAndRemedy) {
 // ---- clocks
 
 TEST(Clocks, AreNamedByTheirChannels) {
-  const Dataset dataset =
-      With("channels: {body_y_m: {sigma: 0.001}}",
-           "channels: {body_y_m: {sigma: 0.001}, hip_torque_N_m: {sigma: 0.01, clock: motor}}\n"
-           "clocks: {motor: {sigma_s: 0.002}}");
+  const Dataset dataset = RecordWith(
+      "channels: {body_y_m: {sigma: 0.001}}",
+      "channels: {body_y_m: {sigma: 0.001}, hip_torque_N_m: {sigma: 0.01, clock: motor}}\n"
+      "clocks: {motor: {sigma_s: 0.002}}");
   EXPECT_EQ(dataset.channels[1].clock, "motor");
   EXPECT_EQ(dataset.clocks[0].offset_s, 0);
   EXPECT_FALSE(dataset.clocks[0].per_trial);
@@ -272,7 +273,7 @@ TEST(Clocks, AreNamedByTheirChannels) {
 
 TEST(BadClocks, AreToldWithPlaceValueRuleAndRemedy) {
   const auto of = [](const std::string& clocks, const std::string& clock) {
-    return ErrorWith(
+    return RecordErrorWith(
         "channels: {body_y_m: {sigma: 0.001}}",
         "channels: {body_y_m: {sigma: 0.001, clock: " + clock + "}}\nclocks: " + clocks);
   };
@@ -309,7 +310,7 @@ TEST(Starts, MayLieInStance) {
                                        {", mode: toe}", StartMode::kToe},
                                        {", mode: stance}", StartMode::kStance},
                                        {"}", StartMode::kStance}}) {
-    const Dataset dataset = With("deg: 25\n", start + mode + sigma);
+    const Dataset dataset = RecordWith("deg: 25\n", start + mode + sigma);
     ASSERT_TRUE(dataset.trials[0].initial);
     EXPECT_EQ(dataset.trials[0].initial->mode, expected);
     EXPECT_EQ(dataset.trials[0].initial->contact_x_m, 0.03);
@@ -319,20 +320,20 @@ TEST(Starts, MayLieInStance) {
 }
 
 TEST(BadStarts, AreToldWithPlaceValueRuleAndRemedy) {
-  const auto of = [](const std::string& more, const std::string& yaml = kYaml) {
+  const auto of = [](const std::string& more, const std::string& yaml = kRecordYaml) {
     return InputErrorOf([&] {
-      Read(Replace(yaml, "deg: 25\n",
-                   "deg: 25\n    initial: {x_m: 0, y_m: 0.15, vx_m_per_s: 1, vy_m_per_s: -1" +
-                       more + "}\n"));
+      ReadRecord(Replace(yaml, "deg: 25\n",
+                         "deg: 25\n    initial: {x_m: 0, y_m: 0.15, vx_m_per_s: 1, vy_m_per_s: -1" +
+                             more + "}\n"));
     });
   };
   const std::string straight =
-      Replace(Replace(kYaml, "c_leg", "straight_leg"),
+      Replace(Replace(kRecordYaml, "c_leg", "straight_leg"),
               "{rest_radius_m: 0.09, E_Pa: 22e9, G_Pa: 4e9, width_m: 0.03, thickness_m: 0.0038, "
               "damping_N_s_per_m: 3}",
               "{rest_length_m: 0.2, stiffness_N_per_m: 1000, damping_N_s_per_m: 0}");
   const std::string ball = Replace(
-      Replace(Replace(kYaml, "c_leg", "ball"), "    touchdown_angle_deg: 25\n",
+      Replace(Replace(kRecordYaml, "c_leg", "ball"), "    touchdown_angle_deg: 25\n",
               "    touchdown_angle_deg: 25\n"),
       "leg: {rest_radius_m: 0.09, E_Pa: 22e9, G_Pa: 4e9, width_m: 0.03, thickness_m: 0.0038, "
       "damping_N_s_per_m: 3}",

@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "base/nan.h"
 
 namespace hoplab::testing {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 using Numbers = std::vector<double>;
 
 TEST(Agreement, LeavesOutPairsWithAHole) {
-  const Agreement a = AgreementOf(Numbers{1.0, kNone, 3.0, 5.0}, Numbers{2.0, 7.0, kNone, 2.0});
+  const Agreement a = AgreementOf(Numbers{1.0, kNaN, 3.0, 5.0}, Numbers{2.0, 7.0, kNaN, 2.0});
   EXPECT_EQ(a.pairs, 2);
   EXPECT_DOUBLE_EQ(a.rms, std::sqrt((1.0 + 9.0) / 2.0));
   EXPECT_DOUBLE_EQ(a.max_abs, 3.0);
@@ -22,7 +22,7 @@ TEST(Agreement, LeavesOutPairsWithAHole) {
 }
 
 TEST(Agreement, OfNothingIsMissingNotZero) {
-  const Agreement a = AgreementOf(Numbers{kNone}, Numbers{1.0});
+  const Agreement a = AgreementOf(Numbers{kNaN}, Numbers{1.0});
   EXPECT_EQ(a.pairs, 0);
   EXPECT_TRUE(std::isnan(a.rms) && std::isnan(a.max_abs) && std::isnan(a.mean));
 }
@@ -42,7 +42,7 @@ TEST(RankCorrelation, TiesHaveTheirMeanRank) {
 
 TEST(RankCorrelation, OfAConstantOrOfTwoPairsIsMissing) {
   EXPECT_TRUE(std::isnan(RankCorrelation(Numbers{1, 2, 3}, Numbers{4, 4, 4})));
-  EXPECT_TRUE(std::isnan(RankCorrelation(Numbers{1, 2, 3}, Numbers{4, 5, kNone})));
+  EXPECT_TRUE(std::isnan(RankCorrelation(Numbers{1, 2, 3}, Numbers{4, 5, kNaN})));
 }
 
 // S of Kendall's test.

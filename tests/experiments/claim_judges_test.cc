@@ -6,10 +6,10 @@
 
 #include <cmath>
 
+#include "base/nan.h"
+
 namespace hoplab::testing {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<bool> Holds(const std::vector<StudyCheck>& checks) {
   std::vector<bool> holds;
@@ -35,9 +35,9 @@ HoppingRun Jump(double next_apex, const std::vector<double>& lengths,
     run.samples.push_back({1e-3 * static_cast<double>(run.samples.size()), 0.0, 0.2, 0.0, 1.0, 0.0,
                            length, k, contact});
   };
-  add(lengths.front(), kNone, false);
+  add(lengths.front(), kNaN, false);
   for (std::size_t i = 0; i < lengths.size(); ++i) add(lengths[i], stiffness[i], true);
-  add(lengths.back(), kNone, false);
+  add(lengths.back(), kNaN, false);
   return run;
 }
 
@@ -178,8 +178,8 @@ TEST(ClaimJudges, StraightLeg) {
 
 TEST(ClaimJudges, Starts) {
   EXPECT_EQ(Holds(JudgeStarts({9, 8, 7}, {2, 3, 1})), std::vector<bool>(3, true));
-  EXPECT_EQ(Holds(JudgeStarts({9, kNone, 7}, {2, 3, 1})), (std::vector<bool>{false, true, false}));
-  EXPECT_EQ(Holds(JudgeStarts({9, 8, 7}, {2, kNone, 1})), (std::vector<bool>{true, false, false}));
+  EXPECT_EQ(Holds(JudgeStarts({9, kNaN, 7}, {2, 3, 1})), (std::vector<bool>{false, true, false}));
+  EXPECT_EQ(Holds(JudgeStarts({9, 8, 7}, {2, kNaN, 1})), (std::vector<bool>{true, false, false}));
   EXPECT_EQ(Holds(JudgeStarts({9, 8, 7}, {2, 8.5, 1})), AllBut(3, 2));
   EXPECT_EQ(Holds(JudgeStarts({}, {})), std::vector<bool>(3, false));
 }
@@ -204,7 +204,7 @@ TEST(ClaimJudges, Modulus) {
   ModulusSweep softening = falling;
   std::reverse(softening.stiffness_max.begin(), softening.stiffness_max.end());
   EXPECT_EQ(Holds(JudgeModulus(scattered, softening)), AllBut(3, 2));
-  const ModulusSweep none = Sweep(std::vector<double>(8, kNone));
+  const ModulusSweep none = Sweep(std::vector<double>(8, kNaN));
   EXPECT_EQ(Holds(JudgeModulus(none, none)), (std::vector<bool>{false, false, true}))
       << "no convergence at all is no absence of a trend";
 }
@@ -215,7 +215,7 @@ TEST(ClaimJudges, EnergyGain) {
   EXPECT_EQ(Holds(JudgeEnergyGain({103, 103.1, 102})), AllBut(2, 1));
   EXPECT_EQ(Holds(JudgeEnergyGain({103, 103 - 1e-6, 102})), AllBut(2, 1))
       << "rounding is no gain that shrinks";
-  EXPECT_EQ(Holds(JudgeEnergyGain({103, kNone, 102})), std::vector<bool>(2, false));
+  EXPECT_EQ(Holds(JudgeEnergyGain({103, kNaN, 102})), std::vector<bool>(2, false));
   EXPECT_EQ(Holds(JudgeEnergyGain({})), std::vector<bool>(2, false));
 }
 
@@ -234,9 +234,9 @@ TEST(ComparedNumber, AgreesWithinItsToleranceAndWhereBothAreMissing) {
   EXPECT_TRUE(number.agrees());
   number.ours = 9.4;
   EXPECT_FALSE(number.agrees());
-  number.ours = kNone;
+  number.ours = kNaN;
   EXPECT_FALSE(number.agrees());
-  number.published = kNone;
+  number.published = kNaN;
   EXPECT_TRUE(number.agrees());
 }
 

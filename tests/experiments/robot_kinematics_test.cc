@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
+#include "base/units.h"
 #include "experiments/kinematics/two_legs.h"
 #include "tests/support/robot_requests.h"
 
@@ -15,7 +15,6 @@ namespace {
 
 using namespace testing;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRear = 0.9, kFront = 0.6;  // motor angles at the start [rad]
 
 // M18: the virtual link of a leg at beta stands at pi/2 - beta/2.

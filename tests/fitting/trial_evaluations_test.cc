@@ -12,12 +12,12 @@ namespace {
 using testing::NominalStarts;
 using testing::SmallDataset;
 
-struct Case {
+struct EvaluatedTrial {
   FitProblem problem = MakeProblem(SmallDataset(), {});
   std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
   SolveRequest request;
 
-  Case() {
+  EvaluatedTrial() {
     request.problem = &problem;
     request.trials = &trials;
     request.shared = Eigen::Vector2d(21e9, 2.0);
@@ -26,7 +26,7 @@ struct Case {
 };
 
 // The oracle of costs: one trial after the other.
-double CostOf(const Case& c, const Eigen::VectorXd& shared) {
+double CostOf(const EvaluatedTrial& c, const Eigen::VectorXd& shared) {
   double cost = 0.0;
   for (const TrialProblem& trial : c.trials) {
     TrialEvaluation e;
@@ -37,7 +37,7 @@ double CostOf(const Case& c, const Eigen::VectorXd& shared) {
 }
 
 TEST(TrialEvaluations, CostIsThatOfTheTrialsOneByOne) {
-  const Case c;
+  const EvaluatedTrial c;
   TrialEvaluations at(c.request);
   at.PrepareForEvaluation(false, true);
   EXPECT_TRUE(at.IsComplete());
@@ -45,7 +45,7 @@ TEST(TrialEvaluations, CostIsThatOfTheTrialsOneByOne) {
 }
 
 TEST(TrialEvaluations, GradientIsTheSlopeOfTheCost) {
-  const Case c;
+  const EvaluatedTrial c;
   TrialEvaluations at(c.request);
   at.PrepareForEvaluation(true, true);
   for (int k = 0; k < 2; ++k) {
@@ -59,7 +59,7 @@ TEST(TrialEvaluations, GradientIsTheSlopeOfTheCost) {
 }
 
 TEST(TrialEvaluations, BothKindsOfPointHaveTheSameSumOfSquares) {
-  const Case c;
+  const EvaluatedTrial c;
   TrialEvaluations plain(c.request), differentiated(c.request);
   plain.PrepareForEvaluation(false, true);
   differentiated.PrepareForEvaluation(true, true);
@@ -72,7 +72,7 @@ TEST(TrialEvaluations, BothKindsOfPointHaveTheSameSumOfSquares) {
 }
 
 TEST(TrialEvaluations, ComingBackToAPointKeepsItsDerivatives) {
-  const Case c;
+  const EvaluatedTrial c;
   TrialEvaluations at(c.request);
   at.PrepareForEvaluation(true, true);
   const double cost = at.Cost(), gradient = at.Gradient(0);
@@ -89,7 +89,7 @@ TEST(TrialEvaluations, ComingBackToAPointKeepsItsDerivatives) {
 }
 
 TEST(TrialEvaluations, MovesToGivenValues) {
-  const Case c;
+  const EvaluatedTrial c;
   TrialEvaluations at(c.request);
   std::vector<OwnValues> own = c.request.starts;
   own[1][0] += 0.01;
@@ -100,7 +100,7 @@ TEST(TrialEvaluations, MovesToGivenValues) {
 }
 
 TEST(TrialEvaluations, AnEndBeforeTheDataIsCountedWithItsReason) {
-  Case c;
+  EvaluatedTrial c;
   c.request.shared[0] = 6e9;  // so soft that it sinks to the ground
   TrialEvaluations at(c.request);
   at.PrepareForEvaluation(false, true);

@@ -12,8 +12,6 @@ namespace {
 
 using namespace testing;
 
-constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx, Channel::kBodyVy};
-
 // A ball high in the air.
 SimulationRequest HighBall() {
   SimulationRequest q = ExcitedRequest(Law::kBall);
@@ -156,7 +154,7 @@ TEST(GroundSlope, KeepsTheEnergyOfALegAndMeasuresItsAngleFromTheHorizontal) {
 
 TEST(ObservationEffects, ActInTheOrderClockDelayScaleOffsetRollHoweverTheyAreGiven) {
   SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   const double clock = 0.03, delay = 0.004, scale = 0.05, offset = 0.02, roll = 0.3;
   std::vector<EffectSetting> effects = {
       Setting("camera_roll", roll),       Setting("clock_scale", clock),
@@ -192,7 +190,7 @@ TEST(ClockScale, AtNullIsTheTimeTimesTheRateBackward) {
   const std::array effects = {Setting("clock_scale", 0.0)};
   const std::array directions = {SensitivityDirection::EffectParameter(0, 0)};
   q.row_times = times;
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   q.effects = effects;
   q.directions = directions;
   const Trajectory run = Simulate(q);

@@ -13,13 +13,11 @@ namespace {
 
 using namespace testing;
 
-constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx, Channel::kBodyVy};
-
 SimulationRequest RequestOf(Law law) {
   SimulationRequest q = law == Law::kBall          ? BallRequest()
                         : law == Law::kStraightLeg ? SteadyStraightLeg()
                                                    : ThickLegRequest(law);
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   return q;
 }
 
@@ -100,7 +98,7 @@ TEST(EffectOffNull, ChangesTheSamples) {
     SimulationRequest q = ExcitedRequest(law);
     const auto times = EvenTimes(1.0, 40);
     q.row_times = times;
-    q.channels = kBody;
+    q.channels = kBodyChannels;
     const Trajectory without = Simulate(q);
     for (const Effect* effect : AllEffects()) {
       if (!AppliesTo(*effect, law) || effect->info.has_threshold) continue;

@@ -66,21 +66,21 @@ TEST(ElasticaTables, DerivativesAreThoseOfOneFunction) {
 }
 
 // Curvature of a pressed arc of radius 1, E I = 1, at equal distances from the hip.
-constexpr int kPoints = 200;
-std::array<double, kPoints + 1> CurvatureOf(double phi, double f, double length) {
+constexpr int kArcPoints = 200;
+std::array<double, kArcPoints + 1> CurvatureOf(double phi, double f, double length) {
   namespace odeint = boost::numeric::odeint;
   using State = std::array<double, 2>;  // angle of the tangent, curvature; from the hip
   const double end = SolvePressedArc(phi, 1.0, 1.0, f).end_angle;
-  std::array<double, kPoints + 1> curvature;
+  std::array<double, kArcPoints + 1> curvature;
   State s = {0.0, 1.0};
   odeint::runge_kutta_fehlberg78<State> step;
   curvature[0] = 1.0;
-  for (int i = 0; i < kPoints; ++i) {
+  for (int i = 0; i < kArcPoints; ++i) {
     step.do_step(
         [&](const State& q, State& d, double) {
           d = {q[1], f * std::sin(end - q[0])};
         },
-        s, 0.0, length / kPoints);
+        s, 0.0, length / kArcPoints);
     curvature[i + 1] = s[1];
   }
   return curvature;
@@ -93,11 +93,11 @@ TEST(ElasticaTables, DissipationIsThatOfTheCurvaturesRates) {
     const auto ahead = CurvatureOf(phi + h, f, phi), behind = CurvatureOf(phi - h, f, phi);
     const auto more = CurvatureOf(phi, f + h, phi), less = CurvatureOf(phi, f - h, phi);
     double ff = 0.0, mixed = 0.0, phiphi = 0.0;
-    for (int i = 0; i <= kPoints; ++i) {  // Simpson
-      const double weight = (i == 0 || i == kPoints ? 1.0
-                             : i % 2 == 1           ? 4.0
-                                                    : 2.0) *
-                            phi / (3.0 * kPoints);
+    for (int i = 0; i <= kArcPoints; ++i) {  // Simpson
+      const double weight = (i == 0 || i == kArcPoints ? 1.0
+                             : i % 2 == 1              ? 4.0
+                                                       : 2.0) *
+                            phi / (3.0 * kArcPoints);
       const double by_f = (more[i] - less[i]) / (2 * h), by_phi = (ahead[i] - behind[i]) / (2 * h);
       ff += weight * by_f * by_f;
       mixed += weight * by_f * by_phi;

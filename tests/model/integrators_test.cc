@@ -11,9 +11,9 @@ namespace {
 using namespace testing;
 using D = SensitivityDirection;
 
-const std::array<D, 4> kDirections = {D::InitialState(1), D::InitialState(2),
-                                      D::Parameter(ParameterId::kE),
-                                      D::Parameter(ParameterId::kThetaTd)};
+const std::array<D, 4> kIntegratedDirections = {D::InitialState(1), D::InitialState(2),
+                                                D::Parameter(ParameterId::kE),
+                                                D::Parameter(ParameterId::kThetaTd)};
 
 Trajectory RunWithSolver(SimulationRequest q, IntegratorKind kind, double tolerance) {
   q.integrator = {kind, tolerance, 0.1 * tolerance};
@@ -42,7 +42,7 @@ constexpr double kMultistepAgreement = 1e5;
 
 TEST_P(Solvers, AgreeOnStateEventsAndSensitivities) {
   SimulationRequest q = ThickLegRequest(GetParam());
-  q.directions = kDirections;
+  q.directions = kIntegratedDirections;
   constexpr double kTolerance = 1e-10;
   const Trajectory reference = RunWithSolver(q, IntegratorKind::kDop853, kOracleRelative);
   for (auto [kind, factor] : {std::pair{IntegratorKind::kDop853, kOneStepAgreement},
@@ -135,7 +135,7 @@ TEST(StiffStance, SensitivitiesOfCvodesMatchTheExplicitOnes) {
   q.parameters.d = 5e4;
   q.parameters.theta_td = Degrees(40.0);
   q.horizon = 0.25;
-  q.directions = kDirections;
+  q.directions = kIntegratedDirections;
   const Trajectory stiff = RunWithSolver(q, IntegratorKind::kCvodes, 1e-11);
   const Trajectory explicit_run = RunWithSolver(q, IntegratorKind::kDop853, 1e-11);
   EXPECT_TRUE(MatrixNear(Columns(q, stiff), Columns(q, explicit_run), 1e-6));

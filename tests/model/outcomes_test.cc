@@ -12,8 +12,6 @@ namespace {
 using namespace testing;
 using D = SensitivityDirection;
 
-constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx, Channel::kBodyVy};
-
 // ---- starts ------------------------------------------------------------------------------
 
 TEST(Start, BelowTouchdownHeightIsRefused) {
@@ -44,7 +42,7 @@ TEST(Start, ZeroLengthHorizonGivesTheStart) {
   const std::array times = {0.0};
   const std::array directions = {D::InitialState(1), D::Parameter(ParameterId::kE)};
   q.row_times = times;
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   q.directions = directions;
   const Trajectory run = Simulate(q);
   EXPECT_EQ(run.outcome, Outcome::kCompleted);
@@ -236,7 +234,7 @@ TEST(Fall, BelowTouchdownHeightIsBallisticAndDifferentiable) {
   const std::array times = {late};
   const std::array directions = {D::Parameter(ParameterId::kE), D::InitialState(2)};
   q.row_times = times;
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   q.directions = directions;
   q.horizon = late + 1e-3;
   const Trajectory run = Simulate(q);
@@ -267,7 +265,7 @@ TEST(Fall, IsFollowedByAFreeFlightWhereThatIsAskedFor) {
   const std::array times = {fall.end_time - 1e-6, fall.end_time + dt};
   const std::array directions = {D::InitialState(2)};
   q.row_times = times;
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   q.directions = directions;
   q.fly_on = true;
   const Trajectory run = Simulate(q);
@@ -305,7 +303,7 @@ TEST(Fall, LeavesLaterRowsMissing) {
   const std::array times = {0.5 * end, end + 0.01, end + 1.0};
   const std::array directions = {D::InitialState(0)};
   q.row_times = times;
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   q.directions = directions;
   const Trajectory run = Simulate(q);
   for (int i = 0; i < 4; ++i) {
@@ -371,7 +369,7 @@ TEST(StepLimit, InALaterPassOfTheSensitivitiesIsTheOutcomeOfTheRun) {
   q.directions = directions;
   const std::vector<double> times = EvenTimes(0.9 * Simulate(q).end_time, 10);
   q.row_times = times;
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   const Trajectory smooth = Simulate(q);
   ASSERT_EQ(smooth.outcome, Outcome::kHopLimit);
   q.integrator.max_steps = smooth.steps + 1;

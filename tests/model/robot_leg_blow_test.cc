@@ -3,10 +3,10 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <random>
 #include <vector>
 
+#include "base/units.h"
 #include "model/mechanisms/robot.h"
 #include "model/simulate.h"
 #include "tests/support/robot_requests.h"
@@ -17,8 +17,6 @@ namespace hoplab {
 namespace {
 
 using namespace testing;
-
-constexpr double kPi = std::numbers::pi;
 
 // A robot's velocities and what they carry, told apart from the equations of motion: momentum,
 // angular momentum about a point, kinetic energy, and what goes with one leg's base.

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <random>
 #include <string>
 
+#include "base/units.h"
 #include "model/mechanisms/robot.h"
 #include "model/simulate.h"
 #include "tests/support/gradient_check.h"
@@ -21,8 +21,6 @@ namespace hoplab {
 namespace {
 
 using namespace testing;
-
-constexpr double kPi = std::numbers::pi;
 
 // ---- the legs as points ----------------------------------------------------------------------
 

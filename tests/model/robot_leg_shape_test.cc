@@ -6,15 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <vector>
+
+#include "base/units.h"
 
 // The quasi-static shape of a robot's leg that stands: M89.
 
 namespace hoplab {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A half circle of hinges, pinned at the contact at the angle psi below the hip and clamped there:
 // of all ways to move hip and base the one of least bending, by linear algebra. Points as rows of

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "tests/support/effect_requests.h"
 #include "tests/support/matrix_near.h"
 #include "tests/support/requests.h"
 
@@ -10,15 +11,13 @@ namespace {
 
 using namespace testing;
 
-constexpr std::array kBody = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx, Channel::kBodyVy};
-
 TEST(Rows, AtAnEventShowTheStateOfTheEvent) {
   SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
   const Trajectory hop = Simulate(q);
   std::vector<double> times;
   for (const Event& e : hop.events) times.push_back(e.time);
   q.row_times = times;
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   const Trajectory run = Simulate(q);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Event& e = hop.events[i];
@@ -30,7 +29,7 @@ TEST(Rows, AtOneAndTheSameTimeAreEqual) {
   SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
   const std::array times = {0.12, 0.12, 0.12};
   q.row_times = times;
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   const Trajectory run = Simulate(q);
   for (int i = 0; i < 8; ++i) EXPECT_EQ(run.samples[i], run.samples[i + 4]);
 }
@@ -40,7 +39,7 @@ TEST(Rows, ChangeTheRunByNoMoreThanRounding) {
   const Trajectory plain = Simulate(q);
   const auto times = EvenTimes(plain.end_time, 100);
   q.row_times = times;
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   // Reading inside a step evaluates the law once more, and the next root search starts elsewhere.
   EXPECT_TRUE(MatrixNear(Simulate(q).final_state, plain.final_state, 100 * kEps));
 }
@@ -49,7 +48,7 @@ TEST(Rows, BeforeTheStartLieOnTheBackwardFlight) {
   SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
   const std::array times = {-0.05, -0.02, 0.0};
   q.row_times = times;
-  q.channels = kBody;
+  q.channels = kBodyChannels;
   const Trajectory run = Simulate(q);
   for (int i = 0; i < 3; ++i) {
     const double t = times[i], g = q.parameters.g;
@@ -70,7 +69,7 @@ TEST(Rows, BeforeTheStartWithAirDragFlyForwardToTheStart) {
     q.integrator.kind = kind;
     q.effects = effects;
     q.row_times = times;
-    q.channels = kBody;
+    q.channels = kBodyChannels;
     if (kind == IntegratorKind::kCvodes) q.integrator = {kind, 1e-11, 1e-12};
     const Trajectory back = Simulate(q);
     for (int row = 0; row < 2; ++row) {

@@ -74,8 +74,8 @@ TEST(SlidingFoot, TakesMuOfTheGroundsImpulseAlong) {
 
 template <class LegT>
 struct OnIce : ::testing::Test {};
-using Legs = ::testing::Types<CLeg<double, ConsistentLaw>, CLeg<double, LargeDeflectionLaw>>;
-TYPED_TEST_SUITE(OnIce, Legs);
+using SlidingLegs = ::testing::Types<CLeg<double, ConsistentLaw>, CLeg<double, LargeDeflectionLaw>>;
+TYPED_TEST_SUITE(OnIce, SlidingLegs);
 
 // On ice nothing is lost from the blow on: an integrator of others on the equations of motion.
 TYPED_TEST(OnIce, KeepsItsEnergy) {

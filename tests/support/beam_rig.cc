@@ -8,16 +8,15 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
-#include <numbers>
 #include <numeric>
 
 #include "base/random.h"
+#include "base/units.h"
 #include "tests/support/arc_contact.h"
 
 namespace hoplab::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kArcs = 24;
 constexpr double kStep = 2e-5, kRow = 2e-3, kGravity = 9.81;
 constexpr double kStudRadius = 0.002;
@@ -108,15 +107,15 @@ std::string ModelText(const BeamRig& rig) {
          "</body></worldbody><actuator><motor joint='hip' gear='-1'/></actuator></mujoco>";
 }
 
-using Model = std::unique_ptr<mjModel, void (*)(mjModel*)>;
+using CompiledModel = std::unique_ptr<mjModel, void (*)(mjModel*)>;
 using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
 
-Model Compile(const BeamRig& rig, const std::filesystem::path& folder) {
+CompiledModel Compile(const BeamRig& rig, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "rig.xml";
   std::ofstream(file) << ModelText(rig);
   MeetEllipsoidsAsArcs();
   char message[1000] = "";
-  Model model(mj_loadXML(file.c_str(), nullptr, message, sizeof message), mj_deleteModel);
+  CompiledModel model(mj_loadXML(file.c_str(), nullptr, message, sizeof message), mj_deleteModel);
   EXPECT_TRUE(model) << message;
   std::filesystem::remove(file);
   return model;
@@ -217,7 +216,7 @@ void RecordHops(const BeamRig& rig, mjModel& model, const std::filesystem::path&
 
 void RecordRig(const BeamRig& rig, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  const Model model = Compile(rig, folder);
+  const CompiledModel model = Compile(rig, folder);
   ASSERT_TRUE(model);
   RecordHops(rig, *model, folder);
 }

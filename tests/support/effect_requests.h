@@ -15,6 +15,8 @@ inline constexpr std::array kAllLaws = {
     Law::kThesis,   Law::kNoSlip,      Law::kConsistent, Law::kLargeDeflection,
     Law::kElastica, Law::kStraightLeg, Law::kBall};
 
+inline constexpr std::array kBodyChannels = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx,
+                                             Channel::kBodyVy};
 inline constexpr std::array kSmoothChannels = {
     Channel::kBodyX,        Channel::kBodyY,        Channel::kBodyVx,
     Channel::kBodyVy,       Channel::kLegAngle,     Channel::kLegLength,

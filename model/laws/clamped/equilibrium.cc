@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/nan.h"
+
 namespace hoplab::clamped {
 namespace {
 
@@ -9,7 +11,6 @@ constexpr int kMaxRounds = 30;
 constexpr double kMostStep = 0.2;
 
 Solution Lost() {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   Solution e;
   e.at.tip = e.at.base = e.fx = e.fy = e.sum.one = kNaN;
   e.c11 = e.c12 = e.c22 = e.h1 = e.h2 = e.i11 = e.i12 = e.i22 = e.kx = e.ky = kNaN;

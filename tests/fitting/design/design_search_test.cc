@@ -57,7 +57,7 @@ TEST(SearchSeparating, TellsDesignsThatDifferTheBestFirst) {
       double apart = 0.0;
       for (std::size_t k = 0; k < found.best[i].point.size(); ++k)
         apart = std::max(apart, std::abs(found.best[i].point[k] - found.best[j].point[k]));
-      EXPECT_GE(apart, kAlike);
+      EXPECT_GE(apart, kAlikePlans);
     }
   }
 }
