@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "datasets/key_advice.h"
 #include "datasets/read_robot.h"
+#include "datasets/read_spec.h"
 
 namespace hoplab {
 namespace {
