@@ -31,7 +31,22 @@ int ParameterNamed(const Effect& effect, const KnownSpec& spec) {
                     DidYouMean(spec.parameter, ParameterNames(effect))});
 }
 
+// Gravity at sea level goes from 9.780 to 9.832 m/s^2, on high ground down to 9.764: within half a
+// per cent of 9.81.
+constexpr double kGravityDiffers = 0.005;
+
 }  // namespace
+
+std::vector<KnownSpec> WithFactsOf(const MechanismSpec& mechanism, std::vector<KnownSpec> said) {
+  const std::string gravity = "gravity_scale";
+  const bool is_told = std::any_of(said.begin(), said.end(),
+                                   [&](const KnownSpec& s) { return s.effect == gravity; });
+  const bool is_free = mechanism.type == MechanismKind::kBall && !mechanism.on_guide;
+  if (is_free && !is_told)
+    said.push_back(
+        {gravity, "", kGravityDiffers, {.place = "the mechanism (nothing holds a ball)"}});
+  return said;
+}
 
 KnownCauses::KnownCauses(const std::vector<KnownSpec>& specs,
                          std::span<const Effect* const> formulas) {

@@ -5,9 +5,15 @@
 #include <vector>
 
 #include "datasets/known_spec.h"
+#include "datasets/mechanism_spec.h"
 #include "model/effects/effect.h"
 
 namespace hoplab {
+
+/// `said` with what a mechanism rules out by itself, unless `said` speaks of it: nothing holds a
+/// ball that is on no guide, so gravity may differ from what is stated only as it does on the ground
+/// of the Earth.
+std::vector<KnownSpec> WithFactsOf(const MechanismSpec& mechanism, std::vector<KnownSpec> said);
 
 /// What is known of one parameter of an effect.
 struct KnownParameter {

@@ -73,6 +73,10 @@ void AddIdentifyOptions(CLI::App& sub, IdentifySettings& settings) {
                  "Fits that go on to a mass at the toe (default 3)")
       ->check(CLI::Range(1, 10000))
       ->option_text("N");
+  sub.add_option("--toe-budget", settings.toe_budget,
+                 "Evaluations of a search with it from scratch (default: none such)")
+      ->check(CLI::Range(20, 10000000))
+      ->option_text("N");
   sub.add_flag("--placed-as-printed", settings.placed_as_printed,
                "All landings at the printed angle, no share searched");
   sub.add_flag("--free-desired-speed", settings.free_desired_speed,
@@ -109,6 +113,7 @@ IdentificationRequest IdentificationRequestOf(const IdentifySettings& settings) 
   request.keep_readings = settings.readings;
   request.keep = settings.keep;
   request.keep_toe = settings.keep_toe;
+  request.toe_budget = settings.toe_budget;
   request.seed = settings.seed;
   return request;
 }
@@ -127,6 +132,8 @@ std::string OriginText(const IdentifySettings& settings) {
   add(settings.free_rolling_blend, " --free-rolling-blend");
   if (settings.free_toe_mass)
     text += " --free-toe-mass --keep-toe " + std::to_string(settings.keep_toe);
+  if (settings.free_toe_mass && settings.toe_budget > 0)
+    text += " --toe-budget " + std::to_string(settings.toe_budget);
   add(settings.free_desired_speed, " --free-desired-speed");
   add(settings.placed_as_printed, " --placed-as-printed");
   return text + "`, " + date;

@@ -15,6 +15,7 @@ struct IdentifySettings : RunSettings {
   int readings = IdentificationRequest().keep_readings;
   int keep = IdentificationRequest().keep;
   int keep_toe = IdentificationRequest().keep_toe;
+  int toe_budget = IdentificationRequest().toe_budget;
   std::uint64_t seed = IdentificationRequest().seed;
   bool free_damping_scale = false, free_rolling_blend = false, free_toe_mass = false;
   bool free_desired_speed = false, placed_as_printed = false;

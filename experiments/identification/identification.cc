@@ -15,8 +15,9 @@ using Units = std::vector<StudyUnit>;
 
 // Shares of the budget of a unit over steady hops; a set of tables takes twenty times as long.
 constexpr double kNearbyShare = 0.5, kTablesShare = 0.1, kRefineShare = 0.2, kFrontShare = 0.1;
-// A leg with a toe mass vibrates: its runs take thirty times as long.
-constexpr double kToeShare = 0.08, kToeTables = 0.02;
+// A leg with a toe mass vibrates: its runs take thirty times as long. Of the evaluations over steady
+// hops of such a leg, those over all tables.
+constexpr double kToeShare = 0.08, kToeTables = 0.25;
 constexpr int kEnergyMost = 300;  // evaluations: table 6.5 has no more to say
 // Half-width of a search about the best of another reading, in logarithms.
 constexpr double kNearby = 0.3;
@@ -164,6 +165,10 @@ class Identifier {
     for (const StudyFit& fit : BestReadings(all_, request_.keep_toe)) {
       units.push_back(ToeUnit(fit));
       units.back().box = kToeBox;
+      if (request_.toe_budget == 0) continue;
+      StudyUnit from_scratch = units.back();
+      from_scratch.box = kWholeBox;
+      AddWithBothSigns(from_scratch, units);
     }
     Fits found = Fit("toe mass", units);
     SortByMisfit(found);
@@ -172,7 +177,7 @@ class Identifier {
       units.push_back(ToeUnit(fit));
       units.back().runs = StudyUnit::Runs::kTables;
       units.back().constants = fit.constants;
-      units.back().budget = std::max(20, static_cast<int>(kToeTables * request_.budget));
+      units.back().budget = ToeEvaluations(kToeTables);
     }
     const Fits polished = Fit("toe mass, all tables", units);
     all_.insert(all_.end(), polished.begin(), polished.end());
@@ -206,9 +211,16 @@ class Identifier {
     }
     return units;
   }
+  // A share of what a search with a toe mass is allowed.
+  int ToeEvaluations(double share) const {
+    const double all =
+        request_.toe_budget > 0 ? request_.toe_budget : kToeShare * request_.budget;
+    return std::max(20, static_cast<int>(share * all));
+  }
   // A search over steady hops with a toe mass, from a fit without one.
   StudyUnit ToeUnit(const StudyFit& fit) const {
-    StudyUnit unit = UnitOf(StudyUnit::Runs::kSteady, fit.reading, kToeShare);
+    StudyUnit unit = UnitOf(StudyUnit::Runs::kSteady, fit.reading, 1.0);
+    unit.budget = ToeEvaluations(1.0);
     unit.reading.liftoff = LiftoffRule::kZeroForce;
     unit.free.insert(unit.free.end(), request_.toe_free.begin(), request_.toe_free.end());
     unit.constants = fit.constants;
@@ -253,8 +265,8 @@ class Identifier {
   // A local search on all tables from a fit, of what is free in it.
   StudyUnit From(const StudyFit& fit, double share) const {
     const bool has_toe = At(fit.constants, StudyConstant::kToeMass) > 0.0;
-    StudyUnit unit =
-        UnitOf(StudyUnit::Runs::kTables, fit.reading, has_toe ? kToeTables * share : share);
+    StudyUnit unit = UnitOf(StudyUnit::Runs::kTables, fit.reading, share);
+    if (has_toe) unit.budget = ToeEvaluations(kToeTables * share);
     unit.constants = fit.constants;
     if (has_toe)
       unit.free.insert(unit.free.end(), request_.toe_free.begin(), request_.toe_free.end());

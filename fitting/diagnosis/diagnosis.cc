@@ -162,8 +162,10 @@ class Pipeline {
                                .seed = Seed(kBootstrapStream)},
                               settings);
     Believe(report, d_, HeterogeneityOf(best, train_, options_.fit.jobs));
-    for (std::size_t i = 0; i < best.members.size(); ++i)
-      report.at_bound = report.at_bound || best.AtPhysicalBound(static_cast<int>(i));
+    for (const CauseReport* c : report.ToldCauses()) {
+      const std::size_t member = d_.naming.MemberOf(c->candidate);
+      report.at_bound = report.at_bound || best.AtPhysicalBound(static_cast<int>(member));
+    }
     d_.extension = std::move(report);
 
     d_.candidate_gains.resize(d_.naming.candidates.size());

@@ -102,7 +102,7 @@ struct ExtensionReport {
   Detection remainder;        // the other candidates and the probes at the extension
   double explained = 0.0;     // share of the excess chi-square, 0..1
   double white_square = 0.0;  // squares left when fitted under white noise
-  bool at_bound = false;      // a member's size lies on a physical bound
+  bool at_bound = false;      // a told cause's size lies on a physical bound
 
   std::vector<CauseReport> causes;  // the members, the largest share first
 

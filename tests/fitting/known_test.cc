@@ -47,6 +47,21 @@ TEST(KnownCauses, WhatIsRuledOutIsNoCandidate) {
   EXPECT_NE(Find(candidates, "air_drag"), nullptr);
 }
 
+// Nothing holds a ball: 16 % less gravity is no cause of its motion, whatever it fits.
+TEST(KnownCauses, GravityOfAFreeBallIsThatOfTheEarth) {
+  MechanismSpec ball;
+  ball.type = MechanismKind::kBall;
+  const auto open_in = [](const MechanismSpec& mechanism, std::vector<KnownSpec> said) {
+    const KnownCauses known(WithFactsOf(mechanism, std::move(said)));
+    return known.Open(*FindEffect("gravity_scale"), 0)->upper;
+  };
+  EXPECT_EQ(open_in(ball, {}), 0.005);
+  EXPECT_EQ(open_in(ball, {{"gravity_scale", "", 0.2}}), 0.2);  // a drop through water, say
+  ball.on_guide = true;                                         // which may have a counterweight
+  EXPECT_EQ(open_in(ball, {}), 1.0);
+  EXPECT_EQ(open_in(MechanismSpec(), {}), 1.0);
+}
+
 TEST(KnownCauses, AnEffectWithEveryParameterRuledOutIsRuledOut) {
   const FitProblem p = ProblemKnowing({{"boom_inertia", "mu_x"}, {"boom_inertia", "mu_y"}});
   EXPECT_EQ(Find(CandidatesOf(p, {}), "boom_inertia"), nullptr);
