@@ -16,9 +16,11 @@ Json ParametersOfMember(const FittedModel& e, std::size_t member) {
   return out;
 }
 
-// What its probability goes by.
+// What its probability goes by, and what that was made of.
 Json SeenRecord(const NameFeatures& features) {
-  Json out = Json::object();
+  Json out = {{"left_gain", NumberOrNull(features.left_gain)},
+              {"left_share", NumberOrNull(features.left_share)},
+              {"remainder", NumberOrNull(features.remainder)}};
   const auto values = features.Values();
   for (std::size_t k = 0; k < values.size(); ++k)
     out[std::string(NameFeatures::Names()[k])] = NumberOrNull(values[k]);

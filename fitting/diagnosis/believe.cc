@@ -8,17 +8,18 @@ namespace {
 
 constexpr double kMostOthers = 2.0;      // no more causes were planted together
 constexpr double kMostNatsOfGap = 50.0;  // a gap beyond is no surer
-// Sizes in the trials that spread by less than this share of their mean are alike, however many
-// rows tell them apart.
-constexpr double kAlikeSizes = 0.1;
 constexpr double kLeastChance = 1e-10, kLeastShare = 1e-4;
+constexpr double kPlainRarity = 3.0;  // trials that differ this plainly differ
+// Sizes in the trials that spread by this share of their mean are not of one cause. A spread of
+// half a per cent is certain, too, where rows are many, and says nothing.
+constexpr double kUnlikeSizes = 0.5;
 
 double Rarity(double p_value) { return -std::log10(std::max(p_value, kLeastChance)); }
 
-// 0: all trials say the same size; 1: they differ by more than a tenth of it.
-double Spread(const Heterogeneity& h) {
-  const double alike = kAlikeSizes * std::abs(h.mean);
-  return h.spread < alike ? h.spread / alike : 1.0;
+double Disagreement(const Heterogeneity& h) {
+  const double unlike = kUnlikeSizes * std::abs(h.mean);
+  const double spread = h.spread < unlike ? h.spread / unlike : 1.0;
+  return std::min(Rarity(h.p_value), kPlainRarity) * spread;
 }
 
 // Place of a member's first value among the shared ones.
@@ -45,12 +46,11 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
     const std::size_t member = naming.MemberOf(c.candidate);
     NameFeatures& f = c.features = common;
     f.gap = std::log1p(std::clamp(naming.gaps[member], 0.0, kMostNatsOfGap));
-    f.decided = f.gain * f.gap;
     f.group = static_cast<double>(naming.groups[member].size() - 1);
     const auto first = sizes.begin() + static_cast<std::ptrdiff_t>(FirstValue(best, member));
     c.sizes.assign(first, first + c.cause.parameter_count());
     for (const Heterogeneity& h : c.sizes)
-      f.heterogeneity = std::max(f.heterogeneity, Rarity(h.p_value) * Spread(h));
+      f.heterogeneity = std::max(f.heterogeneity, Disagreement(h));
     c.group_probability = CalibratedProbability(f);
     c.probability = c.group_probability * naming.group_weights[member].front();
   }

@@ -1,18 +1,27 @@
 #include "fitting/diagnosis/calibration.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fitting/diagnosis/calibration_table.h"
 
 namespace hoplab {
 
+namespace {
+
+constexpr double kPlainlySeen = 3.0;  // a remainder from here on is no accident
+constexpr double kMostGain = 3.0;     // the largest among the simulated cases
+
+}  // namespace
+
 std::array<double, NameFeatures::kCount> NameFeatures::Values() const {
-  return {gap, left_gain, left_share, remainder, heterogeneity, gain, decided, others, group};
+  const double left = (left_share + 4.0) * std::min(remainder / kPlainlySeen, 1.0);
+  const double known_gain = std::min(gain, kMostGain);
+  return {gap, left, heterogeneity, known_gain, known_gain * gap, others, group};
 }
 
 std::array<std::string_view, NameFeatures::kCount> NameFeatures::Names() {
-  return {"gap",  "left_gain", "left_share", "remainder", "heterogeneity",
-          "gain", "decided",   "others",     "group"};
+  return {"gap", "left", "heterogeneity", "gain", "decided", "others", "group"};
 }
 
 double CalibratedProbability(const NameFeatures& features) {

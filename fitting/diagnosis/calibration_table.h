@@ -13,6 +13,6 @@ struct CalibrationTable {
   std::array<double, NameFeatures::kCount> weights;
 };
 inline constexpr CalibrationTable kCalibration = {
-    734, 5.177, {-2.222, -0.3372, -0.06836, -0.3411, -0.7567, -3.004, 1.656, -1.187, -0.166}};
+    922, 5.328, {-1.676, -1.018, -1.794, -3.83, 1.585, -1.016, -0.109}};
 
 }  // namespace hoplab

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ struct NoiseModel {
 /// What stands behind a dataset and is kept from the diagnosis.
 struct Truth {
   Law law = Law::kLargeDeflection;
+  /// What the diagnosis takes it for: a law that is nearly right, as every law is of a real leg.
+  std::optional<Law> told_law = {};
   std::vector<PlantedEffect> effects;  // none: the model is right
   double size = 0.0;                   // in delta80; 0 without an effect
   std::string only_recording = {};     // the one trial the effects act in; empty: all

@@ -144,7 +144,7 @@ Outcome RunSealed(const Truth& planted, std::vector<std::string> without) {
   const double begin = ThreadSeconds();
   const Dataset dataset = ReadDataset(sealed.dataset());
   DiagnosisOptions options;
-  options.problem.law = std::string(NameOf(planted.law));
+  options.problem.law = std::string(NameOf(planted.told_law.value_or(planted.law)));
   options.candidates.without = std::move(without);
   options.fit.jobs = 1;
   const Diagnosis d = Diagnose(dataset, options);
