@@ -123,8 +123,8 @@ TrialEvaluator::TrialEvaluator(const FitProblem& problem, const TrialProblem& tr
   for (const SharedParameter& s : problem.shared) directions_.push_back(DirectionIn(trial, s));
   for (const OwnParameter& o : trial.own) {
     const bool deviates = o.deviation_of >= 0;
-    directions_.push_back(
-        deviates ? directions_[static_cast<std::size_t>(o.deviation_of)] : o.direction);
+    directions_.push_back(deviates ? directions_[static_cast<std::size_t>(o.deviation_of)]
+                                   : o.direction);
   }
   channel_rows_.resize(channels_.size());
   int row = 0;

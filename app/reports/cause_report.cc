@@ -148,13 +148,12 @@ std::string DifferentlyText(const CauseReport& c, std::size_t k,
     interval = fmt::format(" (95 % {} .. {})", Fixed(low * shown.factor, decimals),
                            Fixed(high * shown.factor, decimals));
   }
-  return fmt::format("{}{} in every trial, differently: mean {}{}, spread {} ({}): {}{}",
-                     CauseText(c.cause),
-                     c.sizes.size() > 1 ? "." + std::string(p.name) : std::string(),
-                     SizeText(mean, unit), interval,
-                     SizeText(refitted ? refitted->spread : h.spread, unit), ChanceText(h.p_value),
-                     SizesText(refitted ? refitted->sizes : h.sizes, train, unit),
-                     refitted ? "" : " (to first order: no refit came to rest)");
+  return fmt::format(
+      "{}{} in every trial, differently: mean {}{}, spread {} ({}): {}{}", CauseText(c.cause),
+      c.sizes.size() > 1 ? "." + std::string(p.name) : std::string(), SizeText(mean, unit),
+      interval, SizeText(refitted ? refitted->spread : h.spread, unit), ChanceText(h.p_value),
+      SizesText(refitted ? refitted->sizes : h.sizes, train, unit),
+      refitted ? "" : " (to first order: no refit came to rest)");
 }
 
 // What sizes of each trial's own are worth.

@@ -92,7 +92,8 @@ struct Leftover {
 };
 
 /// What the extension is worth with a size in each trial of the told causes whose size differs
-/// between trials, all of them together. The extension itself stays the model that is told.
+/// between trials: all of them together or, where that comes to no rest, the largest that does
+/// alone. The extension itself stays the model that is told.
 struct SizesReport {
   bool refitted = false;              // the refit came to rest; else nothing else is filled in
   double gain = 0.0;                  // VaryingModel::gain

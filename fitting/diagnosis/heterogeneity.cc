@@ -173,8 +173,7 @@ std::vector<Heterogeneity> HeterogeneityOf(const FittedModel& model,
   Centre(parts);
   std::vector<Heterogeneity> out;
   for (int k = 0; k < n; ++k)
-    out.push_back(
-        Describe(parts, k, model.shared[k], columns[static_cast<std::size_t>(k)].scale));
+    out.push_back(Describe(parts, k, model.shared[k], columns[static_cast<std::size_t>(k)].scale));
   return out;
 }
 
@@ -186,8 +185,7 @@ Heterogeneity HeterogeneityAt(const FittedModel& model, const std::vector<TrialP
     const auto at = static_cast<std::size_t>(i);
     TrialEvaluation e;
     TrialEvaluator(model.problem, train[at]).Evaluate({model.shared, model.starts[at], true}, e);
-    if (e.complete)
-      parts[at] = WithoutDeviation(train[at], place, e, model.starts[at], columns);
+    if (e.complete) parts[at] = WithoutDeviation(train[at], place, e, model.starts[at], columns);
   });
   return Describe(parts, place, model.shared[place],
                   columns[static_cast<std::size_t>(place)].scale);

@@ -12,13 +12,28 @@ int FirstPlace(const Diagnosis& d, const CauseReport& cause) {
   return d.naming.best.PlaceOf(static_cast<int>(d.naming.MemberOf(cause.candidate)));
 }
 
-std::vector<int> DifferingPlaces(const ExtensionReport& report, const Diagnosis& d) {
-  std::vector<int> places;
+// Places that differ between trials: of each told cause that varies, the largest share first.
+std::vector<std::vector<int>> DifferingPlaces(const ExtensionReport& report, const Diagnosis& d) {
+  std::vector<std::vector<int>> of_causes;
   for (const CauseReport* c : report.ToldCauses()) {
+    std::vector<int> places;
     for (std::size_t k = 0; k < c->sizes.size(); ++k)
       if (Differs(c->sizes[k])) places.push_back(FirstPlace(d, *c) + static_cast<int>(k));
+    if (!places.empty()) of_causes.push_back(std::move(places));
   }
-  return places;
+  return of_causes;
+}
+
+// All that vary together; where that does not come to rest, the first cause that does alone.
+VaryingModel RefitOf(const FittedModel& best, const std::vector<std::vector<int>>& of_causes,
+                     const RefitSettings& settings) {
+  std::vector<int> all;
+  for (const std::vector<int>& places : of_causes)
+    all.insert(all.end(), places.begin(), places.end());
+  VaryingModel v = RefitVarying(best, all, settings);
+  for (std::size_t i = 0; i < of_causes.size() && of_causes.size() > 1 && !v.converged; ++i)
+    v = RefitVarying(best, of_causes[i], settings);
+  return v;
 }
 
 void HandOut(const VaryingModel& v, const Diagnosis& d, ExtensionReport& report) {
@@ -35,10 +50,10 @@ void HandOut(const VaryingModel& v, const Diagnosis& d, ExtensionReport& report)
 }  // namespace
 
 void MeasureSizes(ExtensionReport& report, const Diagnosis& d, const RefitSettings& settings) {
-  const std::vector<int> places = DifferingPlaces(report, d);
-  if (places.empty()) return;
+  const std::vector<std::vector<int>> differing = DifferingPlaces(report, d);
+  if (differing.empty()) return;
   const FittedModel& best = d.naming.best;
-  const VaryingModel v = RefitVarying(best, places, settings);
+  const VaryingModel v = RefitOf(best, differing, settings);
   SizesReport& out = report.sizes.emplace();
   if (!v.converged) return;
   HandOut(v, d, report);

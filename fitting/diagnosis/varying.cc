@@ -92,13 +92,25 @@ void SetRidges(VaryingModel& v) {
     SetPrior(value.place, value.spread / std::sqrt(Inflation(v, value.place)), v);
 }
 
+// Deviations that the shared value has left behind a bound are put on it: what acts stays, and the
+// trial answers to it.
+void PutInside(VaryingModel& v) {
+  FittedModel& m = v.model;
+  for (std::size_t i = 0; i < v.train.size(); ++i) {
+    for (int k = 0; k < v.train[i].own_count(); ++k) {
+      const auto [low, high] =
+          OwnBounds(m.problem, v.train[i].own[static_cast<std::size_t>(k)], m.shared);
+      m.starts[i][k] = std::clamp(m.starts[i][k], low, high);
+    }
+  }
+}
+
 // The values as they are at the refit; how far the spreads have moved, as logarithms.
 double Look(VaryingModel& v, std::vector<Heterogeneity>& seen, int jobs) {
   double moved = 0.0;
   seen.clear();
   for (VaryingValue& value : v.values) {
-    const Heterogeneity h =
-        seen.emplace_back(HeterogeneityAt(v.model, v.train, value.place, jobs));
+    const Heterogeneity h = seen.emplace_back(HeterogeneityAt(v.model, v.train, value.place, jobs));
     if (h.spread > 0.0) moved = std::max(moved, std::abs(std::log(h.spread / value.spread)));
     value.mean = v.model.shared[value.place];
     value.spread = h.spread;
@@ -182,6 +194,7 @@ VaryingModel RefitVarying(const FittedModel& model, const std::vector<int>& plac
     // Another ridge is another cost: what the last one came to says nothing.
     v.model.cost = std::numeric_limits<double>::infinity();
     if (!EndFit(v.model, own)) return v;
+    PutInside(v);
     SetPriors(v);
     SettleNoise(v.model, own, model.problem.noise);
     v.converged = Look(v, seen, settings.jobs) < kAtRest;
@@ -193,8 +206,8 @@ VaryingModel RefitVarying(const FittedModel& model, const std::vector<int>& plac
   if (!v.converged) return v;
   v.gain = v.model.evidence.log_z() - model.evidence.log_z();
   for (std::size_t k = 0; k < v.values.size(); ++k)
-    v.gain += LogSpreadIntegral(
-        v.model.problem.shared[static_cast<std::size_t>(v.values[k].place)], seen[k]);
+    v.gain += LogSpreadIntegral(v.model.problem.shared[static_cast<std::size_t>(v.values[k].place)],
+                                seen[k]);
   AddIntervals(v, settings.jobs);
   v.square = SquareOf(v);
   SetRidges(v);
