@@ -76,7 +76,7 @@ function causesPart(causes, extension) {
   return section(main.length ? 'The causes' : 'Small corrections',
     main.length ? dataTable(['main cause', ...heads], main.map(row), align, 'What each cause explains, and the held-out errors without it') : undefined,
     small.length ? details('Small corrections the data also want, which may stand for details of the model', dataTable(['cause', ...heads], small.map(row), align)) : undefined,
-    ...causes.flatMap((c) => list(c.varies).filter((v) => v.told !== false).map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
+    ...causes.flatMap((c) => list(c.varies).filter((v) => v.told || !v.refitted).map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
       paragraph(variesText(v)),
       dataTable(['trial', v.name], v.trials.map((t) => [t.trial, quantity(t.value, v.unit, 3)]), 'lr')))),
     otherModelsPart(extension),
