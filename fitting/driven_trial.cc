@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/text.h"
 #include "datasets/touchdowns.h"
+#include "fitting/deviation.h"
 #include "fitting/trial_evaluator.h"
 
 namespace hoplab {
@@ -202,7 +203,8 @@ void FillTrialRequest(const FitProblem& problem, const TrialProblem& trial,
   q.law = problem.law;
   q.liftoff = trial.liftoff;
   q.parameters = trial.parameters;
-  ApplyShared(problem, trial, shared, q.parameters, out.effects);
+  const Eigen::VectorXd acting = ActingShared(problem, trial, shared, own);
+  ApplyShared(problem, trial, acting, q.parameters, out.effects);
   q.effects = out.effects;
   q.initial = InitialOf(trial, own);
   q.start_mode = trial.start_mode;
@@ -222,8 +224,9 @@ void FillTrialRequest(const FitProblem& problem, const TrialProblem& trial,
         (d.component == 0 ? input.delay : input.scale) = value;
   };
   for (int i = 0; i < problem.shared_count(); ++i)
-    if (ActsIn(problem.shared[i], trial)) apply(problem.shared[i].direction, shared[i]);
-  for (int k = 0; k < trial.own_count(); ++k) apply(trial.own[k].direction, own[k]);
+    if (ActsIn(problem.shared[i], trial)) apply(problem.shared[i].direction, acting[i]);
+  for (int k = 0; k < trial.own_count(); ++k)
+    if (trial.own[k].deviation_of < 0) apply(trial.own[k].direction, own[k]);
   out.channel_clocks.clear();
   for (const ChannelProblem& c : problem.channels) out.channel_clocks.push_back(c.clock);
   q.touchdown_angles = out.touchdown_angles;

@@ -30,7 +30,8 @@ struct SharedParameter {
   bool has_threshold = false;
 };
 
-/// A value one trial has of its own, to be fitted beside the shared ones: a component of its start.
+/// A value one trial has of its own, to be fitted beside the shared ones: a component of its start,
+/// or how far a shared value is off in this trial (fitting/deviation.h).
 struct OwnParameter {
   std::string name;  // "vx0"
   SensitivityDirection direction;
@@ -39,6 +40,8 @@ struct OwnParameter {
   double prior_mean = 0.0;
   double prior_sigma = std::numeric_limits<double>::infinity();
   bool free = true;  // what no channel can see (x without body_x) is held
+  /// Place of the shared value it is added to; -1: it is none's deviation.
+  int deviation_of = -1;
 };
 /// Values of one trial's own parameters, in their own units.
 using OwnValues = Eigen::VectorXd;

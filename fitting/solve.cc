@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "fitting/deviation.h"
 #include "fitting/trial_evaluations.h"
 
 namespace hoplab {
@@ -180,6 +181,23 @@ bool CanBegin(const SolveRequest& request, TrialEvaluations& evaluations, SolveR
   return true;
 }
 
+// Keeps what acts in a trial within its bounds, the shared values where they are. They may move on:
+// then the trial's value is cut (ActingShared), and the next run has other bounds.
+void BoundDeviations(const SolveRequest& request, TrialEvaluations& evaluations, int index,
+                     ceres::Problem& to) {
+  const TrialProblem& trial = (*request.trials)[static_cast<std::size_t>(index)];
+  const OwnValues& start = request.starts[static_cast<std::size_t>(index)];
+  double* own = evaluations.own(index);
+  for (int k = 0; k < trial.own_count(); ++k) {
+    const OwnParameter& o = trial.own[static_cast<std::size_t>(k)];
+    if (o.deviation_of < 0) continue;
+    const auto [low, high] = OwnBounds(*request.problem, o, evaluations.SharedValues());
+    own[k] = std::clamp(own[k], (low - start[k]) / o.scale, (high - start[k]) / o.scale);
+    to.SetParameterLowerBound(own, k, (low - start[k]) / o.scale);
+    to.SetParameterUpperBound(own, k, (high - start[k]) / o.scale);
+  }
+}
+
 // The unknowns, their bounds, and which of them are held.
 void Describe(const SolveRequest& request, const Places& held, TrialEvaluations& evaluations,
               ceres::Problem& to, ceres::ParameterBlockOrdering& ordering) {
@@ -201,6 +219,7 @@ void Describe(const SolveRequest& request, const Places& held, TrialEvaluations&
         held_own.push_back(k);
     }
     HoldComponents(to, evaluations.own(index), own_count, held_own);
+    BoundDeviations(request, evaluations, index, to);
   }
   ordering.AddElementToGroup(evaluations.shared(), 1);
   HoldComponents(to, evaluations.shared(), problem.shared_count(), held);
@@ -265,29 +284,6 @@ Run RunCeres(const SolveRequest& request, const RunSettings& settings,
 }
 
 }  // namespace
-
-std::string_view NameOf(SolveStatus status) {
-  switch (status) {
-    case SolveStatus::kConverged:
-      return "converged";
-    case SolveStatus::kIterationLimit:
-      return "iteration_limit";
-    case SolveStatus::kGaveUp:
-      return "gave_up";
-    case SolveStatus::kNoStart:
-      return "no_start";
-    case SolveStatus::kFailed:
-      return "failed";
-    case SolveStatus::kInterrupted:
-      return "interrupted";
-  }
-  return "";
-}
-
-bool IsUsable(SolveStatus status) {
-  return status == SolveStatus::kConverged || status == SolveStatus::kIterationLimit ||
-         status == SolveStatus::kGaveUp;
-}
 
 SolveResult Solve(const SolveRequest& request) {
   // At the optimum the costs of two runs differ by rounding.

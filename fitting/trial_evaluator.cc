@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fitting/deviation.h"
 #include "fitting/driven_trial.h"
 #include "model/mechanism_traits.h"
 
@@ -120,7 +121,11 @@ TrialEvaluator::TrialEvaluator(const FitProblem& problem, const TrialProblem& tr
     sigma_.push_back(c.sigma);
   }
   for (const SharedParameter& s : problem.shared) directions_.push_back(DirectionIn(trial, s));
-  for (const OwnParameter& o : trial.own) directions_.push_back(o.direction);
+  for (const OwnParameter& o : trial.own) {
+    const bool deviates = o.deviation_of >= 0;
+    directions_.push_back(deviates ? directions_[static_cast<std::size_t>(o.deviation_of)]
+                                   : o.direction);
+  }
   channel_rows_.resize(channels_.size());
   int row = 0;
   for (std::size_t cell = 0; cell < trial.data.size(); ++cell) {
@@ -228,8 +233,29 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
   out.half_log_determinant = 0.0;
   if (request.whiten && !problem_->noise.IsWhite()) Whiten(out, request.want_jacobian);
   ApplyLossTo(next, request, out);
+  ClearCut(request, next, out);
   AddPriors(request, next, out);
   out.complete = out.evaluated && complete;
+}
+
+// A deviation beyond the bounds moves nothing, nor does its value: the first `rows` of their
+// columns.
+void TrialEvaluator::ClearCut(const EvaluationRequest& request, int rows,
+                              TrialEvaluation& out) const {
+  if (!request.want_jacobian) return;
+  const ColumnRange columns = ColumnsOf(request);
+  const auto clear = [&](int place) {
+    const int k = place - columns.first;
+    if (k >= 0 && k < columns.count) out.jacobian.col(k).head(rows).setZero();
+  };
+  for (int k = 0; k < trial_->own_count(); ++k) {
+    const int of = trial_->own[static_cast<std::size_t>(k)].deviation_of;
+    if (of < 0) continue;
+    const SharedParameter& s = problem_->shared[static_cast<std::size_t>(of)];
+    if (!IsCut(s, request.shared[of], request.own[k])) continue;
+    clear(of);
+    clear(problem_->shared_count() + k);
+  }
 }
 
 // The rows from `next` on, and with them the columns of what does not act in the trial.
@@ -284,44 +310,6 @@ void TrialEvaluator::Whiten(TrialEvaluation& out, bool jacobian) const {
   out.half_log_determinant = WhitenRows(problem_->noise, block);
   if (jacobian) out.jacobian.topRows(out.data_residuals) = block.leftCols(columns);
   out.residuals.head(out.data_residuals) = block.col(columns);
-}
-
-TrialProblem CutTrial(const FitProblem& problem, const TrialProblem& trial, int first, int last) {
-  TrialProblem cut = trial;
-  const std::size_t width = problem.channels.size();
-  const double origin = trial.row_times[first], end = trial.row_times[last - 1] - origin;
-  cut.row_times.assign(trial.row_times.begin() + first, trial.row_times.begin() + last);
-  for (double& t : cut.row_times) t -= origin;
-  cut.begin_s += origin;
-  cut.parameters.time_origin += origin;
-  cut.data.assign(trial.data.begin() + static_cast<std::ptrdiff_t>(first * width),
-                  trial.data.begin() + static_cast<std::ptrdiff_t>(last * width));
-  cut.sample_count =
-      std::count_if(cut.data.begin(), cut.data.end(), [](double v) { return !std::isnan(v); });
-  const auto cut_times = [&](const std::vector<double>& times, const std::vector<double>& sigmas,
-                             std::vector<double>& out, std::vector<double>& out_sigmas) {
-    out.clear();
-    out_sigmas.clear();
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      const double t = times[i] - origin;
-      if (t <= 0.0 || t >= end) continue;
-      out.push_back(t);
-      out_sigmas.push_back(sigmas[i]);
-      ++cut.sample_count;
-    }
-  };
-  cut_times(trial.contact.touchdown_s, trial.contact.touchdown_sigma_s, cut.contact.touchdown_s,
-            cut.contact.touchdown_sigma_s);
-  cut_times(trial.contact.liftoff_s, trial.contact.liftoff_sigma_s, cut.contact.liftoff_s,
-            cut.contact.liftoff_sigma_s);
-  if (first > 0) {
-    for (OwnParameter& o : cut.own) {
-      if (o.direction.of == SensitivityDirection::Of::kInitialState)
-        o.prior_sigma = std::numeric_limits<double>::infinity();
-    }
-  }
-  CutDriven(cut, origin, end, first == 0);
-  return cut;
 }
 
 }  // namespace hoplab

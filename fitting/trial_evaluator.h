@@ -99,6 +99,7 @@ class TrialEvaluator {
     return request.only.value_or(ColumnRange{0, column_count()});
   }
   void AddPriors(const EvaluationRequest& request, int next, TrialEvaluation& out) const;
+  void ClearCut(const EvaluationRequest& request, int rows, TrialEvaluation& out) const;
   void Whiten(TrialEvaluation& out, bool jacobian) const;
   double horizon_ = 0.0;
   int residual_count_ = 0;

@@ -52,7 +52,7 @@ struct Seeds {
     }
     for (int k = 0; k < count; ++k) {
       T& seeded = NumberAlong(request.directions[first + k], values, input_values);
-      seeded = Seeded<T>(Value(seeded), k, 1.0);
+      seeded += Seeded<T>(0.0, k, 1.0);  // two directions may be along one number
     }
     for (std::size_t e = 0; e < request.effects.size(); ++e) {
       if (active[e]) setup.effects.Add(*request.effects[e].effect, values[e]);

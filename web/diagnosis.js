@@ -49,6 +49,17 @@ const shareText = (share) => {
   return percent > 0 && percent < 0.1 ? 'under 0.1 %' : `${percent < 10 ? percent.toFixed(1) : Math.floor(percent)} %`;
 };
 
+// A size in each trial: its mean and spread, and what such sizes are worth.
+function variesText(v) {
+  const interval = Array.isArray(v.ci95) ? ` (95 % ${v.ci95.map((x) => quantity(x, v.unit, 2)).join(' .. ')})` : '';
+  const text = `${v.name}: mean ${quantity(v.mean, v.unit, 3)}${interval}, spread ${quantity(v.spread, v.unit, 2)}`;
+  const w = v.with_sizes;
+  if (!w) return v.refitted === false ? `${text}, to first order.` : `${text}.`;
+  const errors = Object.keys(w.held_out_rmse).filter((ch) => isNumber(w.held_out_rmse[ch]) && isNumber(w.held_out_rmse_one_size[ch]))
+    .map((ch) => `${splitUnit(ch).name} ${quantity(w.held_out_rmse_one_size[ch], splitUnit(ch).unit, 3)} → ${quantity(w.held_out_rmse[ch], splitUnit(ch).unit, 3)}`);
+  return `${text}. With these sizes the causes explain ${shareText(w.explained)} of the misfit instead of ${shareText(w.explained_one_size)}${errors.length ? `, held-out ${errors.join(', ')}` : ''} (${significant(w.evidence_nats, 2)} nats).`;
+}
+
 // The extension taken apart: what each cause explains, how likely the name is, and the held-out error without it.
 function causesPart(causes, extension) {
   if (!causes.length) return undefined;
@@ -65,8 +76,8 @@ function causesPart(causes, extension) {
   return section(main.length ? 'The causes' : 'Small corrections',
     main.length ? dataTable(['main cause', ...heads], main.map(row), align, 'What each cause explains, and the held-out errors without it') : undefined,
     small.length ? details('Small corrections the data also want, which may stand for details of the model', dataTable(['cause', ...heads], small.map(row), align)) : undefined,
-    ...causes.filter((c) => c.varies).flatMap((c) => c.varies.map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
-      paragraph(`${v.name}: mean ${quantity(v.mean, v.unit, 3)}, spread ${quantity(v.spread, v.unit, 2)}.`),
+    ...causes.flatMap((c) => list(c.varies).filter((v) => v.told || !v.refitted).map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
+      paragraph(variesText(v)),
       dataTable(['trial', v.name], v.trials.map((t) => [t.trial, quantity(t.value, v.unit, 3)]), 'lr')))),
     otherModelsPart(extension),
     paragraph(`Probability that the cause is outside the catalogue: ${isNumber(run.probability_unlisted) ? run.probability_unlisted.toFixed(2) : notComputed}.`),

@@ -27,24 +27,50 @@ Json SeenRecord(const NameFeatures& features) {
   return out;
 }
 
+// What a size in each trial is worth; null without a refit.
+Json SizesWorth(const Diagnosis& d, const SizesReport& sizes) {
+  return {{"evidence_nats", NumberOrNull(sizes.gain)},
+          {"pays", sizes.pays},
+          {"explained", NumberOrNull(sizes.explained)},
+          {"explained_one_size", NumberOrNull(d.extension->explained)},
+          {"held_out_rmse", ByChannel(d.problem, sizes.held_out_rmse)},
+          {"held_out_rmse_one_size", ByChannel(d.problem, d.extension->after.test.rmse)}};
+}
+
+// Of one parameter: of the refit if there is one, else to first order.
+Json VariesOf(const EffectParameter& p, const Heterogeneity& h, const VaryingValue* refitted,
+              const std::vector<TrialProblem>& train) {
+  const std::vector<double>& sizes = refitted ? refitted->sizes : h.sizes;
+  const std::vector<double>& errors = refitted ? refitted->std_errors : h.std_errors;
+  Json trials = Json::array();
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    trials.push_back({{"trial", train[i].file},
+                      {"value", NumberOrNull(sizes[i])},
+                      {"std_error", NumberOrNull(errors[i])}});
+  return {{"name", p.name},
+          {"unit", p.unit},
+          {"refitted", refitted != nullptr},
+          {"mean", NumberOrNull(refitted ? refitted->mean : h.mean)},
+          {"ci95", refitted ? IntervalRecord(refitted->ci95) : Json(nullptr)},
+          {"spread", NumberOrNull(refitted ? refitted->spread : h.spread)},
+          {"p_value", NumberOrNull(h.p_value)},
+          {"gain_nats", NumberOrNull(h.gain)},
+          {"trials", trials}};
+}
+
 // Sizes trial by trial where trials do not agree on one; null where they do.
 Json VariesRecord(const Diagnosis& d, const CauseReport& c) {
   if (!c.Varies()) return nullptr;
+  const ExtensionReport& e = *d.extension;
   const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
   Json out = Json::array();
   for (std::size_t k = 0; k < c.sizes.size(); ++k) {
-    const Heterogeneity& h = c.sizes[k];
-    const EffectParameter& p = c.cause.Parameter(static_cast<int>(k));
-    Json trials = Json::array();
-    for (std::size_t i = 0; i < h.sizes.size(); ++i)
-      trials.push_back({{"trial", train[i].file}, {"value", NumberOrNull(h.sizes[i])}});
-    out.push_back({{"name", p.name},
-                   {"unit", p.unit},
-                   {"mean", NumberOrNull(h.mean)},
-                   {"spread", NumberOrNull(h.spread)},
-                   {"p_value", NumberOrNull(h.p_value)},
-                   {"gain_nats", NumberOrNull(h.gain)},
-                   {"trials", trials}});
+    const VaryingValue* refitted =
+        k < c.refitted.size() && c.refitted[k] ? &*c.refitted[k] : nullptr;
+    Json one = VariesOf(c.cause.Parameter(static_cast<int>(k)), c.sizes[k], refitted, train);
+    one["told"] = (c.main || e.MainCauses().empty()) && e.TellsSizesOf(c, k);
+    one["with_sizes"] = refitted ? SizesWorth(d, *e.sizes) : Json(nullptr);
+    out.push_back(one);
   }
   return out;
 }

@@ -122,27 +122,69 @@ std::string SmallLine(const Diagnosis& d, bool colours) {
       colours);
 }
 
-// "in every trial, differently": the sizes of a cause on whose size trials do not agree.
+// "train-1.csv 0.3 N, ...", the first few.
+std::string SizesText(const std::vector<double>& sizes, const std::vector<TrialProblem>& train,
+                      const std::string& unit) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < sizes.size() && texts.size() < kMostTrials; ++i) {
+    if (std::isfinite(sizes[i])) texts.push_back(train[i].file + " " + SizeText(sizes[i], unit));
+  }
+  return Join(texts);
+}
+
+// "in every trial, differently": one parameter of a cause on whose size trials do not agree.
+std::string DifferentlyText(const CauseReport& c, std::size_t k,
+                            const std::vector<TrialProblem>& train) {
+  const Heterogeneity& h = c.sizes[k];
+  const EffectParameter& p = c.cause.Parameter(static_cast<int>(k));
+  const std::string unit(p.unit);
+  const VaryingValue* refitted = k < c.refitted.size() && c.refitted[k] ? &*c.refitted[k] : nullptr;
+  const double mean = refitted ? refitted->mean : h.mean;
+  std::string interval;
+  if (refitted && refitted->ci95) {
+    const ReadableUnit shown = ReadableUnitOf(mean, unit);
+    const auto [low, high] = *refitted->ci95;
+    const int decimals = DecimalsFor(0.5 * (high - low) * shown.factor);
+    interval = fmt::format(" (95 % {} .. {})", Fixed(low * shown.factor, decimals),
+                           Fixed(high * shown.factor, decimals));
+  }
+  return fmt::format(
+      "{}{} in every trial, differently: mean {}{}, spread {} ({}): {}{}", CauseText(c.cause),
+      c.sizes.size() > 1 ? "." + std::string(p.name) : std::string(), SizeText(mean, unit),
+      interval, SizeText(refitted ? refitted->spread : h.spread, unit), ChanceText(h.p_value),
+      SizesText(refitted ? refitted->sizes : h.sizes, train, unit),
+      refitted ? "" : " (to first order: no refit came to rest)");
+}
+
+// What sizes of each trial's own are worth.
+std::string SizesWorthText(const Diagnosis& d) {
+  const ExtensionReport& e = *d.extension;
+  std::vector<std::string> errors;
+  const std::vector<double>&before = e.after.test.rmse, &after = e.sizes->held_out_rmse;
+  for (std::size_t c = 0; c < std::min(before.size(), after.size()); ++c) {
+    const std::string name(ChannelName(d.problem.channels[c].channel));
+    const std::string unit = ChannelUnit(*ChannelFromName(name));
+    if (std::isfinite(before[c]) && std::isfinite(after[c]))
+      errors.push_back(fmt::format("{} {} -> {}", WithoutUnit(name), ErrorText(before[c], unit),
+                                   ErrorText(after[c], unit)));
+  }
+  return fmt::format(
+      "with these sizes the causes explain {} of the misfit instead of {}{}{} ({:.1f} nats)",
+      WholeShareText(e.sizes->explained), WholeShareText(e.explained),
+      errors.empty() ? "" : ", held-out ", Join(errors), e.sizes->gain);
+}
+
 std::string VariesLines(const Diagnosis& d, bool colours) {
   const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
   std::string text;
   for (const CauseReport* c : d.extension->ToldCauses()) {
-    if (!c->Varies()) continue;
     for (std::size_t k = 0; k < c->sizes.size(); ++k) {
-      const Heterogeneity& h = c->sizes[k];
-      const std::string unit(c->cause.Parameter(static_cast<int>(k)).unit);
-      std::vector<std::string> sizes;
-      for (std::size_t i = 0; i < h.sizes.size() && sizes.size() < kMostTrials; ++i) {
-        if (std::isfinite(h.sizes[i]))
-          sizes.push_back(train[i].file + " " + SizeText(h.sizes[i], unit));
-      }
-      text += Labelled("varies",
-                       fmt::format("{} in every trial, differently: mean {}, spread {} ({}): {}",
-                                   CauseText(c->cause), SizeText(h.mean, unit),
-                                   SizeText(h.spread, unit), ChanceText(h.p_value), Join(sizes)),
-                       colours);
+      if (d.extension->TellsSizesOf(*c, k))
+        text += Labelled("varies", DifferentlyText(*c, k, train), colours);
     }
   }
+  if (!text.empty() && d.extension->sizes->refitted)
+    text += Labelled("", SizesWorthText(d), colours);
   return text;
 }
 

@@ -22,13 +22,6 @@ double Disagreement(const Heterogeneity& h) {
   return std::min(Rarity(h.p_value), kPlainRarity) * spread;
 }
 
-// Place of a member's first value among the shared ones.
-std::size_t FirstValue(const FittedModel& e, std::size_t member) {
-  int place = e.problem.shared_count() - e.parameter_count();
-  for (std::size_t i = 0; i < member; ++i) place += e.members[i].parameter_count();
-  return static_cast<std::size_t>(place);
-}
-
 }  // namespace
 
 void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
@@ -47,7 +40,7 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
     NameFeatures& f = c.features = common;
     f.gap = std::log1p(std::clamp(naming.gaps[member], 0.0, kMostNatsOfGap));
     f.group = static_cast<double>(naming.groups[member].size() - 1);
-    const auto first = sizes.begin() + static_cast<std::ptrdiff_t>(FirstValue(best, member));
+    const auto first = sizes.begin() + best.PlaceOf(static_cast<int>(member));
     c.sizes.assign(first, first + c.cause.parameter_count());
     for (const Heterogeneity& h : c.sizes)
       f.heterogeneity = std::max(f.heterogeneity, Disagreement(h));

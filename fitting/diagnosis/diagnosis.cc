@@ -11,6 +11,7 @@
 #include "fitting/diagnosis/heterogeneity.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/null_fit.h"
+#include "fitting/diagnosis/sizes.h"
 #include "fitting/diagnosis/verdict.h"
 
 namespace hoplab {
@@ -162,6 +163,7 @@ class Pipeline {
                                .seed = Seed(kBootstrapStream)},
                               settings);
     Believe(report, d_, HeterogeneityOf(best, train_, options_.fit.jobs));
+    MeasureSizes(report, d_, settings);
     for (const CauseReport* c : report.ToldCauses()) {
       const std::size_t member = d_.naming.MemberOf(c->candidate);
       report.at_bound = report.at_bound || best.AtPhysicalBound(static_cast<int>(member));

@@ -91,6 +91,18 @@ struct Leftover {
   bool material = false;
 };
 
+/// What the extension is worth with a size in each trial of the told causes whose size differs
+/// between trials: all of them together or, where that comes to no rest, the largest that does
+/// alone. The extension itself stays the model that is told.
+struct SizesReport {
+  bool refitted = false;              // the refit came to rest; else nothing else is filled in
+  double gain = 0.0;                  // VaryingModel::gain
+  double explained = 0.0;             // share of the excess chi-square, 0..1
+  std::vector<double> held_out_rmse;  // per channel, each held-out trial's size found as its start
+  /// It gains kVaryingPays.
+  bool pays = false;
+};
+
 /// What the accepted extension is worth.
 struct ExtensionReport {
   Uncertainty uncertainty;  // of the extended model, its intervals hold other_models too
@@ -104,7 +116,11 @@ struct ExtensionReport {
   double white_square = 0.0;  // squares left when fitted under white noise
   bool at_bound = false;      // a told cause's size lies on a physical bound
 
-  std::vector<CauseReport> causes;  // the members, the largest share first
+  std::vector<CauseReport> causes;   // the members, the largest share first
+  std::optional<SizesReport> sizes;  // absent where no told cause varies
+  /// Whether the told cause's parameter `k` is told to differ between trials: it does to first
+  /// order, and the refit, if it came to rest, pays.
+  bool TellsSizesOf(const CauseReport& cause, std::size_t k) const;
 
   /// Some misfit is left for certain, or may be: one of the members may stand in for another cause.
   bool SomeRemains() const { return remainder.p_value <= kDetectionLevel; }

@@ -22,12 +22,6 @@ constexpr double kWorthFollowing = 4.0;
 // A size whose beginning costs so many times what the base does is not the linear forecast's.
 constexpr double kFarOff = 10.0;
 
-// Where in the shared values member i begins.
-int PlaceOf(const FittedModel& e, int i) {
-  return e.problem.shared_count() - e.parameter_count() +
-         ParameterCount(std::span(e.members).first(static_cast<std::size_t>(i)));
-}
-
 // A start inside the bounds, off null so that a derivative that ends there has a side.
 double Inside(const SharedParameter& s, double value) {
   const double room = std::min(1e-3 * s.scale, 0.25 * (s.upper - s.lower));
@@ -112,12 +106,17 @@ Eigen::VectorXd Beginning(const FittedModel& e, const Eigen::VectorXd& kept,
 
 }  // namespace
 
+int FittedModel::PlaceOf(int i) const {
+  return problem.shared_count() - parameter_count() +
+         ParameterCount(std::span(members).first(static_cast<std::size_t>(i)));
+}
+
 Eigen::VectorXd FittedModel::ValuesOf(int i) const {
-  return shared.segment(PlaceOf(*this, i), members[static_cast<std::size_t>(i)].parameter_count());
+  return shared.segment(PlaceOf(i), members[static_cast<std::size_t>(i)].parameter_count());
 }
 
 bool FittedModel::AtPhysicalBound(int i) const {
-  const int first = PlaceOf(*this, i);
+  const int first = PlaceOf(i);
   const Candidate& member = members[static_cast<std::size_t>(i)];
   for (int k = 0; k < member.parameter_count(); ++k) {
     const int place = first + k;
@@ -209,7 +208,7 @@ void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
 FittedModel RefitWithout(const FittedModel& base, int i, const FitProblem& null_problem,
                          const RefitSettings& settings) {
   FittedModel e;
-  const int place = PlaceOf(base, i);
+  const int place = base.PlaceOf(i);
   const int count = base.members[static_cast<std::size_t>(i)].parameter_count();
   e.members = base.members;
   e.members.erase(e.members.begin() + i);
@@ -222,11 +221,21 @@ FittedModel RefitWithout(const FittedModel& base, int i, const FitProblem& null_
   return e;
 }
 
+bool EndFit(FittedModel& model, const RefitSettings& settings) {
+  const SolveResult found = Solve(RequestFrom(model, settings));
+  if (!LedOn(found)) return false;
+  if (found.cost <= model.cost) Take(model, found);
+  return true;
+}
+
 void Settle(FittedModel& model, const RefitSettings& settings) {
   if (!model.ok()) return;
   // A trial refit may have stopped short of the minimum.
-  const SolveResult found = Solve(RequestFrom(model, settings));
-  if (IsUsable(found.status) && found.complete && found.cost <= model.cost) Take(model, found);
+  EndFit(model, settings);
+  SettleNoise(model, settings);
+}
+
+void SettleNoise(FittedModel& model, const RefitSettings& settings, const NoiseModel& also) {
   LikelihoodDetail detail;
   detail.prior_widths = PriorWidths(model.problem, model.shared);
   const RestrictedLikelihood likelihood(model.problem, *settings.train, model.shared, model.starts,
@@ -239,6 +248,12 @@ void Settle(FittedModel& model, const RefitSettings& settings) {
   }
   model.evidence = EvidenceOf(model.problem, model.shared, likelihood, coarse, model.problem.noise);
   model.settled = true;
+  if (also.IsWhite()) return;
+  const Evidence other = EvidenceOf(model.problem, model.shared, likelihood, coarse, also);
+  if (other.log_z() <= model.evidence.log_z()) return;
+  model.evidence = other;
+  model.problem.noise = model.discrepancy.noise = also;
+  model.discrepancy.log_likelihood = coarse.At(also);
 }
 
 }  // namespace hoplab

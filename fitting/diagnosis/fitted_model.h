@@ -28,6 +28,8 @@ struct FittedModel {
   Evidence evidence;
 
   bool ok() const { return IsUsable(status) && complete; }
+  /// Where among the shared values those of member `i` begin.
+  int PlaceOf(int i) const;
   /// Fitted values of member `i`.
   Eigen::VectorXd ValuesOf(int i) const;
   /// A member's value lies on a bound other than its null: physics would have to give more.
@@ -68,5 +70,13 @@ FittedModel RefitWithout(const FittedModel& base, int i, const FitProblem& null_
 /// Ends the model's fit, seeks the noise that suits what it leaves, and takes its evidence. With
 /// `settings.discrepancy` kNone the noise stays white.
 void Settle(FittedModel& model, const RefitSettings& settings);
+
+/// Ends the model's fit alone; false if it could not be led on from where it is. A cost that is not
+/// known is infinite.
+bool EndFit(FittedModel& model, const RefitSettings& settings);
+
+/// Noise and evidence alone, the values as they are. `also`, if it is not white, is a noise that
+/// the search may not reach, taken if the evidence is larger.
+void SettleNoise(FittedModel& model, const RefitSettings& settings, const NoiseModel& also = {});
 
 }  // namespace hoplab

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "fitting/deviation.h"
 #include "fitting/eliminated_trial.h"
 
 namespace hoplab {
@@ -39,9 +40,9 @@ class RandomEffect {
       g += t.columns.transpose() * t.residuals - w * cr * cC.transpose();
       sum -= 0.5 * (std::log1p(tau * tau * V) + t.residuals.squaredNorm() - w * cr * cr);
     }
-    const Eigen::LDLT<Eigen::MatrixXd> solver(H);
-    step_ = -solver.solve(g);
-    const Eigen::VectorXd d = solver.vectorD().cwiseMax(std::numeric_limits<double>::min());
+    solver_.compute(H);
+    step_ = -solver_.solve(g);
+    const Eigen::VectorXd d = solver_.vectorD().cwiseMax(std::numeric_limits<double>::min());
     return sum - 0.5 * g.dot(step_) - 0.5 * d.array().log().sum();
   }
 
@@ -52,10 +53,27 @@ class RandomEffect {
     const double w = tau * tau / (1.0 + tau * tau * c.squaredNorm());
     return step_[value_] - w * c.dot(t.residuals + t.columns * step_);
   }
+  // Of that, for the trial's true one: given the shared steps b_i is known to w, and SizeStep
+  // follows them along e - w c'C.
+  double SizeError(const EliminatedTrial& t, double tau) const {
+    const auto c = t.columns.col(value_);
+    const double w = tau * tau / (1.0 + tau * tau * c.squaredNorm());
+    Eigen::VectorXd along = -w * t.columns.transpose() * c;
+    along[value_] += 1.0;
+    return std::sqrt(w + std::max(along.dot(solver_.solve(along)), 0.0));
+  }
+  // Minus the second derivative of LogLikelihood by log tau.
+  double Curvature(double tau) {
+    constexpr double kDifference = 0.05;
+    const double up = LogLikelihood(tau * std::exp(kDifference));
+    const double down = LogLikelihood(tau * std::exp(-kDifference));
+    return (2.0 * LogLikelihood(tau) - up - down) / (kDifference * kDifference);
+  }
 
  private:
   const std::vector<EliminatedTrial>& trials_;
   int value_;
+  Eigen::LDLT<Eigen::MatrixXd> solver_;
   Eigen::VectorXd step_;
 };
 
@@ -83,14 +101,60 @@ void Spread(const std::vector<EliminatedTrial>& parts, int k, double value, doub
       std::log(1e3 * told), kBits);
   h.gain = std::max(-worst - none, 0.0);
   const double tau = h.gain > 0.0 ? std::exp(log_tau) : 0.0;
+  if (tau > 0.0) h.curvature = effect.Curvature(tau);
   effect.LogLikelihood(tau);
   h.mean = value + scale * effect.mean_step();
   h.spread = scale * tau;
   for (const EliminatedTrial& part : parts) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     const bool sees = !part.empty() && part.columns.col(k).squaredNorm() > 0.0;
-    h.sizes.push_back(sees ? value + scale * effect.SizeStep(part, tau)
-                           : std::numeric_limits<double>::quiet_NaN());
+    h.sizes.push_back(sees ? value + scale * effect.SizeStep(part, tau) : kNone);
+    h.std_errors.push_back(sees ? scale * effect.SizeError(part, tau) : kNone);
   }
+}
+
+// Of the value in column k of the trials, in its scale.
+Heterogeneity Describe(const std::vector<EliminatedTrial>& parts, int k, double value,
+                       double scale) {
+  Heterogeneity h;
+  double information = 0.0, pull = 0.0, squares = 0.0;
+  int trials = 0;
+  for (const EliminatedTrial& part : parts) {
+    if (part.empty()) continue;
+    const double V = part.columns.col(k).squaredNorm();
+    const double g = part.columns.col(k).dot(part.residuals);
+    if (!(V > 0.0)) continue;
+    information += V;
+    pull += g;
+    squares += g * g / V;
+    ++trials;
+  }
+  if (trials < 2) return h;
+  h.chi2 = std::max(squares - pull * pull / information, 0.0);
+  h.degrees_of_freedom = trials - 1;
+  h.p_value = boost::math::cdf(
+      boost::math::complement(boost::math::chi_squared(static_cast<double>(trials - 1)), h.chi2));
+  Spread(parts, k, value, scale, information, h);
+  return h;
+}
+
+std::vector<KeptColumn> SharedColumns(const FitProblem& problem) {
+  std::vector<KeptColumn> columns;
+  for (int k = 0; k < problem.shared_count(); ++k)
+    columns.push_back({k, problem.shared[static_cast<std::size_t>(k)].scale});
+  return columns;
+}
+
+// A trial's rows with its deviation of one shared value taken back: as they would be without, to
+// first order. The deviation's prior then has a row of zeros.
+EliminatedTrial WithoutDeviation(TrialProblem trial, int place, TrialEvaluation& e,
+                                 const OwnValues& own, const std::vector<KeptColumn>& columns) {
+  const auto n = static_cast<int>(columns.size());
+  if (const std::optional<int> k = DeviationOf(place, trial)) {
+    e.residuals -= e.jacobian.col(n + *k) * own[*k];
+    trial.own[static_cast<std::size_t>(*k)].free = false;
+  }
+  return EliminateOwn(trial, e, n, columns);
 }
 
 }  // namespace
@@ -98,9 +162,7 @@ void Spread(const std::vector<EliminatedTrial>& parts, int k, double value, doub
 std::vector<Heterogeneity> HeterogeneityOf(const FittedModel& model,
                                            const std::vector<TrialProblem>& train, int jobs) {
   const int n = model.problem.shared_count();
-  std::vector<KeptColumn> columns;
-  for (int k = 0; k < n; ++k)
-    columns.push_back({k, model.problem.shared[static_cast<std::size_t>(k)].scale});
+  const std::vector<KeptColumn> columns = SharedColumns(model.problem);
   std::vector<EliminatedTrial> parts(train.size());
   ParallelFor(static_cast<int>(train.size()), jobs, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
@@ -109,29 +171,24 @@ std::vector<Heterogeneity> HeterogeneityOf(const FittedModel& model,
     if (e.complete) parts[at] = EliminateOwn(train[at], e, n, columns);
   });
   Centre(parts);
-  std::vector<Heterogeneity> out(static_cast<std::size_t>(n));
-  for (int k = 0; k < n; ++k) {
-    double information = 0.0, pull = 0.0, squares = 0.0;
-    int trials = 0;
-    for (const EliminatedTrial& part : parts) {
-      if (part.empty()) continue;
-      const double V = part.columns.col(k).squaredNorm();
-      const double g = part.columns.col(k).dot(part.residuals);
-      if (!(V > 0.0)) continue;
-      information += V;
-      pull += g;
-      squares += g * g / V;
-      ++trials;
-    }
-    if (trials < 2) continue;
-    Heterogeneity& h = out[static_cast<std::size_t>(k)];
-    h.chi2 = std::max(squares - pull * pull / information, 0.0);
-    h.degrees_of_freedom = trials - 1;
-    h.p_value = boost::math::cdf(
-        boost::math::complement(boost::math::chi_squared(static_cast<double>(trials - 1)), h.chi2));
-    Spread(parts, k, model.shared[k], columns[static_cast<std::size_t>(k)].scale, information, h);
-  }
+  std::vector<Heterogeneity> out;
+  for (int k = 0; k < n; ++k)
+    out.push_back(Describe(parts, k, model.shared[k], columns[static_cast<std::size_t>(k)].scale));
   return out;
+}
+
+Heterogeneity HeterogeneityAt(const FittedModel& model, const std::vector<TrialProblem>& train,
+                              int place, int jobs) {
+  const std::vector<KeptColumn> columns = SharedColumns(model.problem);
+  std::vector<EliminatedTrial> parts(train.size());
+  ParallelFor(static_cast<int>(train.size()), jobs, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    TrialEvaluation e;
+    TrialEvaluator(model.problem, train[at]).Evaluate({model.shared, model.starts[at], true}, e);
+    if (e.complete) parts[at] = WithoutDeviation(train[at], place, e, model.starts[at], columns);
+  });
+  return Describe(parts, place, model.shared[place],
+                  columns[static_cast<std::size_t>(place)].scale);
 }
 
 }  // namespace hoplab

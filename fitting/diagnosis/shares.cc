@@ -28,11 +28,12 @@ bool IsMainCause(double share, double error_grows, const HeldOutGain& gain, doub
   return (explains || error_grows > kSeen) && confirmed;
 }
 
-bool CauseReport::Varies() const {
+bool Differs(const Heterogeneity& sizes) {
   constexpr double kCertain = 0.01;
-  return std::any_of(sizes.begin(), sizes.end(),
-                     [](const Heterogeneity& h) { return h.spread > 0.0 && h.p_value < kCertain; });
+  return sizes.spread > 0.0 && sizes.p_value < kCertain;
 }
+
+bool CauseReport::Varies() const { return std::any_of(sizes.begin(), sizes.end(), Differs); }
 
 std::vector<CauseReport> TakeApart(const Naming& naming, const SharesRequest& request,
                                    const RefitSettings& settings) {

@@ -7,6 +7,7 @@
 #include "fitting/diagnosis/heterogeneity.h"
 #include "fitting/diagnosis/measure.h"
 #include "fitting/diagnosis/name.h"
+#include "fitting/diagnosis/varying.h"
 
 namespace hoplab {
 
@@ -26,9 +27,15 @@ struct CauseReport {
   HeldOutGain gain;                  // held-out, of the extension over the model without it
   /// One a parameter: whether trials agree on its size.
   std::vector<Heterogeneity> sizes;
+  /// One a parameter: its sizes of the refit with one in each trial; absent where trials agree on
+  /// it, or no such refit was made, or none came to rest.
+  std::vector<std::optional<VaryingValue>> refitted;
   /// Some size differs between trials for certain.
   bool Varies() const;
 };
+
+/// Trials do not agree on this value for certain.
+bool Differs(const Heterogeneity& sizes);
 
 /// Share of the misfit below which a cause, or what is left, is of no consequence.
 inline constexpr double kMaterial = 0.02;

@@ -133,6 +133,11 @@ std::vector<const CauseReport*> ExtensionReport::ToldCauses() const {
   return told;
 }
 
+bool ExtensionReport::TellsSizesOf(const CauseReport& cause, std::size_t k) const {
+  if (!sizes || !Differs(cause.sizes[k])) return false;
+  return !sizes->refitted || (sizes->pays && cause.refitted[k]);
+}
+
 double ExtensionReport::Probability() const {
   double least = 1.0;
   for (const CauseReport* c : ToldCauses()) least = std::min(least, c->group_probability);

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "fitting/diagnosis/fitted_model.h"
+
+namespace hoplab {
+
+/// A shared value that has a size of its own in each trial: N(mean, spread^2), in its unit.
+struct VaryingValue {
+  int place = 0;  // among the model's shared values
+  double mean = 0.0, spread = 0.0;
+  /// Of the mean: the wider of the two intervals of ParameterUncertainty, that of the noise and
+  /// that of how differently trials pull, which knows how few they are. Absent on a bound.
+  std::optional<std::pair<double, double>> ci95;
+  std::vector<double> sizes;  // one a train trial, as fitted; NaN: it does not act there
+  /// Of the best linear prediction of each size, the spread as given; NaN: the trial does not see
+  /// it.
+  std::vector<double> std_errors;
+};
+
+/// A model some of whose values differ between trials, fitted.
+struct VaryingModel {
+  FittedModel model;  // trials of its problem have deviations (fitting/deviation.h)
+  std::vector<TrialProblem> train;
+  std::vector<VaryingValue> values;  // those whose spread is not 0
+  /// Every spread has come to rest. If not, nothing else is to be used.
+  bool converged = false;
+  int rounds = 0;
+  double square = 0.0;  // squares of data over sigma and of priors, N(0, spread^2) of deviations
+  /// Nats of evidence over the model with one size for all trials. Both evidences are Laplace's
+  /// with the same priors of shared values and noise; deviations are integrated out under
+  /// N(0, spread^2), spreads under LogSizePrior of one side.
+  double gain = 0.0;
+};
+
+/// Nats of evidence from which sizes that differ are told. The odds are 20 to 1 then: what is asked
+/// to tell two causes apart, and to name one without a doubt. Beforehand one size and many are
+/// alike likely.
+inline constexpr double kVaryingPays = 3.0;
+
+/// Refits a settled model with a deviation of the shared values at `places` in each trial: shared
+/// values, starts and deviations by least squares, the spreads by the restricted likelihood at the
+/// refit (HeterogeneityAt) under the noise that suits it, in turn until no spread changes by a
+/// hundredth. A value whose spread comes to 0 has one size again. `settings.train` are the trials
+/// `model` was fitted to.
+VaryingModel RefitVarying(const FittedModel& model, const std::vector<int>& places,
+                          const RefitSettings& settings);
+
+}  // namespace hoplab
