@@ -1,7 +1,10 @@
 #pragma once
 
+#include <Eigen/Cholesky>
+#include <cmath>
 #include <cstdio>
 
+#include "base/random.h"
 #include "tests/support/bridge_sampling.h"
 #include "tests/support/diagnosed_hops.h"
 #include "tests/support/evidence_integrand.h"
@@ -16,6 +19,31 @@ inline World ShortWorld(std::vector<EffectSpec> effects, std::uint64_t seed = 5)
           .hops = 2,
           .seed = seed,
           .rate_hz = 50.0};
+}
+
+/// Adds a Matern 3/2 process of a time scale of 0.1 s to every channel, its amplitudes
+/// in sigma.
+inline void Disturb(Dataset& dataset, const std::vector<double>& amplitude, std::uint64_t seed) {
+  constexpr double kScale = 0.1, kSigma = 0.001;
+  for (std::size_t i = 0; i < dataset.trials.size(); ++i) {
+    Trace& trace = dataset.trials[i].trace;
+    const auto n = static_cast<Eigen::Index>(trace.time_s.size());
+    Eigen::MatrixXd C(n, n);
+    for (Eigen::Index a = 0; a < n; ++a) {
+      for (Eigen::Index b = 0; b < n; ++b) {
+        const double x = std::sqrt(3.0) * std::abs(trace.time_s[a] - trace.time_s[b]) / kScale;
+        C(a, b) = (1.0 + x) * std::exp(-x) + (a == b ? 1e-10 : 0.0);
+      }
+    }
+    const Eigen::MatrixXd L = C.llt().matrixL();
+    for (std::size_t c = 0; c < trace.columns.size(); ++c) {
+      RandomStream random(seed, 900 + 10 * i + c);
+      Eigen::VectorXd z(n);
+      for (double& value : z) value = random.Normal();
+      const Eigen::VectorXd delta = amplitude[c] * kSigma * (L * z);
+      for (Eigen::Index a = 0; a < n; ++a) trace.columns[c].values[a] += delta[a];
+    }
+  }
 }
 
 /// Laplace's value of a model's evidence beside the sampled one [nats].

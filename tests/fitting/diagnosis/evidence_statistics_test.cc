@@ -2,10 +2,9 @@
 // ctest -L statistics
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
-#include <cmath>
+#include <algorithm>
+#include <array>
 
-#include "base/random.h"
 #include "tests/fitting/diagnosis/study.h"
 #include "tests/support/sampled_evidence.h"
 
@@ -20,30 +19,6 @@ struct EvidenceCase {
   std::vector<double> disturbance = {};  // amplitudes of a process on the traces, in sigma
   double within = 0.3;                   // nats
 };
-
-// A Matern 3/2 process of a time scale of 0.1 s on every channel.
-void Disturb(Dataset& dataset, const std::vector<double>& amplitude, std::uint64_t seed) {
-  constexpr double kScale = 0.1, kSigma = 0.001;
-  for (std::size_t i = 0; i < dataset.trials.size(); ++i) {
-    Trace& trace = dataset.trials[i].trace;
-    const auto n = static_cast<Eigen::Index>(trace.time_s.size());
-    Eigen::MatrixXd C(n, n);
-    for (Eigen::Index a = 0; a < n; ++a) {
-      for (Eigen::Index b = 0; b < n; ++b) {
-        const double x = std::sqrt(3.0) * std::abs(trace.time_s[a] - trace.time_s[b]) / kScale;
-        C(a, b) = (1.0 + x) * std::exp(-x) + (a == b ? 1e-10 : 0.0);
-      }
-    }
-    const Eigen::MatrixXd L = C.llt().matrixL();
-    for (std::size_t c = 0; c < trace.columns.size(); ++c) {
-      RandomStream random(seed, 900 + 10 * i + c);
-      Eigen::VectorXd z(n);
-      for (double& value : z) value = random.Normal();
-      const Eigen::VectorXd delta = amplitude[c] * kSigma * (L * z);
-      for (Eigen::Index a = 0; a < n; ++a) trace.columns[c].values[a] += delta[a];
-    }
-  }
-}
 
 struct CaseFit {
   NullFit fit;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <thread>
 
 #include "base/parallel.h"
@@ -69,7 +70,7 @@ TEST(DiagnosisStatistics, ADiscrepancySoughtInVainCostsLittlePower) {
       seeds);
   std::vector<std::string> head = {"effect"};
   std::map<std::string, std::vector<std::string>> rows;
-  std::vector<double> medians, where_found;
+  std::vector<double> medians, means, where_found;
   int found = 0;
   for (int law = 0; law < laws; ++law) {
     std::map<std::string, std::vector<double>> of_effect;
@@ -90,6 +91,8 @@ TEST(DiagnosisStatistics, ADiscrepancySoughtInVainCostsLittlePower) {
       row.resize(static_cast<std::size_t>(law), "-");
       row.push_back(Cell("%.2f (%.2f)", Quantile(ratios, 0.5), Quantile(ratios, 1.0)));
       medians.push_back(Quantile(ratios, 0.5));
+      means.push_back(std::accumulate(ratios.begin(), ratios.end(), 0.0) /
+                      static_cast<double>(ratios.size()));
     }
   }
   report.Head(head);
@@ -98,11 +101,19 @@ TEST(DiagnosisStatistics, ADiscrepancySoughtInVainCostsLittlePower) {
     row.insert(row.begin(), name);
     report.Row(row);
   }
-  report.Say(
-      "A discrepancy is found in %d of %d datasets. Medians over them, of %zu effects and "
-      "laws: %s. Single datasets in which one is found: %s.",
-      found, laws * seeds, medians.size(), Summary(medians).c_str(), Summary(where_found).c_str());
+  report.Say("A discrepancy is found in %d of %d datasets. %zu effects and laws.", found,
+             laws * seeds, medians.size());
+  report.Say("Medians over the datasets: %s. Means: %s.", Summary(medians).c_str(),
+             Summary(means).c_str());
+  report.Say("Single datasets in which one is found: %s.", Summary(where_found).c_str());
   EXPECT_LE(Quantile(medians, 1.0), 1.15);
+  EXPECT_LE(Quantile(means, 1.0), 1.15);
+  if (seeds < 15) return;
+  // Known misses: where one is found, which is in 16 of 90, the loss is 18 % in the median and 72 %
+  // at worst.
+  EXPECT_LE(Quantile(where_found, 0.5), 1.20);
+  EXPECT_LE(Quantile(where_found, 1.0), 1.75);
+  EXPECT_LE(found, 18);
 }
 
 }  // namespace
