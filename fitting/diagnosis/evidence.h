@@ -2,14 +2,10 @@
 
 #include <vector>
 
+#include "fitting/diagnosis/value_integral.h"
 #include "fitting/discrepancy/estimate_discrepancy.h"
 
 namespace hoplab {
-
-/// Logarithm of the density of a value that lies `u` of its typical sizes from the one that changes
-/// nothing: a mixture of normal densities of 0.03, 0.1, ... 30 typical sizes, so that neither a
-/// tenth nor ten times the typical size is a surprise. Twice that where only one side is possible.
-double LogSizePrior(double u, bool one_sided);
 
 /// Logarithm of the prior of a discrepancy: amplitudes half-normal, ten sigma wide; the logarithm
 /// of the time scale uniform between what the data can tell. Density per logarithm of each.
@@ -28,10 +24,12 @@ struct Evidence {
   double discrepancy_probability() const;
 };
 
-/// Laplace's approximation around fitted values: the restricted likelihood with the values' priors,
-/// the half space where one lies on a bound, and the discrepancy's own values marginalised by the
-/// curvature of the restricted likelihood.
-/// `likelihood` has the values' PriorWidths; `coarse`, for the curvature, may be of averaged rows.
+/// The model linearised at fitted values, and the integral of its likelihood times all priors:
+/// over starts and shared values as in LogValueIntegral, over the discrepancy's own values around
+/// the peak of that (IntegrateOverNoise, begun at `noise`).
+/// The values are those of least squares, where the whitened rows have another optimum; so the
+/// linear model is asked how it goes on from there, and the prior is that of where it leads.
+/// `coarse`, for the discrepancy's own values, may be of averaged rows.
 Evidence EvidenceOf(const FitProblem& problem, const Eigen::VectorXd& shared,
                     const RestrictedLikelihood& likelihood, const RestrictedLikelihood& coarse,
                     const NoiseModel& noise);

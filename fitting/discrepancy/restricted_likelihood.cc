@@ -207,52 +207,72 @@ void RestrictedLikelihood::Average(Part& part, std::size_t most) {
   part.block = std::move(out);
 }
 
-double RestrictedLikelihood::Evaluate(const NoiseModel& noise,
-                                      std::vector<OneSided>* on_bounds) const {
-  const auto free = static_cast<Eigen::Index>(free_.size());
-  const auto width = free + static_cast<Eigen::Index>(bound_.size());
+RowMajorMatrix RestrictedLikelihood::Whitened(const NoiseModel& noise, double& log_sum) const {
+  const auto width = static_cast<Eigen::Index>(free_.size() + bound_.size());
   std::vector<double> logs(parts_.size(), 0.0);
   std::vector<Eigen::MatrixXd> rest(parts_.size());
   ParallelFor(static_cast<int>(parts_.size()), jobs_, [&](int i) {
     const Part& part = parts_[static_cast<std::size_t>(i)];
     RowMajorMatrix block = part.block;
-    double log_sum = 0.0;
+    double log_of_part = 0.0;
     for (std::size_t c = 0; c < part.channels.size(); ++c) {
       const double ratio = noise.AmplitudeOf(c) * std::sqrt(part.averaged[c]);
       if (!(ratio > 0.0)) continue;
       const ChannelRows& at = part.channels[c];
-      log_sum += WhitenMatern(at.times, at.rows, ratio, noise.time_scale, block);
+      log_of_part += WhitenMatern(at.times, at.rows, ratio, noise.time_scale, block);
     }
     const Eigen::VectorXd length = block.colwise().norm();
     const Eigen::MatrixXd R = UpperOf(block);
     const Eigen::Index own = std::min<Eigen::Index>(part.own, R.rows());
-    logs[static_cast<std::size_t>(i)] = log_sum + LogDiagonal(R, own, length);
+    logs[static_cast<std::size_t>(i)] = log_of_part + LogDiagonal(R, own, length);
     rest[static_cast<std::size_t>(i)] = R.bottomRightCorner(R.rows() - own, width + 1);
   });
-  double log_sum = 0.0;
+  log_sum = 0.0;
   Eigen::Index rows = 0;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     log_sum += logs[i];
     rows += rest[i].rows();
   }
-  const Eigen::Index priors = prior_widths_.size();
-  RowMajorMatrix all = RowMajorMatrix::Zero(std::max(rows + priors, width + 1), width + 1);
+  RowMajorMatrix all(rows, width + 1);
   Eigen::Index at = 0;
   for (const Eigen::MatrixXd& r : rest) {
     all.middleRows(at, r.rows()) = r;
     at += r.rows();
   }
+  return all;
+}
+
+double RestrictedLikelihood::At(const NoiseModel& noise) const {
+  double log_sum = 0.0;
+  const RowMajorMatrix whitened = Whitened(noise, log_sum);
+  const auto free = static_cast<Eigen::Index>(free_.size());
+  const Eigen::Index width = whitened.cols() - 1, rows = whitened.rows();
+  const Eigen::Index priors = prior_widths_.size();
+  RowMajorMatrix all = RowMajorMatrix::Zero(std::max(rows + priors, width + 1), width + 1);
+  all.topRows(rows) = whitened;
   for (Eigen::Index k = 0; k < priors; ++k) all(rows + k, k) = 1.0 / prior_widths_[k];
   const Eigen::VectorXd length = all.colwise().norm();
   const Eigen::MatrixXd R = UpperOf(all);
   // Values on bounds stay there: what they could still explain counts as left over.
   const double left = R.col(width).tail(width + 1 - free).squaredNorm();
-  if (on_bounds) {
-    on_bounds->clear();
-    for (Eigen::Index k = free; k < width; ++k)
-      on_bounds->push_back({bound_[static_cast<std::size_t>(k - free)], R(k, width), R(k, k)});
-  }
   return -0.5 * left - log_sum - LogDiagonal(R, free, length);
+}
+
+ValueLikelihood RestrictedLikelihood::ValuesAt(const NoiseModel& noise) const {
+  ValueLikelihood out;
+  double log_sum = 0.0;
+  const RowMajorMatrix whitened = Whitened(noise, log_sum);
+  const Eigen::Index width = whitened.cols() - 1;
+  RowMajorMatrix all = RowMajorMatrix::Zero(std::max(whitened.rows(), width + 1), width + 1);
+  all.topRows(whitened.rows()) = whitened;
+  const Eigen::MatrixXd R = UpperOf(all);
+  const std::vector<int> columns = Columns();
+  out.root.resize(width, width);
+  for (Eigen::Index k = 0; k < width; ++k)
+    out.root.col(columns[static_cast<std::size_t>(k)]) = R.col(k).head(width);
+  out.rest = R.col(width).head(width);
+  out.log_constant = -0.5 * R(width, width) * R(width, width) - log_sum;
+  return out;
 }
 
 }  // namespace hoplab

@@ -9,12 +9,13 @@
 
 namespace hoplab {
 
-/// What a marginal likelihood says of one value on a bound.
-struct OneSided {
-  int parameter = 0;  // place among the shared values
-  /// Half the squared length of what moving it inside, by u of its scales, leaves of the residuals
-  /// is (offset + slope u)^2/2, all other values following.
-  double offset = 0.0, slope = 0.0;
+/// What the data say of the shared values, the trials' own ones marginalised under flat priors
+/// (beyond the stated ones), for steps u off where they were linearised, in their scales:
+/// log-likelihood log_constant - |root u + rest|^2/2.
+struct ValueLikelihood {
+  double log_constant = 0.0;
+  Eigen::MatrixXd root;  // a column a shared value
+  Eigen::VectorXd rest;
 };
 
 /// How much of the data a likelihood is of. What noise is like is common to all trials and slower
@@ -51,11 +52,9 @@ class RestrictedLikelihood {
   /// changes:
   ///   - 1/2 |r~|^2 (r~ whitened, its values' best fit taken off) - 1/2 log |C| - 1/2 log |J~' J~|
   /// The columns of J are per scale of the values.
-  double At(const NoiseModel& noise) const { return Evaluate(noise, nullptr); }
-  /// The same, and what it says of the values on bounds.
-  double At(const NoiseModel& noise, std::vector<OneSided>& on_bounds) const {
-    return Evaluate(noise, &on_bounds);
-  }
+  double At(const NoiseModel& noise) const;
+  /// The same before the shared values are marginalised, those on bounds among them.
+  ValueLikelihood ValuesAt(const NoiseModel& noise) const;
 
   /// Root mean square of a channel's residuals over sigma.
   double RootMeanSquare(std::size_t channel) const { return root_mean_square_[channel]; }
@@ -63,8 +62,6 @@ class RestrictedLikelihood {
   /// Greatest and least time scale the data can tell [s]: half the longest trial, three rows.
   double longest() const { return longest_; }
   double shortest() const { return shortest_; }
-  /// Shared values that are marginalised.
-  int marginalised() const { return static_cast<int>(free_.size()); }
 
  private:
   struct Part {
@@ -83,7 +80,9 @@ class RestrictedLikelihood {
   void Summarise();
   std::vector<int> Columns() const;
   static void Average(Part& part, std::size_t most);
-  double Evaluate(const NoiseModel& noise, std::vector<OneSided>* on_bounds) const;
+  // Columns of the shared values and the residuals, whitened, own values projected out; `log_sum`:
+  // of the determinants that this takes.
+  RowMajorMatrix Whitened(const NoiseModel& noise, double& log_sum) const;
 
   std::vector<Part> parts_;
   std::vector<int> free_, bound_;  // shared values

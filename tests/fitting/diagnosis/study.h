@@ -77,7 +77,8 @@ enum class Table : std::uint64_t {
   kLeftOut,
   kTwoEffects,
   kRules,
-  kNoise
+  kNoise,
+  kPowerLost
 };
 std::uint64_t NoiseSeed(Table table, int number);
 
