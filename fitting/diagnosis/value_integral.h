@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "fitting/discrepancy/restricted_likelihood.h"
@@ -13,9 +14,10 @@ double LogSizePrior(double u, bool one_sided);
 
 /// What is believed of one shared value beforehand, in typical sizes from what changes nothing.
 struct ValuePrior {
-  double at = 0.0;            // where it was linearised
-  double lower = 0.0, upper;  // bounds
-  bool one_sided = false;     // only one side of what changes nothing is possible
+  double at = 0.0;  // where it was linearised
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool one_sided = false;  // only one side of what changes nothing is possible
 };
 
 /// Logarithm of the integral of a linearised likelihood times the values' LogSizePrior between
