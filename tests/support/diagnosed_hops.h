@@ -50,6 +50,32 @@ inline Dataset DatasetOf(const World& world) {
   return d;
 }
 
+inline constexpr double kDragHopsSigma = 1e-3;  // m
+// Hops with drag of another size in each trial.
+inline Dataset HopsWithDrag(const std::vector<double>& train, const std::vector<double>& test,
+                            std::uint64_t seed) {
+  Dataset all;
+  for (std::size_t i = 0; i < train.size() + test.size(); ++i) {
+    const bool held_out = i >= train.size();
+    const double size = held_out ? test[i - train.size()] : train[i];
+    Dataset one = DatasetOf({.effects = {EffectOfSize("air_drag", size)},
+                             .train = 6,
+                             .test = 2,
+                             .seed = 100 * seed + i,
+                             .sigma_m = kDragHopsSigma});
+    one.effects.clear();
+    Trial trial = one.trials[i % one.trials.size()];
+    trial.role = held_out ? TrialRole::kTest : TrialRole::kTrain;
+    trial.file = (held_out ? "test-" : "train-") + std::to_string(i + 1) + ".csv";
+    if (i == 0) {
+      all = one;
+      all.trials.clear();
+    }
+    all.trials.push_back(trial);
+  }
+  return all;
+}
+
 inline Candidate CandidateOf(const std::string& name) { return {FindEffect(name)}; }
 
 inline std::vector<Candidate> CandidatesOf(const std::vector<std::string>& names) {

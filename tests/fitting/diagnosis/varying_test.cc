@@ -16,34 +16,10 @@ namespace hoplab {
 namespace {
 
 using testing::CandidateOf;
+using testing::HopsWithDrag;
 using testing::NullFit;
 
-constexpr double kSigma = 1e-3;  // m
-
-// Hops with drag of another size in each trial.
-Dataset HopsWithDrag(const std::vector<double>& train, const std::vector<double>& test,
-                     std::uint64_t seed) {
-  Dataset all;
-  for (std::size_t i = 0; i < train.size() + test.size(); ++i) {
-    const bool held_out = i >= train.size();
-    const double size = held_out ? test[i - train.size()] : train[i];
-    Dataset one = testing::DatasetOf({.effects = {testing::EffectOfSize("air_drag", size)},
-                                      .train = 6,
-                                      .test = 2,
-                                      .seed = 100 * seed + i,
-                                      .sigma_m = kSigma});
-    one.effects.clear();
-    Trial trial = one.trials[i % one.trials.size()];
-    trial.role = held_out ? TrialRole::kTest : TrialRole::kTrain;
-    trial.file = (held_out ? "test-" : "train-") + std::to_string(i + 1) + ".csv";
-    if (i == 0) {
-      all = one;
-      all.trials.clear();
-    }
-    all.trials.push_back(trial);
-  }
-  return all;
-}
+constexpr double kSigma = testing::kDragHopsSigma;
 
 // A fixed sample of N(mu, tau^2) truncated at nothing: quantiles in an order that has no trend.
 std::vector<double> DrawnSizes(double mu, double tau) {

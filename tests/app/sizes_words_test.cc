@@ -1,0 +1,62 @@
+// What is told of a cause whose size differs between trials.
+#include <gtest/gtest.h>
+
+#include "app/records/cause_record.h"
+#include "app/reports/diagnosis_report.h"
+#include "tests/support/diagnosed_hops.h"
+
+namespace hoplab {
+namespace {
+
+using testing::HopsWithDrag;
+
+DiagnosisRun RunOf(const Dataset& dataset) {
+  DiagnosisRun run;
+  run.diagnosis = Diagnose(dataset, testing::OptionsWith({"air_drag", "sensor_delay"}));
+  return run;
+}
+
+// One line, since a terminal breaks it anywhere.
+std::string Unbroken(const std::string& text) {
+  std::string words;
+  for (const char c : text) {
+    const bool gap = c == ' ' || c == '\n';
+    if (!gap || words.empty() || words.back() != ' ') words += gap ? ' ' : c;
+  }
+  return words;
+}
+
+TEST(SizesInWords, DragThatDiffersIsToldWithItsSizesAndWhatTheyExplain) {
+  const Dataset dataset = HopsWithDrag({0.03, 0.09, 0.05, 0.07, 0.02, 0.08}, {0.06}, 3);
+  const DiagnosisRun run = RunOf(dataset);
+  ASSERT_TRUE(run.diagnosis.extension) << run.diagnosis.reason;
+  const std::string text = Unbroken(DiagnosisReport(dataset, run, true, false));
+  EXPECT_NE(text.find("air_drag in every trial, differently: mean 0.0"), std::string::npos) << text;
+  EXPECT_NE(text.find("train-2.csv 0.0"), std::string::npos) << text;
+  EXPECT_NE(text.find("with these sizes the causes explain "), std::string::npos) << text;
+
+  const Json causes = CausesRecord(run.diagnosis);
+  const Json& varies = causes.at(0).at("varies").at(0);
+  EXPECT_EQ(varies.at("name"), "c_drag");
+  EXPECT_EQ(varies.at("refitted"), true);
+  EXPECT_EQ(varies.at("told"), true);
+  EXPECT_EQ(varies.at("trials").size(), 6u);
+  EXPECT_NEAR(varies.at("trials").at(1).at("value"), 0.09,
+              4.0 * varies.at("trials").at(1).at("std_error").get<double>());
+  const Json& worth = varies.at("with_sizes");
+  EXPECT_EQ(worth.at("pays"), true);
+  EXPECT_GT(worth.at("explained"), worth.at("explained_one_size"));
+  EXPECT_LT(worth.at("held_out_rmse").at("body_x_m"),
+            worth.at("held_out_rmse_one_size").at("body_x_m"));
+}
+
+TEST(SizesInWords, NothingIsSaidWhereOneSizeServesAll) {
+  const Dataset dataset = HopsWithDrag(std::vector<double>(4, 0.06), {0.06}, 3);
+  const DiagnosisRun run = RunOf(dataset);
+  ASSERT_TRUE(run.diagnosis.extension) << run.diagnosis.reason;
+  const std::string text = DiagnosisReport(dataset, run, true, false);
+  EXPECT_EQ(text.find("differently"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace hoplab
