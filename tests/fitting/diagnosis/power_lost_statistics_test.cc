@@ -55,7 +55,8 @@ std::string Summary(const std::vector<double>& ratios) {
 }
 
 TEST(DiagnosisStatistics, ADiscrepancySoughtInVainCostsLittlePower) {
-  const int seeds = SeedCount(15);
+  constexpr int kFull = 15;
+  const int seeds = SeedCount(kFull);
   const int laws = static_cast<int>(kAllLaws.size());
   AllEffectCases();
   std::vector<CleanFit> fits(static_cast<std::size_t>(laws * seeds));
@@ -106,14 +107,15 @@ TEST(DiagnosisStatistics, ADiscrepancySoughtInVainCostsLittlePower) {
   report.Say("Medians over the datasets: %s. Means: %s.", Summary(medians).c_str(),
              Summary(means).c_str());
   report.Say("Single datasets in which one is found: %s.", Summary(where_found).c_str());
+  // Known misses: where one is found the loss is 18 % in the median and 72 % at worst; and one is
+  // found in 16 of 90, where kDiscrepancyPays is meant for one of twenty.
+  for (const double ratio : where_found) EXPECT_LE(ratio, 1.75);
+  // Of a few datasets chance makes the rest.
+  if (seeds < kFull) return;
+  EXPECT_LE(Quantile(where_found, 0.5), 1.20);
+  EXPECT_LE(found, 18);
   EXPECT_LE(Quantile(medians, 1.0), 1.15);
   EXPECT_LE(Quantile(means, 1.0), 1.15);
-  if (seeds < 15) return;
-  // Known misses: where one is found, which is in 16 of 90, the loss is 18 % in the median and 72 %
-  // at worst.
-  EXPECT_LE(Quantile(where_found, 0.5), 1.20);
-  EXPECT_LE(Quantile(where_found, 1.0), 1.75);
-  EXPECT_LE(found, 18);
 }
 
 }  // namespace
