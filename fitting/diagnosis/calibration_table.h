@@ -13,6 +13,6 @@ struct CalibrationTable {
   std::array<double, NameFeatures::kCount> weights;
 };
 inline constexpr CalibrationTable kCalibration = {
-    922, 5.328, {-1.676, -1.018, -1.794, -3.83, 1.585, -1.016, -0.109}};
+    922, 6.488, {-2.469, -0.8229, -1.369, -4.601, 2.088, -1.112, -0.1746}};
 
 }  // namespace hoplab
