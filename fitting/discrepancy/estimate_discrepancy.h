@@ -14,9 +14,9 @@ struct DiscrepancyEstimate {
   double gain() const { return log_likelihood - white; }
 };
 
-/// A discrepancy whose restricted likelihood gains less than this over white noise is none [nats]:
-/// with the amplitude at its bound that happens by chance in one case of twenty (the mixture of
-/// chi-square with 0 and 1 degrees of freedom of Self and Liang 1987).
+/// A discrepancy whose restricted likelihood gains less than this over white noise is none [nats].
+/// One amplitude at its bound gains it by chance in one case of twenty (half chi-square 0, half 1:
+/// Self and Liang 1987); two, with the time scale sought, in 16 of 90 (docs/decisions/0010).
 inline constexpr double kDiscrepancyPays = 1.353;
 
 /// Maximises the restricted likelihood over amplitudes and time scale, from a large and from a tiny
