@@ -11,8 +11,8 @@
 namespace hoplab {
 
 /// `said` with what a mechanism rules out by itself, unless `said` speaks of it: nothing holds a
-/// ball that is on no guide, so gravity may differ from what is stated only as it does on the ground
-/// of the Earth.
+/// ball that is on no guide, so gravity may differ from what is stated only as it does on the
+/// ground of the Earth.
 std::vector<KnownSpec> WithFactsOf(const MechanismSpec& mechanism, std::vector<KnownSpec> said);
 
 /// What is known of one parameter of an effect.

@@ -15,8 +15,8 @@ using Units = std::vector<StudyUnit>;
 
 // Shares of the budget of a unit over steady hops; a set of tables takes twenty times as long.
 constexpr double kNearbyShare = 0.5, kTablesShare = 0.1, kRefineShare = 0.2, kFrontShare = 0.1;
-// A leg with a toe mass vibrates: its runs take thirty times as long. Of the evaluations over steady
-// hops of such a leg, those over all tables.
+// A leg with a toe mass vibrates: its runs take thirty times as long. Of the evaluations over
+// steady hops of such a leg, those over all tables.
 constexpr double kToeShare = 0.08, kToeTables = 0.25;
 constexpr int kEnergyMost = 300;  // evaluations: table 6.5 has no more to say
 // Half-width of a search about the best of another reading, in logarithms.
@@ -213,8 +213,7 @@ class Identifier {
   }
   // A share of what a search with a toe mass is allowed.
   int ToeEvaluations(double share) const {
-    const double all =
-        request_.toe_budget > 0 ? request_.toe_budget : kToeShare * request_.budget;
+    const double all = request_.toe_budget > 0 ? request_.toe_budget : kToeShare * request_.budget;
     return std::max(20, static_cast<int>(share * all));
   }
   // A search over steady hops with a toe mass, from a fit without one.

@@ -34,8 +34,8 @@ struct IdentificationRequest {
   std::vector<StudyConstant> toe_free;
   StudyConstants fixed = ConstantsAsPrinted();
   int budget = 3000;  // evaluations of a unit over steady hops; the others have shares of it
-  /// Evaluations of a search with a toe mass from scratch, within all bounds; 0: only in a box about
-  /// the best without one, by a share of `budget`.
+  /// Evaluations of a search with a toe mass from scratch, within all bounds; 0: only in a box
+  /// about the best without one, by a share of `budget`.
   int toe_budget = 0;
   /// Readings that go on from table 6.5 to the steady hops.
   int keep_readings = 192;
