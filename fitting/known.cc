@@ -34,6 +34,9 @@ int ParameterNamed(const Effect& effect, const KnownSpec& spec) {
 // Gravity at sea level goes from 9.780 to 9.832 m/s^2, on high ground down to 9.764: within half a
 // per cent of 9.81.
 constexpr double kGravityDiffers = 0.005;
+constexpr const char* kNothingHolds =
+    "the mechanism, since nothing holds a ball (`known: {gravity_scale: {at_most: 0.2}}` in "
+    "dataset.yaml allows more)";
 
 }  // namespace
 
@@ -42,9 +45,7 @@ std::vector<KnownSpec> WithFactsOf(const MechanismSpec& mechanism, std::vector<K
   const bool is_told = std::any_of(said.begin(), said.end(),
                                    [&](const KnownSpec& s) { return s.effect == gravity; });
   const bool is_free = mechanism.type == MechanismKind::kBall && !mechanism.on_guide;
-  if (is_free && !is_told)
-    said.push_back(
-        {gravity, "", kGravityDiffers, {.place = "the mechanism (nothing holds a ball)"}});
+  if (is_free && !is_told) said.push_back({gravity, "", kGravityDiffers, {.place = kNothingHolds}});
   return said;
 }
 
