@@ -104,5 +104,34 @@ TEST(Identification, TellsWhatATableSaysAboutAnOpenPoint) {
   EXPECT_NEAR(shares, 3.0, 1e-9);  // each part's add up to 1; nothing undamped is printed
 }
 
+// The searches that a request asks for, without making them.
+TEST(Identification, SearchesAToeMassFromScratchWithBothSignsOfTheTorque) {
+  IdentificationRequest request = RequestFor(TablesOf(SomeHopper(), {}, 2), {StudyReading()});
+  request.toe_free = {C::kToeMass, C::kPlacementRate, C::kPlacementDamping};
+  request.keep_toe = 1;
+  const auto from_scratch = [&](int toe_budget) {
+    request.toe_budget = toe_budget;
+    std::vector<StudyUnit> found;
+    Identify(request, [&](const std::string& stage, const std::vector<StudyUnit>& units) {
+      std::vector<StudyFit> fits;
+      for (const StudyUnit& unit : units) {
+        const bool all_free = unit.free.size() == request.free.size() + request.toe_free.size();
+        if (stage == "toe mass" && unit.box == kWholeBox && all_free) found.push_back(unit);
+        fits.push_back({unit.reading, SomeHopper().constants, 1.0, {}, 0});
+      }
+      return fits;
+    });
+    return found;
+  };
+  EXPECT_TRUE(from_scratch(0).empty());
+  const std::vector<StudyUnit> units = from_scratch(500);
+  ASSERT_EQ(units.size(), 2U);
+  EXPECT_NE(units[0].reading.variant.torque_sign, units[1].reading.variant.torque_sign);
+  for (const StudyUnit& unit : units) {
+    EXPECT_EQ(unit.budget, 500);
+    EXPECT_EQ(unit.runs, StudyUnit::Runs::kSteady);
+  }
+}
+
 }  // namespace
 }  // namespace hoplab
