@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <regex>
-#include <sstream>
 
 #include "tests/app/hoplab_process.h"
+#include "tests/app/shown_output.h"
 
 namespace hoplab::testing {
 namespace {
@@ -27,66 +26,6 @@ std::vector<Block> BlocksOf(const std::string& markdown) {
     blocks.push_back({(*it)[1].str(), indented ? "$ " + (*it)[3].str() + "\n" : (*it)[2].str()});
   }
   return blocks;
-}
-
-std::vector<std::string> Lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  while (!lines.empty() && lines.back().empty()) lines.pop_back();
-  return lines;
-}
-
-// One and a half units of the last digit of "20.74", "6e-05".
-double LastDigit(const std::string& number) {
-  const std::size_t e = std::min(number.find_first_of("eE"), number.size());
-  const std::size_t point = std::min(number.find('.'), e);
-  const int decimals = point < e ? static_cast<int>(e - point - 1) : 0;
-  const int power = e < number.size() ? std::stoi(number.substr(e + 1)) : 0;
-  return 1.5 * std::pow(10.0, power - decimals);
-}
-
-// The same words, and numbers that agree to the digits shown.
-bool SameLine(const std::string& shown, const std::string& printed) {
-  const std::regex number("[0-9]+(\\.[0-9]+)?([eE][-+]?[0-9]+)?");
-  using Iterator = std::sregex_iterator;
-  Iterator a(shown.begin(), shown.end(), number), b(printed.begin(), printed.end(), number);
-  const Iterator end;
-  std::size_t from_a = 0, from_b = 0;
-  for (; a != end && b != end; ++a, ++b) {
-    const auto at_a = static_cast<std::size_t>(a->position());
-    const auto at_b = static_cast<std::size_t>(b->position());
-    if (shown.substr(from_a, at_a - from_a) != printed.substr(from_b, at_b - from_b)) return false;
-    if (std::abs(std::stod(a->str()) - std::stod(b->str())) > LastDigit(a->str())) return false;
-    from_a = at_a + a->str().size();
-    from_b = at_b + b->str().size();
-  }
-  return a == end && b == end && shown.substr(from_a) == printed.substr(from_b);
-}
-
-// Whether `printed` is what `shown` says; "..." on a line of its own stands for any lines.
-::testing::AssertionResult Matches(const std::vector<std::string>& shown,
-                                   const std::vector<std::string>& printed) {
-  std::size_t at = 0;
-  bool any = false;
-  for (const std::string& line : shown) {
-    if (line.find_first_not_of(' ') != std::string::npos &&
-        line.substr(line.find_first_not_of(' ')) == "...") {
-      any = true;
-      continue;
-    }
-    while (any && at < printed.size() && !SameLine(line, printed[at])) ++at;
-    if (at >= printed.size() || !SameLine(line, printed[at]))
-      return ::testing::AssertionFailure()
-             << "the page shows\n"
-             << line << "\nand the command prints\n"
-             << (at < printed.size() ? printed[at] : "(nothing more)");
-    ++at;
-    any = false;
-  }
-  if (!any && at < printed.size())
-    return ::testing::AssertionFailure() << "the page does not show\n" << printed[at];
-  return ::testing::AssertionSuccess();
 }
 
 class TutorialCli : public ::testing::Test {
@@ -113,7 +52,7 @@ TEST_F(TutorialCli, EveryCommandPrintsWhatThePageShows) {
       continue;
     }
     ASSERT_TRUE(block.body.starts_with("$ ")) << block.body;
-    std::vector<std::string> shown = Lines(block.body);
+    std::vector<std::string> shown = ShownLines(block.body);
     const std::string command = shown[0].substr(2);
     shown.erase(shown.begin());
     const ProcessResult run = Shell(command);
@@ -121,7 +60,7 @@ TEST_F(TutorialCli, EveryCommandPrintsWhatThePageShows) {
     if (shown.empty()) {
       EXPECT_EQ(run.exit_code, 0) << command << "\n" << run.out;
     } else {
-      EXPECT_TRUE(Matches(shown, Lines(run.out))) << command << "\n" << run.out;
+      EXPECT_TRUE(PrintsAs(shown, ShownLines(run.out))) << command << "\n" << run.out;
     }
   }
   EXPECT_GE(commands, 9);
@@ -146,8 +85,8 @@ TEST_F(TutorialCli, TheShippedLogsAreThoseThatItsScriptMakes) {
   const fs::path shipped = fs::path(HOPLAB_SOURCE_DIR) / "docs" / "tutorial";
   for (int i = 1; i <= 6; ++i) {
     const std::string name = "run-" + std::to_string(i) + ".csv";
-    EXPECT_TRUE(
-        Matches(Lines(ReadText(shipped / name)), Lines(ReadText(temp_.path() / "made" / name))))
+    EXPECT_TRUE(PrintsAs(ShownLines(ReadText(shipped / name)),
+                         ShownLines(ReadText(temp_.path() / "made" / name))))
         << name;
   }
 }
@@ -160,10 +99,10 @@ TEST(TutorialComparison, TellsOtherDigitsOtherWordsAndOtherLines) {
   EXPECT_FALSE(SameLine("  d  -291", "  d  291"));
   EXPECT_TRUE(SameLine("beyond 6e-05 rad", "beyond 7e-05 rad"));
   EXPECT_FALSE(SameLine("beyond 6e-05 rad", "beyond 6e-04 rad"));
-  EXPECT_TRUE(Matches({"a", "  ...", "d"}, {"a", "b", "c", "d"}));
-  EXPECT_FALSE(Matches({"a", "d"}, {"a", "b", "d"}));
-  EXPECT_FALSE(Matches({"a"}, {"a", "b"}));
-  EXPECT_FALSE(Matches({"a", "b"}, {"a"}));
+  EXPECT_TRUE(PrintsAs({"a", "  ...", "d"}, {"a", "b", "c", "d"}));
+  EXPECT_FALSE(PrintsAs({"a", "d"}, {"a", "b", "d"}));
+  EXPECT_FALSE(PrintsAs({"a"}, {"a", "b"}));
+  EXPECT_FALSE(PrintsAs({"a", "b"}, {"a"}));
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ class Example(unittest.TestCase):
         self.assertEqual(before, round(1000 * record["test"]["rmse"]["body_y_m"], 2))
         self.assertLess(after, before / 3)
 
-    def test_the_readme_shows_what_runs(self):
-        readme = (pathlib.Path(ROOT) / "README.md").read_text()
-        block = re.search(r"```python\n(.*?)```", readme, re.S)[1]
+    def test_the_page_on_installation_shows_what_runs(self):
+        page = (pathlib.Path(ROOT) / "docs" / "install.md").read_text()
+        block = re.search(r"```python\n(.*?)```", page, re.S)[1]
         done = subprocess.run(
             [sys.executable, "-B", "-c", block], cwd=ROOT, capture_output=True, text=True, check=True
         )

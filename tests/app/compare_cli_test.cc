@@ -1,0 +1,33 @@
+// `hoplab compare`: one dataset, every law of the leg.
+#include <gtest/gtest.h>
+
+#include "tests/app/hoplab_process.h"
+
+namespace hoplab::testing {
+namespace {
+
+TEST(CompareCli, PrintsEveryLawAgainstTheTruth) {
+  const TempFolder temp;
+  const ProcessResult run =
+      RunHoplab({"compare", ShippedDataset("rig-drops"), "--true", "E=21.991e9"}, temp.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* law : {"large_deflection", "consistent", "no_slip", "thesis"})
+    EXPECT_NE(run.out.find(law), std::string::npos) << law;
+  EXPECT_NE(run.out.find("(+4."), std::string::npos) << run.out;
+}
+
+TEST(CompareCli, TheElasticaWithItsLegsDampingAndMassBringsTheModulusWithinOnePercent) {
+  const TempFolder temp;
+  const ProcessResult run = RunHoplab({"compare", ShippedDataset("rig-drops"), "--variant",
+                                       "elastica+leg_material_damping+leg_mass", "--json"},
+                                      temp.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json row = nlohmann::json::parse(run.out).at("rows").at(0);
+  // E I of the rig, by its truth file: 2.69101 N m^2, with the dataset's section 21.991 GPa.
+  EXPECT_NEAR(row.at("parameters").at("E").get<double>() / 21.991e9, 1.0, 0.01);
+  for (const char* channel : {"body_x_m", "body_y_m"})
+    EXPECT_LT(row.at("test_rmse").at(channel).get<double>(), 0.0006) << channel;
+}
+
+}  // namespace
+}  // namespace hoplab::testing
