@@ -30,6 +30,22 @@ inline Parameters<double> RobotParametersFor(int legs) {
   return p;
 }
 
+/// One on three legs that walks by a clock, on a ground that lets its feet slide.
+inline Parameters<double> Walking() {
+  Parameters<double> p = RobotParametersFor(3);
+  RobotParameters<double>& robot = *p.robot;
+  robot.control = MotorControl::kClock;
+  robot.period = 0.45;
+  robot.duty = 0.6;
+  robot.sweep = 0.8;
+  robot.offset = 0.25;
+  robot.phase = {0.1, 0.6, 0.1};
+  robot.torque_limit = 6.0;
+  robot.friction = 1.0;
+  robot.damping = 4e-4;
+  return p;
+}
+
 /// A drop of it: x, y, vx, vy, pitch, pitch rate.
 inline SimulationRequest RobotDrop(const Parameters<double>& p, std::vector<double> start,
                                    double horizon) {

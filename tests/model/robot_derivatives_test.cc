@@ -1,0 +1,142 @@
+// Derivatives of a robot's motion against differences: by every effect, and over random sequences
+// of events.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <random>
+#include <string>
+
+#include "model/effects/effect.h"
+#include "model/simulate.h"
+#include "tests/support/gradient_check.h"
+#include "tests/support/robot_requests.h"
+
+namespace hoplab {
+namespace {
+
+using namespace testing;
+
+// Every effect that means something on a robot, off its null, legs and motors one by one.
+TEST(Robot, EffectsHaveTheDerivativesOfDifferences) {
+  Parameters<double> p = RobotParametersFor(2);
+  p.robot->friction = 0.9;
+  p.robot->damping = 3e-4;
+  p.robot->rotor_inertia = 4e-3;  // slower than a real one: fewer steps
+  SimulationRequest q = RobotDrop(p, {0.0, 0.2, 0.3, -0.2, 0.03, 0.2}, 0.14);
+  int columns = 0;
+  for (const Effect* effect : AllEffects()) {
+    if (!AppliesTo(*effect, Law::kRobot, LegMass::kNone, 0, 2)) continue;
+    std::array<EffectSetting, 1> effects = {EffectSetting::Null(*effect)};
+    std::vector<SensitivityDirection> directions;
+    for (std::size_t i = 0; i < effect->info.parameters.size(); ++i) {
+      effects[0].values[i] += 0.3 * effect->info.parameters[i].typical;
+      directions.push_back(SensitivityDirection::EffectParameter(0, static_cast<int>(i)));
+    }
+    q.effects = effects;
+    q.directions = {};
+    q.row_times = {};
+    q.channels = {};
+    const Trajectory run = Simulate(q);
+    ASSERT_EQ(run.outcome, Outcome::kCompleted) << effect->info.name;
+    std::vector<double> rows;
+    for (double t = 0.004; t < run.end_time - 0.008; t += 0.011) {
+      bool clear = true;
+      for (const Event& e : run.events) clear = clear && std::abs(e.time - t) > 3e-3;
+      if (clear) rows.push_back(t);
+    }
+    const std::array channels = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyPitch,
+                                 Channel::kLegAngle1, Channel::kLegAngle2};
+    q.row_times = rows;
+    q.channels = channels;
+    q.directions = directions;
+    bool seen = false;
+    for (const ColumnCheck& check : CheckGradient(q)) {
+      EXPECT_EQ(Complaint(check), "") << effect->info.name;
+      seen = seen || !check.nothing_to_see;
+      ++columns;
+    }
+    EXPECT_TRUE(seen) << effect->info.name;
+  }
+  EXPECT_GT(columns, 40);
+}
+
+using D = SensitivityDirection;
+
+std::vector<double> RowsClearOfEvents(const Trajectory& run) {
+  std::vector<double> rows;
+  for (double t = 0.004; t < run.end_time - 0.002; t += 0.011) {
+    bool clear = true;
+    for (const Event& e : run.events) clear = clear && std::abs(e.time - t) > 1e-3;
+    if (clear) rows.push_back(t);
+  }
+  return rows;
+}
+
+// Random drops of two and three legs, feet that hold or slide, and robots that walk by a clock.
+TEST(Robot, DerivativesAreThoseOfDifferencesOverRandomSequences) {
+  const std::vector<D> held = {D::Parameter(ParameterId::kE1),
+                               D::Parameter(ParameterId::kE2),
+                               D::Parameter(ParameterId::kLegDamping),
+                               D::Parameter(ParameterId::kR),
+                               D::Parameter(ParameterId::kPitchInertia),
+                               D::Parameter(ParameterId::kComX),
+                               D::Parameter(ParameterId::kMotorKp),
+                               D::Parameter(ParameterId::kClamp),
+                               D::Parameter(ParameterId::kFriction),
+                               D::InitialState(1),
+                               D::InitialState(2),
+                               D::InitialState(4),
+                               D::InitialState(5)};
+  double worst = 0.0;
+  int columns = 0, sequences = 0;
+  std::map<std::string, int> seen;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const bool walks = seed % 5 == 0;
+    Parameters<double> p = walks ? Walking() : RobotParametersFor(2 + static_cast<int>(seed % 2));
+    p.robot->own_moduli = true;
+    for (int i = 0; i < kMaxLegs; ++i) p.robot->E[i] = p.E * (1.0 + 0.1 * i);
+    if (seed % 3 != 0) p.robot->friction = 0.5 + 0.1 * seed;
+    if (seed % 4 != 0) p.robot->damping = 3e-4;
+    p.robot->com_x = 0.004;
+    p.robot->clamp = 0.005;
+    p.robot->rotor_inertia = 4e-3;  // slower than a real one: fewer steps
+    SimulationRequest q =
+        walks ? RobotDrop(p, {0.0, 0.2, 0.4, 0.0, 0.02, 0.1}, 0.3) : RandomRobotDrop(p, seed, 0.32);
+    std::vector<D> directions = held;
+    if (!(p.robot->friction < 1e6))
+      std::erase_if(directions, [](const D& d) {
+        return d.of == D::Of::kParameter && d.parameter == ParameterId::kFriction;
+      });
+    if (walks) directions.push_back(D::Parameter(ParameterId::kClockPeriod));
+    // Some of them each time, all of them over the seeds.
+    std::mt19937 random(seed);
+    std::shuffle(directions.begin(), directions.end(), random);
+    directions.resize(5);
+    const Trajectory run = Simulate(q);
+    if (run.outcome != Outcome::kCompleted || run.has_simultaneous_events) continue;
+    for (const Event& e : run.events) ++seen[std::string(NameOf(e.kind))];
+    const std::vector<double> rows = RowsClearOfEvents(run);
+    const std::array channels = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyPitch,
+                                 Channel::kLegAngle1, Channel::kLegAngle2};
+    q.row_times = rows;
+    q.channels = channels;
+    q.directions = directions;
+    ++sequences;
+    for (const ColumnCheck& check : CheckGradient(q)) {
+      EXPECT_EQ(Complaint(check), "") << "seed " << seed;
+      if (!check.nothing_to_see) worst = std::max(worst, check.error);
+      ++columns;
+    }
+  }
+  std::printf("derivatives: %d columns of %d sequences, worst %.1e;", columns, sequences, worst);
+  for (const auto& [name, count] : seen) std::printf(" %s %d", name.c_str(), count);
+  std::printf("\n");
+  EXPECT_GE(sequences, 7);
+}
+
+}  // namespace
+}  // namespace hoplab
