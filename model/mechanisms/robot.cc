@@ -10,6 +10,7 @@
 #include "model/mechanisms/robot_blows_inl.h"
 #include "model/mechanisms/robot_dynamics_inl.h"
 #include "model/mechanisms/robot_events_inl.h"
+#include "model/mechanisms/robot_feet_inl.h"
 #include "model/mechanisms/robot_legs_inl.h"
 
 namespace hoplab {

@@ -143,6 +143,10 @@ class Robot final : public HybridSystem<T> {
   Mode ModeNow() const;
   std::optional<Outcome> Land(int i, const T& t, T* z, bool comes_down = true);
   void Stick(int i, const T& t, T* z);
+  void RollOnto(int i, Stance to, T* z);
+  void SlideAway(const GuardRef& guard, T* z);
+  void HoldFoot(int i, const T& t, T* z);
+  T TorqueMargin(int i, const T& t, const T* z) const;
   void BeginOnFoot(int i, T* z);
   void LiftOff(int i, T* z);
 

@@ -144,15 +144,9 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
       case EventKind::kFallPitch:
         g[k] = cos(z[Pitch()]) - std::cos(robot_.pitch_limit);
         break;
-      case EventKind::kTorqueLimit: {
-        const T command = Command(i, t, z);
-        const double side = leg_[i].limit;
-        if (side != 0.0)
-          g[k] = side * command - robot_.torque_limit;
-        else
-          g[k] = robot_.torque_limit - (Value(command) < 0.0 ? T(-command) : command);
+      case EventKind::kTorqueLimit:
+        g[k] = TorqueMargin(i, t, z);
         break;
-      }
       default:
         g[k] = z[kVy];  // apex
     }
@@ -288,41 +282,17 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
       LiftOff(guard.leg, z);
       break;
     case EventKind::kRollingToToe:
-      if (follows_feet_) ChangeStance(guard.leg, Stance::kToe, z);
-      leg.stance = Stance::kToe;
-      if (foot_has_inertia_ || leg.slides == 0.0) z[Contact(guard.leg)] += p_.r * leg.arc.length();
-      leg.arc.Restart();
+      RollOnto(guard.leg, Stance::kToe, z);
       break;
     case EventKind::kToeToRolling:
-      if (follows_feet_) ChangeStance(guard.leg, Stance::kRolling, z);
-      leg.stance = Stance::kRolling;
-      if (foot_has_inertia_ || leg.slides == 0.0) z[Contact(guard.leg)] -= p_.r * leg.arc.length();
-      leg.arc.Restart();
+      RollOnto(guard.leg, Stance::kRolling, z);
       break;
-    case EventKind::kSlide: {
-      const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), guard.leg, z);
-      if (guard.side > 0 && !foot_has_inertia_ &&
-          !leg.arc.CanSlideForward(FootOf(leg), PlaceOf(leg, guard.leg, hip, z))) {
-        LiftOff(guard.leg, z);
-        break;
-      }
-      leg.slides = guard.side;
-      if (foot_has_inertia_) break;
-      leg.arc.Restart();
+    case EventKind::kSlide:
+      SlideAway(guard, z);
       break;
-    }
-    case EventKind::kStick: {
-      if (foot_has_inertia_) {
-        Stick(guard.leg, t, z);
-        break;
-      }
-      const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), guard.leg, z);
-      const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, guard.leg, hip, z), false);
-      z[Contact(guard.leg)] = z[kX] + ClampOf(hip).x + load.lead;
-      leg.slides = 0.0;
-      leg.arc.Restart();
+    case EventKind::kStick:
+      HoldFoot(guard.leg, t, z);
       break;
-    }
     case EventKind::kTorqueLimit:
       leg.limit = leg.limit != 0 ? 0 : Value(Command(guard.leg, t, z)) > 0.0 ? 1 : -1;
       break;
