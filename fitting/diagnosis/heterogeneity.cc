@@ -157,19 +157,30 @@ EliminatedTrial WithoutDeviation(TrialProblem trial, int place, TrialEvaluation&
   return EliminateOwn(trial, e, n, columns);
 }
 
+// Every trial that runs to its end at the model, its own values eliminated by `eliminate`.
+template <class Eliminate>
+std::vector<EliminatedTrial> EliminateTrials(const FittedModel& model,
+                                             const std::vector<TrialProblem>& train, int jobs,
+                                             const Eliminate& eliminate) {
+  std::vector<EliminatedTrial> parts(train.size());
+  ParallelFor(static_cast<int>(train.size()), jobs, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    TrialEvaluation e;
+    TrialEvaluator(model.problem, train[at]).Evaluate({model.shared, model.starts[at], true}, e);
+    if (e.complete) parts[at] = eliminate(at, e);
+  });
+  return parts;
+}
+
 }  // namespace
 
 std::vector<Heterogeneity> HeterogeneityOf(const FittedModel& model,
                                            const std::vector<TrialProblem>& train, int jobs) {
   const int n = model.problem.shared_count();
   const std::vector<KeptColumn> columns = SharedColumns(model.problem);
-  std::vector<EliminatedTrial> parts(train.size());
-  ParallelFor(static_cast<int>(train.size()), jobs, [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    TrialEvaluation e;
-    TrialEvaluator(model.problem, train[at]).Evaluate({model.shared, model.starts[at], true}, e);
-    if (e.complete) parts[at] = EliminateOwn(train[at], e, n, columns);
-  });
+  std::vector<EliminatedTrial> parts = EliminateTrials(
+      model, train, jobs,
+      [&](std::size_t at, TrialEvaluation& e) { return EliminateOwn(train[at], e, n, columns); });
   Centre(parts);
   std::vector<Heterogeneity> out;
   for (int k = 0; k < n; ++k)
@@ -180,13 +191,10 @@ std::vector<Heterogeneity> HeterogeneityOf(const FittedModel& model,
 Heterogeneity HeterogeneityAt(const FittedModel& model, const std::vector<TrialProblem>& train,
                               int place, int jobs) {
   const std::vector<KeptColumn> columns = SharedColumns(model.problem);
-  std::vector<EliminatedTrial> parts(train.size());
-  ParallelFor(static_cast<int>(train.size()), jobs, [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    TrialEvaluation e;
-    TrialEvaluator(model.problem, train[at]).Evaluate({model.shared, model.starts[at], true}, e);
-    if (e.complete) parts[at] = WithoutDeviation(train[at], place, e, model.starts[at], columns);
-  });
+  const std::vector<EliminatedTrial> parts =
+      EliminateTrials(model, train, jobs, [&](std::size_t at, TrialEvaluation& e) {
+        return WithoutDeviation(train[at], place, e, model.starts[at], columns);
+      });
   return Describe(parts, place, model.shared[place],
                   columns[static_cast<std::size_t>(place)].scale);
 }

@@ -207,6 +207,24 @@ T Engine<T>::EventTimeShift(int guard, double rate, double scale, bool with_last
   return shift;
 }
 
+// An event with the state before its reset, which is in z_.
+template <class T>
+Event Engine<T>::EventBefore(const GuardSpec& spec, const T& event_time, double rate) const {
+  Event event;
+  event.kind = spec.event;
+  event.mode_before = mode_;
+  event.time = Value(event_time);
+  event.x = Value(z_[0]);
+  event.y = Value(z_[1]);
+  if (MovesBody()) {
+    event.vx = Value(z_[2]);
+    event.vy = Value(z_[3]);
+  }
+  event.crossing_rate = rate;
+  event.leg = spec.leg;
+  return event;
+}
+
 // The state at a crossing is in z_ at time t_ (both as values with the solver's accuracy).
 // Applies M16, the reset, M17; records the event.
 template <class T>
@@ -229,19 +247,7 @@ std::optional<Outcome> Engine<T>::Process(int guard, bool with_last_event) {
   const T event_time = t_ + shift;
   for (int i = 0; i < states_; ++i) z_[i] += flow[i] * shift;
 
-  const bool moves_body = states_ >= 4;
-  Event event;
-  event.kind = spec.event;
-  event.mode_before = mode_;
-  event.time = Value(event_time);
-  event.x = Value(z_[0]);
-  event.y = Value(z_[1]);
-  if (moves_body) {
-    event.vx = Value(z_[2]);
-    event.vy = Value(z_[3]);
-  }
-  event.crossing_rate = rate;
-  event.leg = spec.leg;
+  Event event = EventBefore(spec, event_time, rate);
   if (IsSimultaneous(guard, at)) event.simultaneous = out_.has_simultaneous_events = true;
 
   const ResetResult result = system_.Reset(mode_, guard, event_time, z_);
@@ -261,7 +267,7 @@ std::optional<Outcome> Engine<T>::Process(int guard, bool with_last_event) {
   event_time_variation_ = event_time - t_;
   for (int i = 0; i < states_; ++i) z_[i] -= flow[i] * event_time_variation_;
   event.mode_after = mode_;
-  if (moves_body) {
+  if (MovesBody()) {
     event.vx_after = z[2];
     event.vy_after = z[3];
   }

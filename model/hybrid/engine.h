@@ -59,6 +59,8 @@ class Engine {
   bool IsMissedSection() const;
   bool Advance(const GuardRates& at_start, GuardCrossing& crossing);
   std::optional<Outcome> Process(int guard, bool with_last_event);
+  bool MovesBody() const { return states_ >= 4; }
+  Event EventBefore(const GuardSpec& spec, const T& event_time, double rate) const;
   T EventTimeShift(int guard, double rate, double scale, bool with_last_event);
   bool IsSimultaneous(int guard, const GuardRates& at) const;
   void CountHop(const EventTraits& traits, bool is_hop);

@@ -96,19 +96,13 @@ class ElasticArc {
   /// Toe stance: phi = pi, x_c fixed, M9 (M9b) alone.
   LegLoad<T> Toe(const T* z) const {
     using std::sqrt;
-    LegLoad<T> load;
-    load.u = z[kContact] - z[kX];
-    load.y = z[kY];
-    load.l = sqrt(load.u * load.u + z[kY] * z[kY]);
-    load.phi = T(std::numbers::pi);
+    LegLoad<T> load = ToeChord(z);
     const T delta = 2.0 * r_ - load.l;
     if constexpr (kSecondOrder) {
       load.elastic_force = 2.0 * delta / (toe_C_ + sqrt(toe_C_ * toe_C_ + 4.0 * toe_C2_ * delta));
     } else {
       load.elastic_force = delta / toe_C_;
     }
-    load.damping_rate = (z[kY] * z[kVy] - load.u * z[kVx]) / load.l;
-    load.contact_rate = T(0.0);
     return load;
   }
 

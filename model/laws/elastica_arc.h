@@ -91,17 +91,10 @@ class ElasticaArc {
 
   /// Toe stance: phi = pi, x_c fixed, the chord of M62 alone.
   LegLoad<T> Toe(const T* z) const {
-    using std::sqrt;
-    LegLoad<T> load;
-    load.u = z[kContact] - z[kX];
-    load.y = z[kY];
-    load.l = sqrt(load.u * load.u + z[kY] * z[kY]);
-    load.phi = T(std::numbers::pi);
+    LegLoad<T> load = ToeChord(z);
     const Equilibrium e = SolveToe(Value(load.l) / Value(r_));
     load.elastic_force = load_unit_ * (e.f - e.inverse[1][1] * ChordMiss(Place(std::numbers::pi),
                                                                          e.G, e.f, load.l / r_));
-    load.damping_rate = (z[kY] * z[kVy] - load.u * z[kVx]) / load.l;
-    load.contact_rate = T(0.0);
     return load;
   }
 

@@ -58,15 +58,8 @@ class HalfCircle {
 
   /// Toe stance: x_c fixed, phi = pi, r_d = l/2.
   LegLoad<T> Toe(const T* z) const {
-    using std::sqrt;
-    LegLoad<T> load;
-    load.u = z[kContact] - z[kX];
-    load.y = z[kY];
-    load.l = sqrt(load.u * load.u + z[kY] * z[kY]);
-    load.phi = T(std::numbers::pi);
+    LegLoad<T> load = ToeChord(z);
     load.elastic_force = (2.0 * r_ - load.l) / Compliance(load.phi, 0.5 * load.l);
-    load.damping_rate = (z[kY] * z[kVy] - load.u * z[kVx]) / load.l;
-    load.contact_rate = T(0.0);
     return load;
   }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "model/jet.h"
 
 namespace hoplab {
@@ -43,5 +46,20 @@ inline constexpr int kMostLegStates = kLaggedLegStateSize + 1;
 /// State of a body on a leg with a mass at its toe: in flight, position and velocity of the toe
 /// stand where the contact coordinate is in stance, when the other three rest at zero.
 enum ToeState { kToeX = kContact, kToeY, kToeVx, kToeVy, kToeStateSize };
+
+/// Toe stance: phi = pi, x_c fixed. All of the load but what the law makes of the chord,
+/// `elastic_force`.
+template <class T>
+LegLoad<T> ToeChord(const T* z) {
+  using std::sqrt;
+  LegLoad<T> load;
+  load.u = z[kContact] - z[kX];
+  load.y = z[kY];
+  load.l = sqrt(load.u * load.u + z[kY] * z[kY]);
+  load.phi = T(std::numbers::pi);
+  load.damping_rate = (z[kY] * z[kVy] - load.u * z[kVx]) / load.l;
+  load.contact_rate = T(0.0);
+  return load;
+}
 
 }  // namespace hoplab
