@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/search_objective.h"
 #include "datasets/dataset.h"
 #include "datasets/effect_file.h"
 #include "datasets/mechanism_spec.h"
@@ -49,18 +50,9 @@ struct KeyRange {
   bool operator==(const KeyRange&) const = default;
 };
 
-enum class ObjectiveKind {
-  kConvergenceTime,
-  kSpectralRadius,
-  kWeighted,
-  kSpeed,
-  kCostOfTransport,
-  kPeakTorque
-};
-
 struct SearchSpec {
   std::vector<KeyRange> over;
-  ObjectiveKind objective = ObjectiveKind::kConvergenceTime;
+  SearchObjective objective = SearchObjective::kConvergenceTime;
   std::vector<NamedNumber> constraints;  // names as in the file, unit included
   std::optional<int> budget;             // evaluations
   Origin origin = {};

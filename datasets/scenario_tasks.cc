@@ -142,13 +142,15 @@ SearchSpec ReadSearch(const YamlCursor& cursor, const KeyProbe& probe) {
   search.origin.place = cursor.place();
   search.over = ReadKeyRanges(
       cursor.Required("over", "what to vary, as {controller.kp_N_s: [0.5, 12]}"), probe);
-  search.objective = static_cast<ObjectiveKind>(
-      cursor
-          .Required("objective",
-                    "convergence_time, spectral_radius or weighted; of a robot spectral_radius, "
-                    "speed, cost_of_transport or peak_torque")
-          .Choice({"convergence_time", "spectral_radius", "weighted", "speed", "cost_of_transport",
-                   "peak_torque"}));
+  std::vector<std::string> objectives;
+  for (const SearchObjective objective : kSearchObjectives)
+    objectives.emplace_back(NameOf(objective));
+  search.objective = kSearchObjectives[cursor
+                                           .Required("objective",
+                                                     "convergence_time, spectral_radius or "
+                                                     "weighted; of a robot spectral_radius, "
+                                                     "speed, cost_of_transport or peak_torque")
+                                           .Choice(objectives)];
   if (const auto constraints = cursor.Optional("constraints"))
     search.constraints = ReadNamedNumbers(*constraints, 0);
   if (const auto budget = cursor.Optional("budget")) search.budget = budget->Integer(1, kMaxBudget);

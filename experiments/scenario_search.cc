@@ -63,7 +63,7 @@ SearchConstraints ConstraintsOf(const std::vector<NamedNumber>& numbers) {
     } else if (number.name == "min_clearance_m") {
       constraints.min_clearance = number.value;
     } else if (number.name == "max_flexure") {
-      constraints.max_flexure = number.value;
+      constraints.max_deflection_ratio = number.value;
     } else {
       throw InputError(
           {number.origin.place, "search.constraints." + Printable(number.name), "is no constraint",
@@ -72,24 +72,6 @@ SearchConstraints ConstraintsOf(const std::vector<NamedNumber>& numbers) {
     }
   }
   return constraints;
-}
-
-Objective ObjectiveOf(ObjectiveKind kind) {
-  switch (kind) {
-    case ObjectiveKind::kConvergenceTime:
-      return Objective::kConvergenceTime;
-    case ObjectiveKind::kSpectralRadius:
-      return Objective::kSpectralRadius;
-    case ObjectiveKind::kWeighted:
-      return Objective::kWeighted;
-    case ObjectiveKind::kSpeed:
-      return Objective::kSpeed;
-    case ObjectiveKind::kCostOfTransport:
-      return Objective::kCostOfTransport;
-    case ObjectiveKind::kPeakTorque:
-      return Objective::kPeakTorque;
-  }
-  return Objective::kConvergenceTime;
 }
 
 // An objective and constraints that the mechanism has.
@@ -120,7 +102,7 @@ SearchProblem SearchProblemOfScenario(const ScenarioDocument& document, const Sc
                       "convergence_time}."});
   }
   SearchProblem problem;
-  problem.objective = ObjectiveOf(scenario.search->objective);
+  problem.objective = scenario.search->objective;
   problem.constraints = ConstraintsOf(scenario.search->constraints);
   CheckProblem(problem, scenario);
   std::vector<OverOption> wanted = over;

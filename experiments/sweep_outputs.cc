@@ -97,7 +97,7 @@ const std::vector<Column>& Columns() {
       {{"apex_height_m", "m"}, LastApexHeight},
       {{"apex_speed_m_per_s", "m/s"}, LastApexSpeed},
       {{"energy_percent", "%"}, EnergyPercent},
-      {{"max_flexure", ""}, [](R r) { return r.run.max_flexure; }},
+      {{"max_flexure", ""}, [](R r) { return r.run.max_deflection_ratio; }},
       {{"stiffness_min_N_per_m", "N/m", true}, [](R r) { return r.stiffness_min; }},
       {{"stiffness_max_N_per_m", "N/m", true}, [](R r) { return r.stiffness_max; }},
       {{"max_torque_N_m", "N m", true}, [](R r) { return r.torque_max; }},

@@ -144,7 +144,7 @@ std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult
     out.complete = e.complete;
     out.samples = trial.sample_count;
     out.start = starts[i];
-    out.max_flexure = e.trajectory.max_flexure;
+    out.max_deflection_ratio = e.trajectory.max_deflection_ratio;
     out.nll_per_sample = kNaN;
     const std::size_t channels = problem.channels.size();
     out.rmse.assign(channels, kNaN);

@@ -31,9 +31,9 @@ struct TrialErrors {
   std::vector<double> sample_times, sample_nll;
   double prior_nll = 0.0;  // of its own values, half the sum of squares under their priors
   std::vector<HopErrors> hops;
-  OwnValues start;           // fitted own values, those of the start first
-  double max_flexure = 0.0;  // F C/l0; beyond 0.2 `large_deflection` is not to be trusted
-  Trajectory trajectory;     // samples at the rows
+  OwnValues start;                    // fitted own values, those of the start first
+  double max_deflection_ratio = 0.0;  // F C/l0; beyond 0.2 `large_deflection` is not to be trusted
+  Trajectory trajectory;              // samples at the rows
 };
 
 /// Means over trials of one role.

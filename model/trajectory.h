@@ -71,7 +71,7 @@ struct Trajectory {
   double nearest_miss = std::numeric_limits<double>::infinity();
   bool has_simultaneous_events = false;
   /// Largest F C/l0 met (`large_deflection` only): beyond 0.2 its expansion is not to be trusted.
-  double max_flexure = 0.0;
+  double max_deflection_ratio = 0.0;
 
   int directions = 0;
   int channels = 0;
@@ -96,6 +96,6 @@ struct Trajectory {
 };
 
 /// Beyond this F C/l0 the expansion of `large_deflection` is not to be trusted (section 3).
-inline constexpr double kMaxFlexure = 0.2;
+inline constexpr double kMaxDeflectionRatio = 0.2;
 
 }  // namespace hoplab

@@ -45,7 +45,7 @@ class SeedSeeker {
       // BOBYQA wants two variables at least.
       const auto descent = problem_.variables.size() > 1 ? nlopt::LN_BOBYQA : nlopt::LN_SBPLX;
       if (result_.best.verdict <= PointVerdict::kWideBand &&
-          problem_.objective != Objective::kSpectralRadius)
+          problem_.objective != SearchObjective::kSpectralRadius)
         Locally(descent, Goal::kSpectralRadius, result_.evaluations + polish / 4);
       Locally(nlopt::LN_SBPLX, Goal::kScore, options_.budget);
     }

@@ -17,7 +17,7 @@ void ReturnMap::ReadRun(const Trajectory& run, Hop& hop) {
   hop.least_crossing_rate = run.least_crossing_rate;
   hop.nearest_miss = run.nearest_miss;
   hop.simultaneous = run.has_simultaneous_events;
-  hop.max_flexure = run.max_flexure;
+  hop.max_deflection_ratio = run.max_deflection_ratio;
 }
 
 }  // namespace hoplab

@@ -38,7 +38,7 @@ struct Hop {
   double least_crossing_rate = 0.0;  // as in Trajectory: near 0 an event grazes
   double nearest_miss = 0.0;         // as in Trajectory: near 0 another event is about to happen
   bool simultaneous = false;
-  double max_flexure = 0.0;
+  double max_deflection_ratio = 0.0;
 };
 
 /// "touchdown liftoff apex"; of a robot "touchdown 1 touchdown 2 ...".

@@ -28,7 +28,7 @@ double Violation(const SearchProblem& problem, Law law, SearchPoint& point) {
   if (c.max_torque) add("max_torque", point.torque - *c.max_torque, *c.max_torque);
   if (c.min_clearance) add("min_clearance", *c.min_clearance - point.clearance, *c.min_clearance);
   if (law == Law::kLargeDeflection)
-    add("max_flexure", point.flexure - c.max_flexure, c.max_flexure);
+    add("max_flexure", point.deflection_ratio - c.max_deflection_ratio, c.max_deflection_ratio);
   return sum;
 }
 
@@ -42,7 +42,7 @@ std::vector<double> TorqueRows(double horizon) {
 }
 
 void Measure(const Hopper& hopper, const Trajectory& run, SearchPoint& point) {
-  point.flexure = run.max_flexure;
+  point.deflection_ratio = run.max_deflection_ratio;
   point.outcome = run.outcome;
   const double touchdown = TouchdownHeightOf(hopper);
   point.clearance = kNaN;
@@ -118,7 +118,7 @@ void ScoreTime(const SearchProblem& problem, const Hopper& hopper, SearchPoint& 
   const double share = point.convergence.time / run.end_time;
   point.objective = point.convergence.time;
   double within = share;
-  if (problem.objective == Objective::kWeighted) {
+  if (problem.objective == SearchObjective::kWeighted) {
     const double y = run.events.empty() ? hopper.request.initial[1] : [&] {
       for (std::size_t i = run.events.size(); i-- > 0;)
         if (run.events[i].kind == EventKind::kApex) return run.events[i].y;
@@ -146,30 +146,12 @@ void SetVerdict(SearchPoint& point, PointVerdict verdict, double within) {
   point.score = static_cast<int>(verdict) + std::clamp(within, 0.0, 1.0);
 }
 
-std::string_view NameOf(Objective objective) {
-  switch (objective) {
-    case Objective::kConvergenceTime:
-      return "convergence_time";
-    case Objective::kSpectralRadius:
-      return "spectral_radius";
-    case Objective::kWeighted:
-      return "weighted";
-    case Objective::kSpeed:
-      return "speed";
-    case Objective::kCostOfTransport:
-      return "cost_of_transport";
-    case Objective::kPeakTorque:
-      return "peak_torque";
-  }
-  return "";
+bool IsOfStrides(SearchObjective objective) {
+  return objective != SearchObjective::kConvergenceTime && objective != SearchObjective::kWeighted;
 }
 
-bool IsOfStrides(Objective objective) {
-  return objective != Objective::kConvergenceTime && objective != Objective::kWeighted;
-}
-
-bool IsOfHops(Objective objective) {
-  return !IsOfStrides(objective) || objective == Objective::kSpectralRadius;
+bool IsOfHops(SearchObjective objective) {
+  return !IsOfStrides(objective) || objective == SearchObjective::kSpectralRadius;
 }
 
 std::string_view NameOf(PointVerdict verdict) {
@@ -208,7 +190,7 @@ SearchPoint EvaluatePoint(const SearchProblem& problem, std::span<const double> 
   const Hopper hopper = problem.hopper_at(x);
   if (HasStrides(hopper))
     ScoreStride(problem, hopper, point);
-  else if (problem.objective == Objective::kSpectralRadius)
+  else if (problem.objective == SearchObjective::kSpectralRadius)
     ScoreRadius(problem, hopper, point);
   else
     ScoreTime(problem, hopper, point);

@@ -8,25 +8,16 @@
 #include <string_view>
 #include <vector>
 
+#include "base/search_objective.h"
 #include "optimize/apex_map.h"
 #include "optimize/convergence_time.h"
 #include "optimize/fixed_point.h"
 
 namespace hoplab {
 
-enum class Objective {
-  kConvergenceTime,  // M23 [s]: a staircase
-  kSpectralRadius,   // of the fixed point that hopping leads to: smooth but for kinks
-  kWeighted,         // (1 - weight) time/horizon + weight rho
-  // Of the steady stride of a robot, which must be stable:
-  kSpeed,            // greatest [m/s]
-  kCostOfTransport,  // StrideMeasures
-  kPeakTorque        // of any motor [N m]
-};
 /// Whether it is asked of a robot's strides, or of a hopper's hops; the spectral radius is of both.
-bool IsOfStrides(Objective objective);
-bool IsOfHops(Objective objective);
-std::string_view NameOf(Objective objective);
+bool IsOfStrides(SearchObjective objective);
+bool IsOfHops(SearchObjective objective);
 
 /// A quantity that is searched over, in the unit of its name.
 struct SearchVariable {
@@ -40,14 +31,14 @@ struct SearchConstraints {
   std::optional<double> min_speed;      // of the steady vx [m/s]
   std::optional<double> max_torque;     // largest |T| [N m]
   std::optional<double> min_clearance;  // least apex height above touch-down height [m]
-  double max_flexure = kMaxFlexure;     // F C/l0, `large_deflection` only
+  double max_deflection_ratio = kMaxDeflectionRatio;  // F C/l0, `large_deflection` only
 };
 
 /// What is searched. `hopper_at` is called from several threads.
 struct SearchProblem {
   std::vector<SearchVariable> variables;
   std::function<Hopper(std::span<const double> x)> hopper_at;
-  Objective objective = Objective::kConvergenceTime;
+  SearchObjective objective = SearchObjective::kConvergenceTime;
   double weight = 0.5;
   SearchConstraints constraints;
 };
@@ -78,7 +69,7 @@ struct SearchPoint {
   double speed = std::numeric_limits<double>::quiet_NaN();      // steady [m/s]
   double torque = std::numeric_limits<double>::quiet_NaN();     // largest |T| [N m], if asked for
   double clearance = std::numeric_limits<double>::quiet_NaN();  // [m]
-  double flexure = std::numeric_limits<double>::quiet_NaN();
+  double deflection_ratio = std::numeric_limits<double>::quiet_NaN();
   double cost_of_transport = std::numeric_limits<double>::quiet_NaN();  // of a robot's stride
   std::string gait;                                                     // its GaitKind
 };

@@ -53,13 +53,13 @@ double Violation(const SearchConstraints& constraints, SearchPoint& point) {
 struct Worth {
   double objective, within;
 };
-Worth WorthOf(Objective objective, const SearchPoint& point) {
+Worth WorthOf(SearchObjective objective, const SearchPoint& point) {
   switch (objective) {
-    case Objective::kSpeed:
+    case SearchObjective::kSpeed:
       return {point.speed, 1.0 - Squash(std::max(point.speed, 0.0))};
-    case Objective::kCostOfTransport:
+    case SearchObjective::kCostOfTransport:
       return {point.cost_of_transport, Squash(point.cost_of_transport)};
-    case Objective::kPeakTorque:
+    case SearchObjective::kPeakTorque:
       return {point.torque, Squash(point.torque)};
     default:
       return {point.spectral_radius, point.spectral_radius};

@@ -55,11 +55,11 @@ std::vector<std::string> TrialRemarks(const FitRun& run) {
               : fmt::format("{}: the simulation {} at {} s; no error computed", t.file,
                             SentenceOf(t.outcome), Fixed(t.end_time, 3)));
     }
-    if (run.problem.law == Law::kLargeDeflection && t.max_flexure > kMaxFlexure) {
+    if (run.problem.law == Law::kLargeDeflection && t.max_deflection_ratio > kMaxDeflectionRatio) {
       remarks.push_back(
           fmt::format("{}: the leg bends to F C/l0 = {}; beyond {} the law large_deflection is not "
                       "to be trusted",
-                      t.file, Significant(t.max_flexure, 2), kMaxFlexure));
+                      t.file, Significant(t.max_deflection_ratio, 2), kMaxDeflectionRatio));
     }
   }
   return remarks;

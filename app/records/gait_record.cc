@@ -104,7 +104,7 @@ void AddGaitKeys(const GaitRun& run, Json& record) {
   record["apex_speeds"] = Json::array();
   for (const ApexSpeed& apex : run.apexes)
     record["apex_speeds"].push_back({{"time_s", apex.time}, {"vx_m_per_s", apex.vx}});
-  record["max_flexure"] = found ? NumberOrNull(p.hop.max_flexure) : nullptr;
+  record["max_flexure"] = found ? NumberOrNull(p.hop.max_deflection_ratio) : nullptr;
   record["iterations"] = p.iterations;
   record["residual"] = NumberOrNull(p.residual);
   record["counted"] = CountedRecord(run.counted);

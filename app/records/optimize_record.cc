@@ -29,7 +29,7 @@ Json PointRecord(const OptimizeRun& run, const SearchPoint& point) {
           {"steady_speed_m_per_s", NumberOrNull(point.speed)},
           {"max_torque_N_m", NumberOrNull(point.torque)},
           {"clearance_m", NumberOrNull(point.clearance)},
-          {"max_flexure", NumberOrNull(point.flexure)},
+          {"max_flexure", NumberOrNull(point.deflection_ratio)},
           {"cost_of_transport", NumberOrNull(point.cost_of_transport)},
           {"gait", point.gait.empty() ? Json(nullptr) : Json(point.gait)}};
 }

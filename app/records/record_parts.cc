@@ -102,7 +102,7 @@ Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& tri
                    {"end_time_s", NumberOrNull(trial.end_time)},
                    {"start", StateRecord(trial.start)},
                    {"touchdown_angle_rad", NumberOrNull(FirstAngle(problem.trials[i]))},
-                   {"max_flexure", NumberOrNull(trial.max_flexure)},
+                   {"max_flexure", NumberOrNull(trial.max_deflection_ratio)},
                    {"hops", hops}});
   }
   return out;

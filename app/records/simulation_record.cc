@@ -68,7 +68,7 @@ void AddSimulation(const SimulationRequest& request, const Trajectory& run,
   for (const auto& [time, energy] : ApexEnergies(request, run))
     record["apex_energies"].push_back({{"time_s", time}, {"energy_J", NumberOrNull(energy)}});
   record["sensitivities"] = SensitivitiesRecord(run, direction_names);
-  record["max_flexure"] = NumberOrNull(run.max_flexure);
+  record["max_flexure"] = NumberOrNull(run.max_deflection_ratio);
   record["least_crossing_rate_per_s"] = NumberOrNull(run.least_crossing_rate);
   record["nearest_miss"] = NumberOrNull(run.nearest_miss);
 }

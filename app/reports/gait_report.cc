@@ -167,9 +167,10 @@ std::string GaitReport(const std::string& name, const GaitRun& run, bool colours
   text += "  hops to 1 %      " + PredictionText(run) + "\n";
   if (const std::string counted = CountedText(run); !counted.empty())
     text += "  counted          " + counted + "\n";
-  if (run.hopper.request.law == Law::kLargeDeflection && p.hop.max_flexure > kMaxFlexure)
+  if (run.hopper.request.law == Law::kLargeDeflection &&
+      p.hop.max_deflection_ratio > kMaxDeflectionRatio)
     text += fmt::format("  the leg bends to F C/l0 = {}; beyond {} this law is not to be trusted\n",
-                        Significant(p.hop.max_flexure, 2), kMaxFlexure);
+                        Significant(p.hop.max_deflection_ratio, 2), kMaxDeflectionRatio);
   return text + RateTable(run, colours) + BranchReport(run);
 }
 

@@ -45,9 +45,9 @@ std::string SimulationReport(const std::string& name, const SimulationRequest& r
   const std::vector<std::string> lines = table.Lines();
   text += Styled(lines.front(), Emphasis::kFaint, colours) + "\n";
   for (std::size_t i = 1; i < lines.size(); ++i) text += lines[i] + "\n";
-  if (request.law == Law::kLargeDeflection && run.max_flexure > kMaxFlexure)
+  if (request.law == Law::kLargeDeflection && run.max_deflection_ratio > kMaxDeflectionRatio)
     text += fmt::format("  the leg bends to F C/l0 = {}; beyond {} this law is not to be trusted\n",
-                        Significant(run.max_flexure, 2), kMaxFlexure);
+                        Significant(run.max_deflection_ratio, 2), kMaxDeflectionRatio);
   return text;
 }
 

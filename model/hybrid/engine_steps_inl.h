@@ -62,7 +62,8 @@ bool Engine<T>::Integrate(GuardRates before, GuardCrossing& crossing) {
     const bool done = crossing.guard >= 0 || stepper_->t1() >= end;
     if (done) TakeStepperState();
     if (crossing.guard >= 0 || !done)
-      out_.max_flexure = std::max(out_.max_flexure, watch_.DeflectionRatio(mode_, stepper_->y1()));
+      out_.max_deflection_ratio =
+          std::max(out_.max_deflection_ratio, watch_.DeflectionRatio(mode_, stepper_->y1()));
     if (done) return true;
     before = after;
   }

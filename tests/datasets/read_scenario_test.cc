@@ -95,7 +95,7 @@ TEST(ReadScenario, ReadsASearch) {
   const SearchSpec search = *Document().Read().search;
   EXPECT_EQ(search.over, (std::vector<KeyRange>{{"touchdown_angle_deg", 15, 60},
                                                 {"controller.kp_N_s", 0.5, 12}}));
-  EXPECT_EQ(search.objective, ObjectiveKind::kConvergenceTime);
+  EXPECT_EQ(search.objective, SearchObjective::kConvergenceTime);
   EXPECT_EQ(search.constraints,
             (std::vector<NamedNumber>{{"min_speed_m_per_s", 0.5}, {"max_torque_N_m", 10}}));
   EXPECT_EQ(search.budget, 2000);

@@ -138,9 +138,9 @@ TEST(LegCompliance, SecondOrderComplianceIsPositiveUpToAHalfCircle) {
 // How far the expansion M9b, M10b is from the exact elastica at a load. `euler` is the load over
 // that at which a straight rod of the same length buckles: what governs the error of every arc.
 struct ExpansionError {
-  double chord;    // over F C
-  double tip;      // of u/l
-  double flexure;  // F C/l0
+  double chord;             // over F C
+  double tip;               // of u/l
+  double deflection_ratio;  // F C/l0
 };
 ExpansionError ErrorAt(double phi, double euler, bool second_order) {
   Parameters<double> p;
@@ -197,7 +197,7 @@ TEST(LegCompliance, M2bHalvesTheErrorUpToAFifthOfTheEulerLoad) {
     for (double euler : {0.05, 0.1, 0.2, 0.3, 0.5}) {
       const ExpansionError two = ErrorAt(phi, euler, true), one = ErrorAt(phi, euler, false);
       std::printf("%.2f    %.2f      %.3f  |  %8.4f  %8.4f  |  %8.4f  %8.4f\n", phi, euler,
-                  two.flexure, two.chord, one.chord, two.tip, one.tip);
+                  two.deflection_ratio, two.chord, one.chord, two.tip, one.tip);
       if (euler > 0.2) continue;
       EXPECT_LT(std::abs(two.chord), 0.5 * std::abs(one.chord)) << phi << ' ' << euler;
       EXPECT_LT(std::abs(two.tip), 0.5 * std::abs(one.tip)) << phi << ' ' << euler;

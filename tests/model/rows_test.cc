@@ -102,20 +102,20 @@ TEST(NumericFlight, LiftingOffBelowTouchdownHeightGoesOnAsTheClosedFormDoes) {
   }
 }
 
-TEST(Flexure, IsReportedByTheExpansionAlone) {
+TEST(DeflectionRatio, IsReportedByTheExpansionAlone) {
   for (Law law : kCLegLaws) {
-    const double flexure = Simulate(ThickLegRequest(law)).max_flexure;
+    const double deflection_ratio = Simulate(ThickLegRequest(law)).max_deflection_ratio;
     if (law == Law::kLargeDeflection)
-      EXPECT_GT(flexure, 0.02);
+      EXPECT_GT(deflection_ratio, 0.02);
     else
-      EXPECT_EQ(flexure, 0.0);
+      EXPECT_EQ(deflection_ratio, 0.0);
   }
 }
 
-TEST(Flexure, OfASoftLegGoesBeyondWhatTheExpansionCarries) {
+TEST(DeflectionRatio, OfASoftLegGoesBeyondWhatTheExpansionCarries) {
   SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
   q.parameters.E *= 0.15;
-  EXPECT_GT(Simulate(q).max_flexure, kMaxFlexure);
+  EXPECT_GT(Simulate(q).max_deflection_ratio, kMaxDeflectionRatio);
 }
 
 TEST(Trajectory, ReusedForAnotherRunHoldsNothingOfTheFirst) {
@@ -127,7 +127,7 @@ TEST(Trajectory, ReusedForAnotherRunHoldsNothingOfTheFirst) {
   Simulate(q, reused);
   const Trajectory fresh = Simulate(q);
   EXPECT_EQ(reused.final_state, fresh.final_state);
-  EXPECT_EQ(reused.max_flexure, fresh.max_flexure);
+  EXPECT_EQ(reused.max_deflection_ratio, fresh.max_deflection_ratio);
   EXPECT_EQ(reused.events.size(), fresh.events.size());
   EXPECT_EQ(reused.steps, fresh.steps);
 }

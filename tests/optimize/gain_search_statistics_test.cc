@@ -53,7 +53,7 @@ int NotWorse(const SearchProblem& problem, double grid, SearchAlgorithm algorith
   return static_cast<int>(better);
 }
 
-class AgainstTheGrid : public ::testing::TestWithParam<Objective> {};
+class AgainstTheGrid : public ::testing::TestWithParam<SearchObjective> {};
 
 TEST_P(AgainstTheGrid, TheDefaultSearchIsNotWorseFromAnySeed) {
   const SearchProblem problem = GainProblem(GetParam());
@@ -75,7 +75,8 @@ TEST_P(AgainstTheGrid, EveryAlgorithmKeepsToItsBudgetWithAndWithoutPolishing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Objectives, AgainstTheGrid,
-                         ::testing::Values(Objective::kConvergenceTime, Objective::kSpectralRadius),
+                         ::testing::Values(SearchObjective::kConvergenceTime,
+                                           SearchObjective::kSpectralRadius),
                          [](const auto& info) { return std::string(NameOf(info.param)); });
 
 }  // namespace

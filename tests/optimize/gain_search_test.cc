@@ -13,7 +13,7 @@ namespace {
 using testing::GainProblem;
 
 // A short horizon: small enough for the quick suite.
-SearchProblem SmallProblem(Objective objective = Objective::kConvergenceTime) {
+SearchProblem SmallProblem(SearchObjective objective = SearchObjective::kConvergenceTime) {
   SearchProblem problem = GainProblem(objective);
   problem.hopper_at = [inner = problem.hopper_at](std::span<const double> x) {
     Hopper hopper = inner(x);
@@ -75,7 +75,7 @@ TEST(GainSearch, TheHistoryOnlyImproves) {
 
 TEST(GainSearch, TheSpectralRadiusIsSearchedToo) {
   const GainSearchResult result =
-      SearchGains(SmallProblem(Objective::kSpectralRadius), SmallOptions());
+      SearchGains(SmallProblem(SearchObjective::kSpectralRadius), SmallOptions());
   EXPECT_EQ(result.best.verdict, PointVerdict::kGood);
   EXPECT_EQ(result.best.objective, result.best.spectral_radius);
   EXPECT_LT(result.best.spectral_radius, 0.7);

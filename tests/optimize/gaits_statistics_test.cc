@@ -30,7 +30,7 @@ SearchProblem GaitProblem(const Search& search) {
   SearchProblem problem;
   problem.variables = {{"period", 0.2, 0.6},  {"duty", 0.3, 0.8},  {"sweep", 0.3, 1.5},
                        {"offset", -0.3, 0.6}, {"speed", 0.1, 1.5}, {"height", 0.185, 0.25}};
-  problem.objective = Objective::kSpectralRadius;
+  problem.objective = SearchObjective::kSpectralRadius;
   problem.hopper_at = [search](std::span<const double> x) {
     Hopper hopper = ClockedRobot(search.legs, x[0], x[1], x[2], x[3]);
     hopper.request.parameters.robot->phase[1] = search.phase;

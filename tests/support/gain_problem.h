@@ -7,7 +7,7 @@ namespace hoplab::testing {
 
 /// Touch-down angle [deg] and gain [N s] of the controlled hopper over a wide box: most of it
 /// falls, touches down without support or does not settle in 15 s.
-inline SearchProblem GainProblem(Objective objective = Objective::kConvergenceTime) {
+inline SearchProblem GainProblem(SearchObjective objective = SearchObjective::kConvergenceTime) {
   SearchProblem problem;
   problem.variables = {{"touchdown_angle_deg", 15.0, 60.0}, {"controller.kp_N_s", 0.5, 12.0}};
   problem.objective = objective;
