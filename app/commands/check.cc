@@ -1,25 +1,24 @@
-#include <chrono>
 #include <ostream>
 
 #include "app/records/check_record.h"
 #include "app/reports/check_report.h"
 #include "app/reports/run_folder.h"
 #include "app/terminal/command.h"
+#include "app/terminal/stopwatch.h"
 #include "datasets/read_dataset.h"
 
 namespace hoplab {
 namespace {
 
 ExitCode RunCheckCommand(const CheckSettings& settings, Console& console) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const ProblemOptions options = ProblemOptionsOf(settings.problem);
   const Dataset dataset = ReadDataset(settings.problem.dataset);
   const RunFolder folder(RunFolderOptionsOf(settings), dataset.name, "check");
   const CheckRun run = RunCheck(dataset, options, JobsOf(settings.problem.jobs));
 
   Json record = CheckRecord(dataset, settings, run);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  record["seconds"] = took.count();
+  record["seconds"] = watch.Seconds();
   if (!settings.out.empty()) folder.Write({{"run.json", TextOf(record)}});
   if (settings.json) {
     console.out << TextOf(record);

@@ -1,4 +1,3 @@
-#include <chrono>
 #include <ostream>
 
 #include "app/records/design_record.h"
@@ -8,13 +7,14 @@
 #include "app/terminal/command.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress.h"
+#include "app/terminal/stopwatch.h"
 #include "datasets/read_dataset.h"
 
 namespace hoplab {
 namespace {
 
 ExitCode RunDesignCommand(const DesignSettings& settings, Console& console) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   DesignRunOptions options = DesignRunOptionsOf(settings);
   const Dataset dataset = ReadDataset(settings.problem.dataset);
   const RunFolder folder(RunFolderOptionsOf(settings), dataset.name, "design");
@@ -28,8 +28,7 @@ ExitCode RunDesignCommand(const DesignSettings& settings, Console& console) {
   progress.Clear();
 
   Json record = DesignRecord(dataset, settings.problem.dataset, options, run);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  record["seconds"] = took.count();
+  record["seconds"] = watch.Seconds();
   const bool keep = !run.interrupted || !run.search.best.empty();
   std::string kept = "nothing was written";
   if (keep) {

@@ -1,34 +1,22 @@
-#include <chrono>
 #include <ostream>
 
 #include "app/records/diagnosis_record.h"
 #include "app/records/diagnosis_tables.h"
 #include "app/records/discovery_record.h"
 #include "app/reports/diagnosis_report.h"
-#include "app/reports/discovery_report.h"
-#include "app/reports/fit_progress.h"
 #include "app/reports/run_folder.h"
+#include "app/reports/run_progress.h"
 #include "app/runs/diagnose_settings.h"
 #include "app/terminal/command.h"
 #include "app/terminal/interrupt.h"
+#include "app/terminal/stopwatch.h"
 #include "datasets/read_dataset.h"
 
 namespace hoplab {
 namespace {
 
-// Something is left that no listed cause explains, or that is likely.
-bool WantsFormula(const DiagnosisRun& run) {
-  const Diagnosis& d = run.diagnosis;
-  return run.Failure().empty() && (d.CausesMayStandIn() || d.left.material);
-}
-
-ExitCode CodeOf(const DiagnosisRun& run) {
-  if (run.diagnosis.interrupted) return ExitCode::kInterrupted;
-  return run.Failure().empty() ? ExitCode::kDone : ExitCode::kNoResult;
-}
-
 ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   DiagnosisOptions options = DiagnosisOptionsOf(settings);
   const Dataset dataset = ReadDataset(settings.problem.dataset);
   const RunFolder folder(RunFolderOptionsOf(settings), dataset.name, "diagnose");
@@ -39,14 +27,13 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
   ShowProgress(options, progress);
   const DiagnosisRun run = RunDiagnosis(dataset, options);
   std::optional<Discovery> discovery;
-  if (settings.discover && WantsFormula(run)) discovery = DiscoverBeside(run.diagnosis, options);
+  if (settings.discover && run.WantsFormula()) discovery = DiscoverBeside(run.diagnosis, options);
   progress.Clear();
 
   Json record = DiagnosisRecord(dataset, settings.problem.dataset, options, run);
   if (settings.discover)
     record["discovery"] = discovery ? DiscoveryPart(*discovery) : Json(nullptr);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  record["seconds"] = took.count();
+  record["seconds"] = watch.Seconds();
   // Before the null fit is over there is nothing worth keeping of an interrupted run.
   const bool keep = run.diagnosis.fit.ok || !run.diagnosis.interrupted;
   std::string kept = "nothing was written";
@@ -60,14 +47,12 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
     console.out << TextOf(record);
   } else {
     console.out << DiagnosisReport(dataset, run, settings.discover, console.out_colours);
-    if (discovery) console.out << '\n' << DiscoveryReport(*discovery, console.out_colours) << '\n';
-    if (settings.discover && !discovery && run.Failure().empty())
-      console.out << "\n  no formula is needed beside what was named\n";
+    if (settings.discover) console.out << FormulaReport(run, discovery, console.out_colours);
     console.out << Styled("  run folder   ", Emphasis::kFaint, console.out_colours) << kept << '\n';
   }
   if (!run.Failure().empty()) console.err << "hoplab diagnose: " << run.Failure() << '\n';
   if (run.diagnosis.interrupted) console.err << "kept: " << (keep ? kept : "nothing") << '\n';
-  return CodeOf(run);
+  return ExitCodeOf(run.diagnosis.interrupted, run.Failure());
 }
 
 void AddDiagnose(CLI::App& sub, Invocation& invocation) {

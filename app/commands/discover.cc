@@ -1,44 +1,24 @@
-#include <chrono>
 #include <ostream>
 
 #include "app/export/discovered_code.h"
 #include "app/records/discovery_record.h"
 #include "app/reports/discovery_report.h"
 #include "app/reports/run_folder.h"
-#include "app/runs/problem_settings.h"
-#include "app/runs/run_settings.h"
+#include "app/runs/discover_settings.h"
 #include "app/terminal/command.h"
-#include "app/terminal/help_text.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/report_text.h"
+#include "app/terminal/stopwatch.h"
 #include "base/text.h"
 #include "datasets/read_dataset.h"
 
 namespace hoplab {
 namespace {
 
-struct DiscoverSettings : RunSettings {
-  ProblemSettings problem;
-  std::uint64_t seed = 1;
-  std::string span = "whole_else_hops";
-  std::string discrepancy = "matern";
-  bool code = false;
-};
-
-DiagnosisOptions OptionsOf(const DiscoverSettings& settings) {
-  DiagnosisOptions options;
-  options.problem = ProblemOptionsOf(settings.problem);
-  options.fit.seed = settings.seed;
-  options.fit.jobs = JobsOf(settings.problem.jobs);
-  options.fit.discrepancy = *FindDiscrepancy(settings.discrepancy);
-  options.span = *FindSpan(settings.span);
-  return options;
-}
-
 ExitCode RunDiscover(const DiscoverSettings& settings, Console& console) {
-  const auto begin = std::chrono::steady_clock::now();
-  DiagnosisOptions options = OptionsOf(settings);
+  const Stopwatch watch;
+  DiagnosisOptions options = DiscoveryOptionsOf(settings);
   const Dataset dataset = ReadDataset(settings.problem.dataset);
   const RunFolder folder(RunFolderOptionsOf(settings), dataset.name, "discover");
 
@@ -51,8 +31,7 @@ ExitCode RunDiscover(const DiscoverSettings& settings, Console& console) {
   progress.Clear();
 
   Json record = DiscoveryRecord(dataset, settings.problem.dataset, options, found);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  record["seconds"] = took.count();
+  record["seconds"] = watch.Seconds();
   std::map<std::string, std::string> files = DiscoveryFiles(found);
   if (settings.code) files.merge(DiscoveryCode(found));
   files["run.json"] = TextOf(record);
@@ -71,21 +50,12 @@ ExitCode RunDiscover(const DiscoverSettings& settings, Console& console) {
   }
   const std::string failure = FailureOf(found);
   if (!failure.empty()) console.err << "hoplab discover: " << failure << '\n';
-  if (found.base.interrupted) return ExitCode::kInterrupted;
-  return failure.empty() ? ExitCode::kDone : ExitCode::kNoResult;
+  return ExitCodeOf(found.base.interrupted, failure);
 }
 
 void AddDiscover(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<DiscoverSettings>();
-  AddProblemOptions(sub, settings->problem);
-  AddDiscrepancyOption(sub, settings->discrepancy);
-  AddSeedOption(sub, settings->seed, "Of noise draws, resamples and bootstraps");
-  sub.add_option("--span", settings->span,
-                 "whole traces, else single hops where a law falls (default), whole or hops")
-      ->check(OneOf({"whole_else_hops", "whole", "hops"}))
-      ->option_text("NAME");
-  sub.add_flag("--code", settings->code, "Also write what is found as a C++ effect");
-  AddRunFolderOptions(sub, *settings, "Run folder (default runs/<dataset>-discover-NNN)");
+  AddDiscoverOptions(sub, *settings);
   OnParsed(sub, invocation, settings, RunDiscover);
 }
 

@@ -1,15 +1,12 @@
-#include <algorithm>
 #include <ostream>
 
 #include "app/export/effect_code.h"
 #include "app/records/effect_record.h"
-#include "app/records/record_parts.h"
 #include "app/reports/effect_catalogue.h"
 #include "app/reports/effect_list.h"
 #include "app/terminal/command.h"
 #include "base/input_error.h"
 #include "base/text.h"
-#include "fitting/model_of_spec.h"
 
 namespace hoplab {
 namespace {
@@ -20,18 +17,6 @@ struct EffectsSettings {
   bool markdown = false, code = false, json = false;
 };
 
-std::vector<const Effect*> Chosen(const EffectsSettings& settings) {
-  if (!settings.name.empty()) return {&ResolveEffect(settings.name, "effects")};
-  std::vector<const Effect*> chosen;
-  for (const Effect* effect : AllEffects()) {
-    const std::vector<Law> laws = LawsWith(*effect);
-    const bool applies =
-        std::any_of(laws.begin(), laws.end(), [&](Law law) { return NameOf(law) == settings.law; });
-    if (settings.law.empty() || applies) chosen.push_back(effect);
-  }
-  return chosen;
-}
-
 // The formula of a file in C++.
 std::string CodeOfFile(const Effect& effect, const std::string& given) {
   if (const FormulaSource* source = SourceOf(effect)) return EffectCodeOf(*source, given);
@@ -41,27 +26,10 @@ std::string CodeOfFile(const Effect& effect, const std::string& given) {
                                         std::string(effect.info.name) + ".cc."});
 }
 
-void CheckLaw(const std::string& name) {
-  std::vector<std::string> known;
-  for (const Law law : AllLaws()) known.emplace_back(NameOf(law));
-  if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
-  throw InputError({"--law", Printable(name), "is not a law", DidYouMean(name, known)});
-}
-
 ExitCode RunEffects(const EffectsSettings& settings, Console& console) {
-  CheckLaw(settings.law);
-  const std::vector<const Effect*> effects = Chosen(settings);
+  const std::vector<const Effect*> effects = ChosenEffects(settings.name, settings.law);
   if (settings.json) {
-    RecordHeader header;
-    header.command = "effects";
-    if (!settings.law.empty()) header.law = settings.law;
-    Json record = NewRecord(header);
-    record["effects"] = Json::array();
-    for (const Effect* effect : effects) {
-      record["effects"].push_back(EffectRecord(*effect));
-      if (effect->formula) record["effects"].back().update(FormulaRecord(*effect));
-    }
-    console.out << TextOf(record);
+    console.out << TextOf(EffectsRecord(effects, settings.law));
   } else if (settings.code) {
     console.out << CodeOfFile(*effects.front(), settings.name);
   } else if (settings.markdown) {

@@ -1,26 +1,21 @@
-#include <chrono>
 #include <ostream>
 
 #include "app/records/fit_record.h"
 #include "app/records/fit_tables.h"
-#include "app/reports/fit_progress.h"
 #include "app/reports/fit_report.h"
 #include "app/reports/run_folder.h"
+#include "app/reports/run_progress.h"
 #include "app/runs/fit_settings.h"
 #include "app/terminal/command.h"
 #include "app/terminal/interrupt.h"
+#include "app/terminal/stopwatch.h"
 #include "datasets/read_dataset.h"
 
 namespace hoplab {
 namespace {
 
-ExitCode CodeOf(const FitRun& run) {
-  if (run.interrupted) return ExitCode::kInterrupted;
-  return run.Failure().empty() ? ExitCode::kDone : ExitCode::kNoResult;
-}
-
 ExitCode RunFitCommand(const FitSettings& settings, Console& console) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   FitRunOptions options = FitRunOptionsOf(settings);
   const Dataset dataset = ReadDataset(settings.problem.dataset);
   const RunFolder folder(RunFolderOptionsOf(settings), dataset.name, "fit");
@@ -33,8 +28,7 @@ ExitCode RunFitCommand(const FitSettings& settings, Console& console) {
   progress.Clear();
 
   Json record = FitRecord(dataset, settings.problem.dataset, options, run);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  record["seconds"] = took.count();
+  record["seconds"] = watch.Seconds();
   const bool keep = run.has_result || !run.interrupted;
   std::string kept = "nothing was written";
   if (keep) {
@@ -50,7 +44,7 @@ ExitCode RunFitCommand(const FitSettings& settings, Console& console) {
   }
   if (!run.Failure().empty()) console.err << "hoplab fit: " << run.Failure() << '\n';
   if (run.interrupted) console.err << "kept: " << (keep ? kept : "nothing") << '\n';
-  return CodeOf(run);
+  return ExitCodeOf(run.interrupted, run.Failure());
 }
 
 void AddFit(CLI::App& sub, Invocation& invocation) {

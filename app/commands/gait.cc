@@ -1,4 +1,3 @@
-#include <chrono>
 #include <ostream>
 
 #include "app/records/gait_record.h"
@@ -7,13 +6,14 @@
 #include "app/terminal/command.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress.h"
+#include "app/terminal/stopwatch.h"
 #include "experiments/scenario_hopper.h"
 
 namespace hoplab {
 namespace {
 
 ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   GaitOptions options;
   if (!settings.along.empty()) options.along = ParseAlong(settings.along);
   const Scenario scenario = ReadScenarioOf(settings.scenario);
@@ -29,8 +29,7 @@ ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
   progress.Clear();
 
   Json record = GaitRecord(settings, scenario, run);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  record["seconds"] = took.count();
+  record["seconds"] = watch.Seconds();
   std::map<std::string, std::string> files = GaitTables(run);
   files["run.json"] = TextOf(record);
   const std::string written = folder.Write(files).string();
@@ -42,8 +41,7 @@ ExitCode RunGaitCommand(const GaitSettings& settings, Console& console) {
   }
   const std::string failure = run.Failure();
   if (!failure.empty()) console.err << "hoplab gait: " << failure << '\n';
-  if (run.interrupted) return ExitCode::kInterrupted;
-  return failure.empty() ? ExitCode::kDone : ExitCode::kNoResult;
+  return ExitCodeOf(run.interrupted, failure);
 }
 
 void AddGait(CLI::App& sub, Invocation& invocation) {

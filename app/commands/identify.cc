@@ -1,20 +1,21 @@
-#include <chrono>
 #include <ostream>
 
 #include "app/records/identify_record.h"
 #include "app/reports/identify_report.h"
+#include "app/reports/kept_work.h"
 #include "app/reports/run_folder.h"
 #include "app/runs/identify_work.h"
+#include "app/runs/on_ranks.h"
 #include "app/terminal/command.h"
 #include "app/terminal/interrupt.h"
+#include "app/terminal/stopwatch.h"
 #include "app/version.h"
-#include "base/input_error.h"
 
 namespace hoplab {
 namespace {
 
 ExitCode Lead(const IdentifySettings& settings, Console& console, MpiJob* job) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const InterruptGuard interrupt;
   IdentificationRequest request = IdentificationRequestOf(settings);
   const RunFolder folder(RunFolderOptionsOf(settings), "published", "identify");
@@ -31,17 +32,10 @@ ExitCode Lead(const IdentifySettings& settings, Console& console, MpiJob* job) {
   progress.Clear();
 
   Json record = IdentifyRecord(settings, request, result);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  record["seconds"] = took.count();
-  if (result.interrupted) {
-    const std::string message = "interrupted; " + std::to_string(journal.size()) +
-                                " fits are kept in " + journal.lines().file().string() +
-                                ", the same command computes the others";
-    SetFailed(record, message);
-    if (settings.json) console.out << TextOf(record);
-    console.err << "hoplab identify: " << message << '\n';
-    return ExitCode::kInterrupted;
-  }
+  record["seconds"] = watch.Seconds();
+  if (result.interrupted)
+    return TellKeptWork(std::to_string(journal.size()) + " fits", journal.lines().file().string(),
+                        std::move(record), settings.json, console);
   const std::string written =
       folder.Write(IdentifyFiles(settings, result, record, journal)).string();
   journal.Remove();
@@ -54,21 +48,10 @@ ExitCode Lead(const IdentifySettings& settings, Console& console, MpiJob* job) {
   return ExitCode::kDone;
 }
 
-// A rank other than 0: says nothing, rank 0 tells what is wrong with the settings.
-ExitCode Follow(const IdentifySettings& settings, MpiJob& job) {
-  try {
-    const IdentificationRequest request = IdentificationRequestOf(settings);
-    FollowIdentification(request.context, job);
-    return ExitCode::kDone;
-  } catch (const InputError&) {
-    return ExitCode::kDone;
-  }
-}
-
 ExitCode RunIdentify(const IdentifySettings& settings, Console& console) {
-  if (!MpiJob::Launched()) return Lead(settings, console, nullptr);
-  MpiJob job;
-  return job.rank() == 0 ? Lead(settings, console, &job) : Follow(settings, job);
+  return OnRanks(
+      [&](MpiJob* job) { return Lead(settings, console, job); },
+      [&](MpiJob& job) { FollowIdentification(IdentificationRequestOf(settings).context, job); });
 }
 
 void AddIdentify(CLI::App& sub, Invocation& invocation) {

@@ -1,4 +1,3 @@
-#include <chrono>
 #include <ostream>
 
 #include "app/records/optimize_record.h"
@@ -6,12 +5,13 @@
 #include "app/reports/run_folder.h"
 #include "app/terminal/command.h"
 #include "app/terminal/interrupt.h"
+#include "app/terminal/stopwatch.h"
 
 namespace hoplab {
 namespace {
 
 ExitCode RunOptimizeCommand(const OptimizeSettings& settings, Console& console) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const std::vector<OverOption> over = OverOptionsOf(settings);
   const ScenarioDocument document = ScenarioDocumentOf(settings.scenario);
   const Scenario scenario = document.Read();
@@ -23,8 +23,7 @@ ExitCode RunOptimizeCommand(const OptimizeSettings& settings, Console& console) 
   progress.Clear();
 
   Json record = OptimizeRecord(settings, scenario, run);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  record["seconds"] = took.count();
+  record["seconds"] = watch.Seconds();
   std::map<std::string, std::string> files = OptimizeTables(run);
   files["run.json"] = TextOf(record);
   const std::string written = folder.Write(files).string();

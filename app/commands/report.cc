@@ -1,20 +1,16 @@
-#include <chrono>
 #include <ostream>
 
 #include "app/records/comparison_record.h"
 #include "app/reports/comparison_report.h"
 #include "app/reports/report_page.h"
 #include "app/reports/run_folder.h"
-#include "app/runs/run_settings.h"
+#include "app/runs/report_settings.h"
 #include "app/terminal/command.h"
+#include "app/terminal/stopwatch.h"
 #include "app/terminal/usage_error.h"
 
 namespace hoplab {
 namespace {
-
-struct ReportSettings : RunSettings {
-  std::vector<std::string> folders;
-};
 
 ExitCode WriteAnew(const ReportSettings& settings, Console& console) {
   const std::string& folder = settings.folders.front();
@@ -30,13 +26,12 @@ ExitCode WriteAnew(const ReportSettings& settings, Console& console) {
 }
 
 ExitCode Compare(const ReportSettings& settings, Console& console) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   std::vector<ComparedRun> runs;
   for (const std::string& folder : settings.folders)
     runs.push_back({folder, ReadRunFolder(folder)});
   Json record = ComparisonRecord(runs);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  record["seconds"] = took.count();
+  record["seconds"] = watch.Seconds();
   const std::string name = record["runs"][0]["name"].get<std::string>();
   const RunFolder folder(RunFolderOptionsOf(settings), name, "comparison");
   const std::filesystem::path written =
@@ -57,12 +52,7 @@ ExitCode RunReport(const ReportSettings& settings, Console& console) {
 
 void AddReport(CLI::App& sub, Invocation& invocation) {
   auto settings = std::make_shared<ReportSettings>();
-  sub.add_option(
-         "RUN_DIR", settings->folders,
-         "A folder with run.json and its tables; two or more fits or diagnoses are compared "
-         "with the first")
-      ->required();
-  AddRunFolderOptions(sub, *settings, "Folder of a comparison (default runs/<run>-comparison-NNN)");
+  AddReportOptions(sub, *settings);
   OnParsed(sub, invocation, settings, RunReport);
 }
 

@@ -1,20 +1,19 @@
-#include <chrono>
 #include <ostream>
 
 #include "app/records/reproduction_record.h"
 #include "app/records/reproduction_runs.h"
 #include "app/reports/reproduction_report.h"
 #include "app/reports/run_folder.h"
+#include "app/reports/run_progress.h"
 #include "app/terminal/command.h"
 #include "app/terminal/interrupt.h"
-#include "app/terminal/progress.h"
-#include "base/text.h"
+#include "app/terminal/stopwatch.h"
 
 namespace hoplab {
 namespace {
 
 ExitCode RunReproduceCommand(const ReproduceSettings& settings, Console& console) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   ReproductionRequest request = ReproductionRequestOf(settings);
   const ScenarioDocument document = ScenarioDocumentOf(settings.constants);
   request.study = StudyOfScenario(document.Read(), IntegratorOptionsOf(settings.solver));
@@ -24,24 +23,16 @@ ExitCode RunReproduceCommand(const ReproduceSettings& settings, Console& console
   const InterruptGuard interrupt;
   request.stop = interrupt.flag();
   Progress progress(console, settings.quiet);
-  progress.Stage("reproducing " + std::to_string(request.items.size()) + " items");
-  request.progress = [&](int done, const std::string& item) {
-    progress.Step("reproducing: " + std::to_string(done) + " of " +
-                      std::to_string(request.items.size()) + ", last " + item,
-                  done, static_cast<long>(request.items.size()));
-  };
+  ShowProgress(request, progress);
   const Reproduction reproduction = Reproduce(request);
   progress.Clear();
 
   Json record =
       NewReproductionRecord(settings, request.study, request.items, document.ResolvedText());
   AddReproduction(reproduction, record);
-  std::string failure;
-  if (!reproduction.left_out.empty())
-    failure = "interrupted; left out " + Join(reproduction.left_out);
+  const std::string failure = FailureOf(reproduction);
   if (!failure.empty()) SetFailed(record, failure);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  record["seconds"] = took.count();
+  record["seconds"] = watch.Seconds();
   std::map<std::string, std::string> files = ReproductionTables(reproduction);
   if (const auto runs = ComparedLegs(request.study, reproduction)) {
     files["trajectories.csv"] = runs->table;
@@ -80,7 +71,7 @@ extern constexpr Command reproduce = {
         "  hoplab reproduce table-6.5 claim-h\n"
         "  hoplab reproduce all --out runs/study\n"
         "  hoplab reproduce kinematics --hip-distance 0.5\n"
-        "  hoplab reproduce claims --law consistent",
+        "  hoplab reproduce claims --law consistent --set mechanism.leg.variant=null",
     .add = AddReproduce};
 }  // namespace commands
 }  // namespace hoplab

@@ -1,17 +1,17 @@
-#include <chrono>
 #include <ostream>
 
 #include "app/records/scenario_run_record.h"
 #include "app/reports/run_folder.h"
 #include "app/reports/simulation_report.h"
 #include "app/terminal/command.h"
+#include "app/terminal/stopwatch.h"
 #include "fitting/generate.h"
 
 namespace hoplab {
 namespace {
 
 ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Scenario scenario = ReadScenarioOf(settings.scenario);
   const RunFolder folder(RunFolderOptionsOf(settings), scenario.name, "simulate");
   const ScenarioRequest simulated(settings, scenario);
@@ -21,8 +21,7 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
 
   Json record = ScenarioRunRecord(settings, scenario, request, run);
   std::map<std::string, std::string> files = ScenarioRunTables(request, run);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  record["seconds"] = took.count();
+  record["seconds"] = watch.Seconds();
   files["run.json"] = TextOf(record);
   const std::filesystem::path written = folder.Write(files);
   if (settings.json) {

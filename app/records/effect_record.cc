@@ -2,7 +2,22 @@
 
 #include <algorithm>
 
+#include "app/records/record_parts.h"
+#include "base/input_error.h"
+#include "base/text.h"
+#include "fitting/model_of_spec.h"
+
 namespace hoplab {
+namespace {
+
+void CheckLaw(const std::string& name) {
+  std::vector<std::string> known;
+  for (const Law law : AllLaws()) known.emplace_back(NameOf(law));
+  if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+  throw InputError({"--law", Printable(name), "is not a law", DidYouMean(name, known)});
+}
+
+}  // namespace
 
 std::vector<Law> AllLaws() {
   std::vector<Law> laws;
@@ -45,6 +60,32 @@ Json EffectRecord(const Effect& effect) {
           {"massless_leg_only", effect.info.massless_leg_only},
           {"dissipative", effect.info.dissipative},
           {"parameters", parameters}};
+}
+
+std::vector<const Effect*> ChosenEffects(const std::string& name, const std::string& law) {
+  CheckLaw(law);
+  if (!name.empty()) return {&ResolveEffect(name, "effects")};
+  std::vector<const Effect*> chosen;
+  for (const Effect* effect : AllEffects()) {
+    const std::vector<Law> laws = LawsWith(*effect);
+    const bool applies =
+        std::any_of(laws.begin(), laws.end(), [&](Law of) { return NameOf(of) == law; });
+    if (law.empty() || applies) chosen.push_back(effect);
+  }
+  return chosen;
+}
+
+Json EffectsRecord(const std::vector<const Effect*>& effects, const std::string& law) {
+  RecordHeader header;
+  header.command = "effects";
+  if (!law.empty()) header.law = law;
+  Json record = NewRecord(header);
+  record["effects"] = Json::array();
+  for (const Effect* effect : effects) {
+    record["effects"].push_back(EffectRecord(*effect));
+    if (effect->formula) record["effects"].back().update(FormulaRecord(*effect));
+  }
+  return record;
 }
 
 }  // namespace hoplab

@@ -2,6 +2,7 @@
 
 #include "app/records/csv.h"
 #include "app/records/solver_record.h"
+#include "base/text.h"
 
 namespace hoplab {
 namespace {
@@ -154,6 +155,11 @@ std::string ComparisonTable(const Reproduction& reproduction) {
 }
 
 }  // namespace
+
+std::string FailureOf(const Reproduction& reproduction) {
+  if (reproduction.left_out.empty()) return "";
+  return "interrupted; left out " + Join(reproduction.left_out);
+}
 
 Json NewReproductionRecord(const ReproduceSettings& settings, const Study& study,
                            const std::vector<std::string>& items, const std::string& constants) {

@@ -8,6 +8,9 @@
 
 namespace hoplab {
 
+/// Why there is only a part of what was asked for; empty if there is all of it.
+std::string FailureOf(const Reproduction& reproduction);
+
 /// run.json of a reproduction before its keys; `constants`: dotted.key=text, one a line.
 Json NewReproductionRecord(const ReproduceSettings& settings, const Study& study,
                            const std::vector<std::string>& items, const std::string& constants);

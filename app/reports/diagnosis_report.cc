@@ -7,6 +7,7 @@
 
 #include "app/records/diagnosis_words.h"
 #include "app/reports/cause_report.h"
+#include "app/reports/discovery_report.h"
 #include "app/reports/exclusion_report.h"
 #include "app/reports/force_report.h"
 #include "app/terminal/quantity.h"
@@ -240,6 +241,12 @@ std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, boo
   if (d.experiment) text += Labelled("next trial", ExperimentLine(d), colours);
   for (const std::string& note : d.notes) text += Labelled("note", note, colours);
   return text;
+}
+
+std::string FormulaReport(const DiagnosisRun& run, const std::optional<Discovery>& discovery,
+                          bool colours) {
+  if (discovery) return "\n" + DiscoveryReport(*discovery, colours) + "\n";
+  return run.Failure().empty() ? "\n  no formula is needed beside what was named\n" : "";
 }
 
 }  // namespace hoplab

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/records/diagnosis_record.h"
+#include "fitting/discovery/discover.h"
 
 namespace hoplab {
 
@@ -11,5 +13,8 @@ namespace hoplab {
 /// next. `formula_sought`: a formula was looked for beside it, so nothing points to that.
 std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, bool formula_sought,
                             bool colours);
+/// What was found where a formula was looked for beside it; absent: none was needed.
+std::string FormulaReport(const DiagnosisRun& run, const std::optional<Discovery>& discovery,
+                          bool colours);
 
 }  // namespace hoplab

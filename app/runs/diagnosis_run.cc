@@ -7,6 +7,10 @@ std::string DiagnosisRun::Failure() const {
   return diagnosis.refusal;
 }
 
+bool DiagnosisRun::WantsFormula() const {
+  return Failure().empty() && (diagnosis.CausesMayStandIn() || diagnosis.left.material);
+}
+
 DiagnosisRun RunDiagnosis(const Dataset& dataset, const DiagnosisOptions& options) {
   DiagnosisRun run;
   run.diagnosis = Diagnose(dataset, options);

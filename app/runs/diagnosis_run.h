@@ -14,6 +14,8 @@ struct DiagnosisRun {
 
   /// Why there is no verdict; empty if there is one.
   std::string Failure() const;
+  /// Something is left that no listed cause explains, or that is likely: a formula may.
+  bool WantsFormula() const;
 };
 
 /// Diagnoses a dataset and balances its energy. Throws InputError for options that do not suit it.

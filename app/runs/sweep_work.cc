@@ -22,12 +22,6 @@ std::string LostText(const MpiJob::Served& served) {
   return text;
 }
 
-}  // namespace
-
-std::string DoneText(const SweepJournal& journal, const SweepPlan& plan) {
-  return std::to_string(journal.done()) + " of " + std::to_string(plan.size()) + " rows";
-}
-
 void ComputeOnThreads(const SweepPlan& plan, SweepJournal& journal, int jobs,
                       const std::atomic<bool>* stop, Progress& progress) {
   const std::vector<int> missing = journal.Missing();
@@ -69,6 +63,28 @@ void ComputeOnRanks(const SweepPlan& plan, SweepJournal& journal, MpiJob& job,
     console.err << "hoplab sweep: " << error.what() << std::endl;
     job.Abort(static_cast<int>(ExitCode::kBadInput));
   }
+}
+
+}  // namespace
+
+std::string DoneText(const SweepJournal& journal, const SweepPlan& plan) {
+  return std::to_string(journal.done()) + " of " + std::to_string(plan.size()) + " rows";
+}
+
+void ComputeRows(const SweepPlan& plan, SweepJournal& journal, const SweepPlace& place,
+                 Progress& progress, Console& console) {
+  progress.Stage("sweeping" + (journal.done() > 0 ? ", " + DoneText(journal, plan) + " stand in " +
+                                                        journal.file().string()
+                                                  : std::string()),
+                 journal.done());
+  if (place.job)
+    ComputeOnRanks(plan, journal, *place.job, place.stop, progress, console);
+  else
+    ComputeOnThreads(plan, journal, place.jobs, place.stop, progress);
+}
+
+void FollowSweep(const SweepPlan& plan, MpiJob& job) {
+  job.Work([&](int row) { return LineOfRow(row, plan.Compute(row)); });
 }
 
 }  // namespace hoplab

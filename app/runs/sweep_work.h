@@ -12,13 +12,18 @@ namespace hoplab {
 /// "12 of 40 rows".
 std::string DoneText(const SweepJournal& journal, const SweepPlan& plan);
 
-/// Computes the rows that the journal lacks and writes them down as they come; `stop` ends it
-/// early.
-void ComputeOnThreads(const SweepPlan& plan, SweepJournal& journal, int jobs,
-                      const std::atomic<bool>* stop, Progress& progress);
-/// The same on the ranks of a job, of which this is rank 0. Ends them all, with what is missing on
-/// `console`, when it is stopped or a rank is lost.
-void ComputeOnRanks(const SweepPlan& plan, SweepJournal& journal, MpiJob& job,
-                    const std::atomic<bool>* stop, Progress& progress, Console& console);
+/// Where the rows are computed.
+struct SweepPlace {
+  int jobs = 1;                             // threads
+  MpiJob* job = nullptr;                    // of which this is rank 0; null: on threads
+  const std::atomic<bool>* stop = nullptr;  // ends it early
+};
+
+/// Computes the rows that the journal lacks and writes them down as they come. Where a job is
+/// stopped or loses a rank, it ends all ranks, with what is missing on `console`.
+void ComputeRows(const SweepPlan& plan, SweepJournal& journal, const SweepPlace& place,
+                 Progress& progress, Console& console);
+/// A rank other than 0 computes what it is given.
+void FollowSweep(const SweepPlan& plan, MpiJob& job);
 
 }  // namespace hoplab

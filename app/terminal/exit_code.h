@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace hoplab {
 
 /// What the process tells its caller, as in sysexits.
@@ -11,5 +13,11 @@ enum class ExitCode {
   kBug = 70,
   kInterrupted = 130
 };
+
+/// Of a run that could be interrupted; `failure`: why it has no result, empty if it has one.
+inline ExitCode ExitCodeOf(bool interrupted, const std::string& failure) {
+  if (interrupted) return ExitCode::kInterrupted;
+  return failure.empty() ? ExitCode::kDone : ExitCode::kNoResult;
+}
 
 }  // namespace hoplab

@@ -1,4 +1,4 @@
-#include "app/reports/fit_progress.h"
+#include "app/reports/run_progress.h"
 
 #include <cmath>
 
@@ -49,6 +49,16 @@ void ShowProgress(DiagnosisOptions& options, Progress& progress) {
     text += ": " + std::string(stage) + ", iteration " + std::to_string(iteration);
     if (std::isfinite(cost)) text += ", cost " + Significant(cost, 5);
     progress.Step(text);
+  };
+}
+
+void ShowProgress(ReproductionRequest& request, Progress& progress) {
+  const std::size_t items = request.items.size();
+  progress.Stage("reproducing " + std::to_string(items) + " items");
+  request.progress = [&progress, items](int done, const std::string& item) {
+    progress.Step(
+        "reproducing: " + std::to_string(done) + " of " + std::to_string(items) + ", last " + item,
+        done, static_cast<long>(items));
   };
 }
 
