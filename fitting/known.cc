@@ -1,6 +1,7 @@
 #include "fitting/known.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/input_error.h"
 #include "base/text.h"
@@ -31,6 +32,14 @@ int ParameterNamed(const Effect& effect, const KnownSpec& spec) {
                     DidYouMean(spec.parameter, ParameterNames(effect))});
 }
 
+// The power of a mass in a unit of the catalogue: 1 of "N s/m" and "kg", -1 of "m/(N s)", 0 of
+// "rad".
+int MassPower(std::string_view unit) {
+  const std::size_t place = std::min(unit.find('N'), unit.find("kg"));
+  if (place == std::string_view::npos) return 0;
+  return unit.find('/') < place ? -1 : 1;
+}
+
 // Gravity at sea level goes from 9.780 to 9.832 m/s^2, on high ground down to 9.764: within half a
 // per cent of 9.81.
 constexpr double kGravityDiffers = 0.005;
@@ -50,7 +59,8 @@ std::vector<KnownSpec> WithFactsOf(const MechanismSpec& mechanism, std::vector<K
 }
 
 KnownCauses::KnownCauses(const std::vector<KnownSpec>& specs,
-                         std::span<const Effect* const> formulas) {
+                         std::span<const Effect* const> formulas, double body_mass)
+    : body_mass_(body_mass) {
   for (const KnownSpec& spec : specs) {
     const Effect& effect = ResolveEffect(spec.effect, spec.origin.place, formulas);
     const auto count = static_cast<int>(effect.info.parameters.size());
@@ -92,6 +102,7 @@ const KnownParameter* KnownCauses::Find(const Effect& effect, int parameter) con
 
 std::optional<EffectParameter> KnownCauses::Open(const Effect& effect, int parameter) const {
   EffectParameter p = effect.info.parameters[static_cast<std::size_t>(parameter)];
+  if (effect.formula == nullptr) p.typical *= std::pow(body_mass_, MassPower(p.unit));
   const KnownParameter* known = Find(effect, parameter);
   if (known == nullptr) return p;
   if (known->at_most == 0.0) return std::nullopt;

@@ -35,9 +35,10 @@ class KnownCauses {
   KnownCauses() = default;
   /// Throws InputError (place: where it was said) for an effect or parameter that does not exist,
   /// something said twice, or a size for a whole effect that has several parameters. `formulas` are
-  /// known beside the catalogue.
+  /// known beside the catalogue. Forces, torques and masses of a size one would expect grow with
+  /// the body: `body_mass` [kg] scales what is typical of them. A formula states its own.
   explicit KnownCauses(const std::vector<KnownSpec>& specs,
-                       std::span<const Effect* const> formulas = {});
+                       std::span<const Effect* const> formulas = {}, double body_mass = 1.0);
 
   const std::vector<KnownParameter>& parameters() const { return parameters_; }
   /// The parameters of `effect` that may be off their null, with the bounds known of them put over
@@ -45,7 +46,7 @@ class KnownCauses {
   std::vector<OpenParameter> OpenParameters(const Effect& effect) const;
   /// Every parameter is known to be null.
   bool RulesOut(const Effect& effect) const { return OpenParameters(effect).empty(); }
-  /// Bounds of one parameter; absent: it is known to be null.
+  /// Bounds and typical size of one parameter; absent: it is known to be null.
   std::optional<EffectParameter> Open(const Effect& effect, int parameter) const;
   /// Throws InputError, place `place` (an option), unless `value` is one that parameter may have.
   void CheckValue(const Effect& effect, int parameter, double value,
@@ -60,6 +61,7 @@ class KnownCauses {
   void Add(const Effect& effect, int parameter, const KnownSpec& spec);
 
   std::vector<KnownParameter> parameters_;
+  double body_mass_ = 1.0;  // [kg]
 };
 
 }  // namespace hoplab

@@ -27,8 +27,8 @@ class Builder {
     problem_.integrator = options_.integrator;
     problem_.clocks = ClocksOf(dataset_);
     AddFormulas();
-    problem_.known =
-        KnownCauses(WithFactsOf(dataset_.mechanism, dataset_.known), problem_.formulas);
+    problem_.known = KnownCauses(WithFactsOf(dataset_.mechanism, dataset_.known), problem_.formulas,
+                                 dataset_.mechanism.body_mass_kg);
     if (const std::string known = problem_.known.Text(); !known.empty())
       problem_.notes.push_back("known of the set-up: " + known);
     AddTrials();

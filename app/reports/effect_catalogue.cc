@@ -17,7 +17,9 @@ constexpr const char* kHead =
     "value "
     "an effect\n"
     "changes nothing, exactly. `hoplab explain EFFECT` says what to do about one, `--with EFFECT` "
-    "fits it.\n";
+    "fits it.\n"
+    "A typical size is that on a body of 1 kg: forces, torques and masses grow with the body, "
+    "compliances fall with it.\n";
 
 std::string ParameterRows(const EffectInfo& info) {
   std::string text =

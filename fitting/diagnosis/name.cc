@@ -26,6 +26,12 @@ constexpr double kWorthATry = 4.0;
 // the noise's square). What explains less than both is a detail of the model, which the discrepancy
 // stands for.
 constexpr double kLeastShare = 1e-3, kLeastPerSample = 0.01;
+// A set that leaves this share of the misfit beyond noise may be one of stand-ins; so many causes
+// then join it at once.
+constexpr double kMuch = 5e-3;
+constexpr int kJoin = 3;
+// Rounds in which a set is put in order; each but the last changes it.
+constexpr int kRounds = 8;
 // Weights below this share of the best are not told.
 constexpr double kLeastWeight = 1e-4;
 
@@ -53,14 +59,11 @@ class Search {
     current = refits_.Better(current, Pairs(), kPairsSettled);
     if (!current.empty())
       current = refits_.Better(current, BeyondThresholds(single), kPairsSettled);
-    while (!current.empty() && static_cast<int>(current.size()) < options_.max_effects &&
-           !Stopped()) {
-      const std::vector<CandidateSet> further = Forward(current);
-      CandidateSet grown = refits_.Better(current, further, kForwardWidth, further);
-      if (grown == current) break;
-      current = Tidy(grown);
+    current = Grown(current);
+    if (LeavesMuch(current)) {
+      const CandidateSet exchanged = Exchanged(current);
+      if (exchanged != current) current = Grown(exchanged);
     }
-    if (!current.empty()) current = Tidy(current);
     naming_.best = refits_.At(current);
     naming_.best_set = current;
     for (const CandidateSet& less : Eliminations(current))
@@ -81,6 +84,17 @@ class Search {
 
  private:
   bool Stopped() const { return options_.stop && *options_.stop; }
+
+  // Cause by cause, as long as one more pays.
+  CandidateSet Grown(CandidateSet set) {
+    while (!set.empty() && static_cast<int>(set.size()) < options_.max_effects && !Stopped()) {
+      const std::vector<CandidateSet> further = Forward(set);
+      const CandidateSet grown = refits_.Better(set, further, kForwardWidth, further);
+      if (grown == set) break;
+      set = Tidy(grown);
+    }
+    return set.empty() ? set : Tidy(set);
+  }
 
   bool SameEffect(int i, int j) const {
     return naming_.candidates[i].candidate.effect == naming_.candidates[j].candidate.effect;
@@ -195,8 +209,43 @@ class Search {
   }
   // Nats under white noise.
   double LeastGain() const {
-    const double misfit = refits_.White({}).cost - 0.5 * null_at_.degrees_of_freedom();
-    return std::min(kLeastShare * std::max(misfit, 0.0), kLeastPerSample * null_at_.samples);
+    return std::min(kLeastShare * Misfit(), kLeastPerSample * null_at_.samples);
+  }
+  // Beyond noise, of the null fit.
+  double Misfit() const {
+    return std::max(refits_.White({}).cost - 0.5 * null_at_.degrees_of_freedom(), 0.0);
+  }
+
+  // More than a detail is left beside the set, and no noise.
+  bool LeavesMuch(const CandidateSet& set) const {
+    if (set.size() < 2 || Stopped()) return false;
+    const double left = refits_.White(set).cost - 0.5 * null_at_.degrees_of_freedom();
+    return refits_.At(set).evidence.discrepancy_probability() > 0.5 && left > kMuch * Misfit();
+  }
+
+  // One cause at a time does not lead from stand-ins to the causes they stand in for. So what
+  // promises most beside the set joins it, one on top of another, and what is not needed leaves.
+  CandidateSet Exchanged(const CandidateSet& set) {
+    CandidateSet all = set;
+    for (int joined = 0; joined < kJoin && !Stopped(); ++joined) {
+      const auto ranked = Ranked(all, refits_.White(all));
+      if (ranked.empty() || ranked.front().first < kWorthATry) break;
+      const CandidateSet grown = With(all, ranked.front().second);
+      refits_.Try({grown});
+      if (!refits_.Usable(grown)) break;
+      all = grown;
+    }
+    if (all == set) return set;
+    refits_.SettleAll({all});
+    while (refits_.Settled(all) && all.size() > 1 && !Stopped()) {
+      CandidateSet best = all;
+      for (const CandidateSet& less : refits_.SettleParts(all))
+        if (refits_.Settled(less) && refits_.Worth(less) > refits_.Worth(best)) best = less;
+      if (best == all) break;
+      all = best;
+    }
+    const bool is_better = refits_.Settled(all) && refits_.Worth(all) > refits_.Worth(set);
+    return is_better && static_cast<int>(all.size()) <= options_.max_effects ? all : set;
   }
 
   std::vector<CandidateSet> Pairs() const {
@@ -206,7 +255,7 @@ class Search {
 
   // Backward elimination and swaps, until neither helps.
   CandidateSet Tidy(CandidateSet set) {
-    for (int round = 0; round < 3 && !Stopped(); ++round) {
+    for (int round = 0; round < kRounds && !Stopped(); ++round) {
       CandidateSet best = set;
       for (const CandidateSet& less : refits_.SettleParts(set)) {
         if (refits_.Settled(less) && refits_.Worth(less) > refits_.Worth(best)) best = less;

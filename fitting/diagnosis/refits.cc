@@ -12,6 +12,8 @@ namespace {
 
 // Iterations of a trial refit; one that is settled has as many more as it needs.
 constexpr int kTryIterations = 12;
+// What a cause loses whose size ends at a physical bound: one true cause in 20000 does [nats].
+constexpr double kAtBound = 10.0;
 // A linear forecast worth a second try where its refit falls short [nats].
 constexpr double kForecast = 8.0;
 
@@ -35,6 +37,14 @@ double Refits::LogPrior(const CandidateSet& set) const {
       sum -= options_.prices[at];
   }
   return sum;
+}
+
+double Refits::Worth(const CandidateSet& set) const {
+  const FittedModel& model = At(set);
+  double worth = model.evidence.log_z() + LogPrior(set);
+  for (std::size_t i = 0; i < set.size(); ++i)
+    if (model.AtPhysicalBound(static_cast<int>(i))) worth -= kAtBound;
+  return worth;
 }
 
 CandidateSet Refits::Better(CandidateSet current, const std::vector<CandidateSet>& sets, int width,

@@ -38,7 +38,9 @@ class Refits {
     return Has(set) && At(set).ok() && At(set).settled;
   }
   /// Logarithm of the posterior weight of a settled model [nats], of all models' common constant.
-  double Worth(const CandidateSet& set) const { return At(set).evidence.log_z() + LogPrior(set); }
+  /// Where the data want more of a cause than it can be, its size ends at a physical bound; a true
+  /// cause hardly ever does, and its set counts for less.
+  double Worth(const CandidateSet& set) const;
   /// Log-likelihood a model gains over the null fit, both under white noise [nats].
   double Gain(const CandidateSet& set) const { return plain_.cost - White(set).cost; }
 

@@ -20,7 +20,7 @@ struct EffectParameter {
   std::string_view name;
   std::string_view unit;
   double null, lower, upper;
-  double typical;  // a size one would expect when the effect is present
+  double typical;  // a size one would expect when it is present, on a body of 1 kg
   /// It shapes the effect and has no null: it stays at `null`, its given value, unless freed by
   /// name.
   bool is_shape = false;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <thread>
 
 #include "base/random.h"
@@ -113,10 +114,13 @@ std::pair<double, double> IntervalOf(const ParameterUncertainty& of) {
 void DiagnoseOne(int seed, Count& count) {
   const Drawn drawn = Draw(seed);
   const TempFolder temp;
-  RecordRig(drawn.rig, temp.path() / "rig");
+  const char* kept = std::getenv("HOPLAB_RIG_FOLDER");
+  const std::filesystem::path folder =
+      (kept != nullptr ? std::filesystem::path(kept) : temp.path()) / fmt::format("rig-{}", seed);
+  RecordRig(drawn.rig, folder);
   DiagnosisOptions options;
   options.fit.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const Diagnosis d = Diagnose(ReadDataset(temp.path() / "rig"), options);
+  const Diagnosis d = Diagnose(ReadDataset(folder), options);
   ASSERT_TRUE(d.extension) << seed;
   std::string told;
   std::vector<std::string> names;
@@ -155,7 +159,7 @@ void DiagnoseOne(int seed, Count& count) {
   std::fflush(stdout);
 }
 
-// HOPLAB_RIG_SEED and HOPLAB_RIGS: others than the first 18.
+// HOPLAB_RIG_SEED and HOPLAB_RIGS: others than the first 18. HOPLAB_RIG_FOLDER keeps their traces.
 TEST(ForeignRigs, CausesOfRigsDrawnAtRandom) {
   constexpr int kRigs = 18;
   const char* from = std::getenv("HOPLAB_RIG_SEED");

@@ -62,6 +62,24 @@ TEST(KnownCauses, GravityOfAFreeBallIsThatOfTheEarth) {
   EXPECT_EQ(open_in(MechanismSpec(), {}), 1.0);
 }
 
+// A draught of 0.1 N is usual on a body of 1 kg; a ball of 3 g would fly up in it.
+TEST(KnownCauses, TypicalForcesAreThoseOfABodyOfItsMass) {
+  const KnownCauses light({}, {}, 0.003);
+  const auto share = [&](const char* effect) {
+    return light.Open(*FindEffect(effect), 0)->typical /
+           FindEffect(effect)->info.parameters[0].typical;
+  };
+  EXPECT_DOUBLE_EQ(share("constant_force"), 0.003);
+  EXPECT_DOUBLE_EQ(share("air_drag"), 0.003);
+  EXPECT_DOUBLE_EQ(share("leg_mass"), 0.003);
+  EXPECT_DOUBLE_EQ(share("ground_compliance"), 1.0 / 0.003);
+  EXPECT_DOUBLE_EQ(share("foot_slip"), 1.0 / 0.003);
+  EXPECT_EQ(share("camera_roll"), 1.0);
+  EXPECT_EQ(share("leg_material_damping"), 1.0);
+  const KnownCauses bounded({{"constant_force", "", 1e-4}}, {}, 0.003);
+  EXPECT_EQ(bounded.Open(*FindEffect("constant_force"), 0)->typical, 1e-4);
+}
+
 TEST(KnownCauses, AnEffectWithEveryParameterRuledOutIsRuledOut) {
   const FitProblem p = ProblemKnowing({{"boom_inertia", "mu_x"}, {"boom_inertia", "mu_y"}});
   EXPECT_EQ(Find(CandidatesOf(p, {}), "boom_inertia"), nullptr);

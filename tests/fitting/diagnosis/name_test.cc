@@ -128,6 +128,21 @@ TEST(NameCauses, TwinsLandInOneGroup) {
   EXPECT_NEAR(n.rivals[0][0].cost, n.rivals[0][1].cost, 1e-6);
 }
 
+// The same with a size that is known to be smaller than the data want: it does nearly as well, and
+// would be in the group.
+TEST(NameCauses, ACauseThatEndsAtItsBoundGivesWayToOneThatDoesNot) {
+  const testing::Twin twin("touchdown_angle_bias", "twin_of_bias");
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}, .sigma_m = 0.003});
+  const auto group_within = [&](double at_most) {
+    Candidate bounded = CandidateOf("touchdown_angle_bias");
+    bounded = {bounded.effect, "", KnownCauses({{"touchdown_angle_bias", "", at_most}})};
+    return GroupNames(NameIn(fit, {bounded, twin.candidate()}));
+  };
+  const double free = fit.RefittedWith(CandidateOf("touchdown_angle_bias")).ValuesOf(0)[0];
+  EXPECT_EQ(group_within(1.001 * free).size(), 2u);
+  EXPECT_EQ(group_within(0.999 * free), std::vector<std::string>{"twin_of_bias"});
+}
+
 TEST(NameCauses, AnEffectInOneTrialIsNamedAsSuch) {
   Dataset d = testing::DatasetOf({});
   d.trials[1] =
