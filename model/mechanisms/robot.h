@@ -46,6 +46,7 @@ class Robot final : public HybridSystem<T> {
   std::optional<T> PassKnot(Mode mode, double t, T* z) override;
   std::optional<BallisticFlight<T>> FreeFlight() const override;
   double FirstStep(Mode mode, const T* z) const override;
+  double LongestStep(Mode mode, const T& t, const T* z) const override;
   Observation<T> Observe(Mode mode, const T& t, const T* z) const override;
   T Energy(Mode mode, const T* z) const override;
 

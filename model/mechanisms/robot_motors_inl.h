@@ -158,6 +158,22 @@ void Robot<T>::MoveAlong(Mode mode, double t, const T& by, const T* z, T* to) co
   for (int i = 0; i < size(); ++i) to[i] = z[i] + Value(rate[i]) * by;
 }
 
+// In the air motors that rest on their reference do not steer the step, and what is to be
+// differentiated may still excite them: no further than twice the time they take.
+template <class T>
+double Robot<T>::LongestStep(Mode mode, const T&, const T*) const {
+  if (mode != Mode::kFlight || robot_.control == MotorControl::kLocked)
+    return std::numeric_limits<double>::infinity();
+  double rate = lags_ ? 1.0 / Value(robot_.motor_lag) : 0.0;
+  for (int i = 0; i < legs_; ++i) {
+    if (leg_[i].is_told) continue;
+    const double turned = Value(robot_.rotor_inertia) - (leg_[i].geared() ? Value(hub_[i]) : 0.0);
+    rate = std::max(
+        {rate, Value(robot_.motor_kd) / turned, std::sqrt(Value(robot_.motor_kp) / turned)});
+  }
+  return 2.0 / rate;
+}
+
 // ---- gears (M96) -----------------------------------------------------------------------------
 
 // Which of its teeth are pressed at a twist.

@@ -218,6 +218,19 @@ TEST(Backlash, NeverCreatesEnergy) {
   }
 }
 
+// Motors that rest in the air do not steer the step: what a mass of the legs would do to them is
+// followed all the same. Against differences, from null on.
+TEST(RobotInTheAir, RestingMotorsAreDifferentiatedExactly) {
+  Parameters<double> p = HeldParameters();
+  std::array effects = {EffectSetting::Null(*FindEffect("swinging_leg_mass"))};
+  for (const double lag : {0.0, 3e-4}) {
+    p.robot->motor_lag = lag;
+    SimulationRequest q = GearedDrop(p, 0.1);
+    q.effects = effects;
+    EXPECT_GE(ExpectRobotExact(q, {}, {D::EffectParameter(0, 0)}), 2);
+  }
+}
+
 // ---- derivatives -----------------------------------------------------------------------------
 
 struct Geared {
