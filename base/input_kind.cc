@@ -10,6 +10,14 @@ const InputInfo& InfoOf(InputKind kind) {
       {"leg_angle_rad", "leg_angle", Within(1e3, "rad")},
       {"body_force_x_N", "body_force_x", Within(1e6, "N")},
       {"body_force_y_N", "body_force_y", Within(1e6, "N")},
+      {"hip_torque_1_N_m", "hip_torque_1", Within(1e6, "N m")},
+      {"hip_torque_2_N_m", "hip_torque_2", Within(1e6, "N m")},
+      {"hip_torque_3_N_m", "hip_torque_3", Within(1e6, "N m")},
+      {"hip_torque_4_N_m", "hip_torque_4", Within(1e6, "N m")},
+      {"leg_angle_1_rad", "leg_angle_1", Within(1e3, "rad")},
+      {"leg_angle_2_rad", "leg_angle_2", Within(1e3, "rad")},
+      {"leg_angle_3_rad", "leg_angle_3", Within(1e3, "rad")},
+      {"leg_angle_4_rad", "leg_angle_4", Within(1e3, "rad")},
   }};
   return kRows[static_cast<std::size_t>(kind)];
 }

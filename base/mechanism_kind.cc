@@ -15,7 +15,7 @@ const char* NameOf(LiftoffRule rule) {
 }
 
 const char* NameOf(MotorControl control) {
-  static constexpr const char* kNames[] = {"locked", "held", "clock"};
+  static constexpr const char* kNames[] = {"locked", "held", "clock", "recorded"};
   return kNames[static_cast<std::size_t>(control)];
 }
 

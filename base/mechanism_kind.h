@@ -17,9 +17,10 @@ enum class LiftoffRule { kZeroForce, kRestLength };
 /// "zero_force", "rest_length".
 const char* NameOf(LiftoffRule rule);
 
-/// What the motors of a robot follow: an angle each, locked or held by its controller, or a clock.
-enum class MotorControl { kLocked, kHeld, kClock };
-/// "locked", "held", "clock".
+/// What the motors of a robot follow: an angle each, locked or held by its controller, a clock, or
+/// what was recorded of each: its torque or its reference.
+enum class MotorControl { kLocked, kHeld, kClock, kRecorded };
+/// "locked", "held", "clock", "recorded".
 const char* NameOf(MotorControl control);
 
 }  // namespace hoplab

@@ -102,8 +102,9 @@ struct MechanismSpec {
 /// What the motors of a robot follow.
 struct MotorsSpec {
   MotorControl kind = MotorControl::kHeld;
-  std::vector<double> angles_rad;  // locked, held: one a leg
-  double period_s = 0;             // clock
+  std::vector<double> angles_rad;       // one a leg; of recorded motors where they begin
+  std::vector<double> rates_rad_per_s;  // recorded: how fast; empty: at rest
+  double period_s = 0;                  // clock
   double duty = 0;
   double sweep_rad = 0;
   double offset_rad = 0;

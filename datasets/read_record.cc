@@ -225,9 +225,14 @@ void CheckDriven(const YamlCursor& item, const Trial& trial) {
                         const std::string& remedy) {
     throw InputError({input.origin.place, path + "inputs." + InfoOf(input.id).key, rule, remedy});
   };
+  if (trial.mechanism.type == MechanismKind::kRobot)
+    return CheckRobotInputs(item.place(), path, trial.mechanism, trial.controller, trial.inputs);
   for (const InputSpec& input : trial.inputs) {
-    if (trial.mechanism.type == MechanismKind::kRobot)
-      fail(input, "a robot's motors follow its controller", "Remove it.");
+    if (MotorOf(input.id) >= 0)
+      fail(input,
+           std::string("drives a motor of a robot, and this mechanism is a ") +
+               NameOf(trial.mechanism.type),
+           std::string("Write ") + InfoOf(FamilyOf(input.id)).key + ".");
     const bool of_leg = input.id == InputKind::kHipTorque || input.id == InputKind::kLegAngle;
     if (of_leg && trial.mechanism.type == MechanismKind::kBall)
       fail(input, "a ball has no leg to drive", "Remove it.");

@@ -1,5 +1,6 @@
 #include "datasets/read_robot.h"
 
+#include "base/input_error.h"
 #include "base/range.h"
 #include "datasets/read_spec.h"
 
@@ -101,8 +102,20 @@ RobotSpec ReadRobot(const YamlCursor& mechanism) {
 
 MotorsSpec ReadMotors(const YamlCursor& cursor) {
   MotorsSpec motors;
-  motors.kind = static_cast<MotorControl>(
-      cursor.Required("type", "locked, held or clock").Choice({"locked", "held", "clock"}));
+  motors.kind = static_cast<MotorControl>(cursor.Required("type", "locked, held, clock or recorded")
+                                              .Choice({"locked", "held", "clock", "recorded"}));
+  if (motors.kind == MotorControl::kRecorded) {
+    cursor.AllowOnly({"type", "angles_rad", "rates_rad_per_s"});
+    if (const auto angles = cursor.Optional("angles_rad"))
+      motors.angles_rad = ReadNumbers(*angles, kAngle);
+    if (const auto rates = cursor.Optional("rates_rad_per_s")) {
+      motors.rates_rad_per_s = ReadNumbers(*rates, Within(1e4, "rad/s"));
+      if (motors.rates_rad_per_s.size() != motors.angles_rad.size())
+        rates->Fail("must have one rate for each angle of angles_rad",
+                    "Give angles_rad and rates_rad_per_s, one of each a leg, or neither.");
+    }
+    return motors;
+  }
   if (motors.kind != MotorControl::kClock) {
     cursor.AllowOnly({"type", "angles_rad"});
     motors.angles_rad =
@@ -134,13 +147,61 @@ void CheckMotors(const YamlCursor& owner, const MechanismSpec& mechanism,
     owner.Fail("only a robot pitches", "Remove pitch_rad and pitch_rate_rad_per_s of initial.");
   if (!robot) return;
   const MotorsSpec& m = *controller->motors;
+  const bool may_be_absent = m.kind == MotorControl::kRecorded && m.angles_rad.empty();
   const std::size_t given = m.kind == MotorControl::kClock ? m.phases.size() : m.angles_rad.size();
-  if (given != mechanism.robot.legs.size())
+  if (given != mechanism.robot.legs.size() && !may_be_absent)
     owner.Fail("the controller has " + std::to_string(given) + " angles or phases, and the robot " +
                    std::to_string(mechanism.robot.legs.size()) + " legs",
                "Give one for each leg, hindmost first.");
   if (initial && initial->mode != StartMode::kFlight)
     owner.Fail("a robot begins in flight", "Remove mode and contact_x_m of initial.");
+}
+
+void CheckRobotInputs(const std::string& place, const std::string& path,
+                      const MechanismSpec& mechanism,
+                      const std::optional<ControllerSpec>& controller,
+                      const std::vector<InputSpec>& inputs) {
+  const int legs = static_cast<int>(mechanism.robot.legs.size());
+  const MotorsSpec& motors = *controller->motors;
+  const bool recorded = motors.kind == MotorControl::kRecorded;
+  const std::string key = path + "inputs.";
+  for (const InputSpec& input : inputs) {
+    const auto fail = [&](const std::string& rule, const std::string& remedy) {
+      throw InputError({input.origin.place, key + InfoOf(input.id).key, rule, remedy});
+    };
+    const int motor = MotorOf(input.id);
+    if (input.id == InputKind::kHipTorque)
+      fail("a robot has a motor at each hip", "Say which: hip_torque_1_N_m, the hindmost.");
+    if (input.id == InputKind::kLegAngle)
+      fail("a robot has a motor at each hip", "Say which: leg_angle_1_rad, the hindmost.");
+    if (motor >= legs)
+      fail("the robot has " + std::to_string(legs) + (legs == 1 ? " leg" : " legs"), "Remove it.");
+    if (motor >= 0 && !recorded)
+      fail(std::string("the motors follow a controller of type ") + NameOf(motors.kind) +
+               ", and a log drives this one too",
+           "Write controller: {type: recorded}, or remove the input.");
+  }
+  if (!recorded) return;
+  for (int motor = 0; motor < legs; ++motor) {
+    const InputInfo& torque = InfoOf(OfMotor(InputKind::kHipTorque1, motor));
+    const InputInfo& angle = InfoOf(OfMotor(InputKind::kLegAngle1, motor));
+    const bool told = FindInput(inputs, OfMotor(InputKind::kHipTorque1, motor)) != nullptr;
+    const bool follows = FindInput(inputs, OfMotor(InputKind::kLegAngle1, motor)) != nullptr;
+    const std::string both = std::string(torque.key) + " and " + angle.key;
+    if (told && follows)
+      throw InputError({place, key + both, "both drive one motor", "Remove one of the two."});
+    if (!told && !follows)
+      throw InputError({place, key + torque.key,
+                        "is absent, and so is " + std::string(angle.key) +
+                            ": nothing drives motor " + std::to_string(motor + 1),
+                        "Add one of the two to `inputs`: the torque the motor was told, or the "
+                        "angle its controller followed."});
+    if (told && motors.angles_rad.empty())
+      throw InputError({place, path + "controller.angles_rad",
+                        std::string("is absent, and a torque drives motor ") +
+                            std::to_string(motor + 1) + ": where does it begin?",
+                        "Add angles_rad, the motors' angles at the first row, one a leg."});
+  }
 }
 
 }  // namespace hoplab

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/input_spec.h"
 #include "datasets/mechanism_spec.h"
 #include "datasets/yaml_cursor.h"
 
@@ -24,5 +25,13 @@ MotorsSpec ReadMotors(const YamlCursor& cursor);
 void CheckMotors(const YamlCursor& owner, const MechanismSpec& mechanism,
                  const std::optional<ControllerSpec>& controller,
                  const std::optional<StateSpec>& initial);
+
+/// Throws InputError where what drives a robot does not go with its controller: an input of a motor
+/// it does not have or that follows no log, a motor of `type: recorded` that nothing or two things
+/// drive, one that a torque drives and that begins nowhere. `path` leads the keys in messages.
+void CheckRobotInputs(const std::string& place, const std::string& path,
+                      const MechanismSpec& mechanism,
+                      const std::optional<ControllerSpec>& controller,
+                      const std::vector<InputSpec>& inputs);
 
 }  // namespace hoplab

@@ -80,6 +80,13 @@ void AddRobot(const MechanismSpec& m, YamlFields* fields) {
 
 YamlFields MotorsFields(const MotorsSpec& motors) {
   YamlFields fields = {{"", "type", NameOf(motors.kind)}};
+  if (motors.kind == MotorControl::kRecorded) {
+    if (motors.angles_rad.empty()) return fields;
+    fields.push_back({"", "angles_rad", ListText(motors.angles_rad)});
+    if (!motors.rates_rad_per_s.empty())
+      fields.push_back({"", "rates_rad_per_s", ListText(motors.rates_rad_per_s)});
+    return fields;
+  }
   if (motors.kind != MotorControl::kClock) {
     fields.push_back({"", "angles_rad", ListText(motors.angles_rad)});
     return fields;

@@ -41,6 +41,8 @@ RobotParameters<double> RobotOfSpec(const RobotSpec& spec,
   const MotorsSpec& motors = *controller->motors;
   p.control = motors.kind;
   std::copy(motors.angles_rad.begin(), motors.angles_rad.end(), p.angle.begin());
+  std::copy(motors.rates_rad_per_s.begin(), motors.rates_rad_per_s.end(), p.rate.begin());
+  p.starts_at_angles = !motors.angles_rad.empty();
   std::copy(motors.phases.begin(), motors.phases.end(), p.phase.begin());
   if (motors.kind == MotorControl::kClock) {
     p.period = motors.period_s;

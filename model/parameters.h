@@ -90,9 +90,9 @@ struct Parameters {
   T torque_lag{0.0};                  // time constant of the hip torque [s]
   T rest_length_step{0.0};            // growth of l0 at greatest compression [m]
   bool has_rest_length_step = false;  // greatest compression is an event
-  // Added to those of the run's inputs, by InputKind: delay [s], scale [-].
-  std::array<T, kInputKinds> input_delay{T(0.0), T(0.0), T(0.0), T(0.0)};
-  std::array<T, kInputKinds> input_scale{T(0.0), T(0.0), T(0.0), T(0.0)};
+  // Added to those of the run's inputs, by their family (FamilyOf): delay [s], scale [-].
+  std::array<T, kInputFamilies> input_delay{T(0.0), T(0.0), T(0.0), T(0.0)};
+  std::array<T, kInputFamilies> input_scale{T(0.0), T(0.0), T(0.0), T(0.0)};
   LawTerms<T> law_terms;
   MaybeRobot<T> robot;  // of a robot alone
   // Settings without derivatives.

@@ -41,7 +41,7 @@ Parameters<To> ConvertParameters(const Parameters<From>& from) {
   to.law_terms.stiffness_drift = To(Value(terms.stiffness_drift));
   to.law_terms.ground_compliance = To(Value(terms.ground_compliance));
   to.law_terms.foot_slip = To(Value(terms.foot_slip));
-  for (int k = 0; k < kInputKinds; ++k) {
+  for (int k = 0; k < kInputFamilies; ++k) {
     to.input_delay[k] = To(Value(from.input_delay[k]));
     to.input_scale[k] = To(Value(from.input_scale[k]));
   }

@@ -32,11 +32,18 @@ struct RobotParameters {
   std::array<T, kMaxLegs> E{T(1.0), T(1.0), T(1.0), T(1.0)};      // [Pa]
   std::array<T, kMaxLegs> hip_x{T(0.0), T(0.0), T(0.0), T(0.0)};  // in the body frame [m]
   std::array<T, kMaxLegs> hip_y{T(0.0), T(0.0), T(0.0), T(0.0)};
-  std::array<T, kMaxLegs> angle{T(0.0), T(0.0), T(0.0), T(0.0)};  // held or locked at [rad]
+  // Held or locked at; of recorded motors where they begin, and how fast [rad], [rad/s].
+  std::array<T, kMaxLegs> angle{T(0.0), T(0.0), T(0.0), T(0.0)};
+  std::array<T, kMaxLegs> rate{T(0.0), T(0.0), T(0.0), T(0.0)};
   // What sets one leg or motor apart from the others; effects alone change these.
   std::array<T, kMaxLegs> E_scale{T(1.0), T(1.0), T(1.0), T(1.0)};        // [-]
   std::array<T, kMaxLegs> extra_damping{T(0.0), T(0.0), T(0.0), T(0.0)};  // beside damping [s]
   std::array<T, kMaxLegs> gain_of{T(1.0), T(1.0), T(1.0), T(1.0)};        // beside motor_gain [-]
+  // Gears (M96); no play, no gear.
+  std::array<T, kMaxLegs> play{T(0.0), T(0.0), T(0.0), T(0.0)};  // from tooth to tooth [rad]
+  std::array<T, kMaxLegs> tooth_torque{T(1.0), T(1.0), T(1.0), T(1.0)};   // tau_t [N m]
+  std::array<T, kMaxLegs> tooth_damping{T(0.0), T(0.0), T(0.0), T(0.0)};  // c_t [s/rad]
+  std::array<T, kMaxLegs> hub_share{T(0.0), T(0.0), T(0.0), T(0.0)};  // s_h, of rotor_inertia [-]
   // Clock (M76).
   T period{1.0};                                                  // [s]
   T duty{0.5};                                                    // [-]
@@ -46,6 +53,7 @@ struct RobotParameters {
   // Settings without derivatives.
   bool own_moduli = false;  // each leg has its E; else all have that of Parameters
   MotorControl control = MotorControl::kHeld;
+  bool starts_at_angles = false;  // recorded motors, at `angle`; else on what they follow
   double torque_limit = std::numeric_limits<double>::infinity();  // of a motor [N m]
   double pitch_limit = 1.4;                                       // [rad]
 
@@ -57,7 +65,8 @@ struct RobotParameters {
                     &p.leg_mass, &p.period, &p.duty, &p.sweep, &p.offset})
       act(*v);
     for (auto* list :
-         {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.E_scale, &p.extra_damping, &p.gain_of, &p.phase})
+         {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.rate, &p.E_scale, &p.extra_damping, &p.gain_of,
+          &p.play, &p.tooth_torque, &p.tooth_damping, &p.hub_share, &p.phase})
       for (auto& v : *list) act(v);
   }
 };
@@ -66,7 +75,7 @@ struct RobotParameters {
 template <class To, class From>
 RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   RobotParameters<To> to;
-  std::array<double, 16 + 8 * kMaxLegs> values{};
+  std::array<double, 16 + 13 * kMaxLegs> values{};
   std::size_t n = 0;
   RobotParameters<From>::Each(from, [&](const From& v) { values[n++] = Value(v); });
   n = 0;
@@ -74,6 +83,7 @@ RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   to.legs = from.legs;
   to.own_moduli = from.own_moduli;
   to.control = from.control;
+  to.starts_at_angles = from.starts_at_angles;
   to.torque_limit = from.torque_limit;
   to.pitch_limit = from.pitch_limit;
   return to;

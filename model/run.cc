@@ -60,11 +60,11 @@ struct Seeds {
     setup.effects.ChangeParameters(setup.parameters);
     for (std::size_t i = 0; i < request.inputs.size(); ++i) {
       const DrivenInput& input = request.inputs[i];
-      const auto kind = static_cast<std::size_t>(input.kind);
-      T delay = input_values[i][0] + setup.parameters.input_delay[kind];
+      const auto family = static_cast<std::size_t>(FamilyOf(input.kind));
+      T delay = input_values[i][0] + setup.parameters.input_delay[family];
       if (input.clock >= 0) delay += clock_offsets[static_cast<std::size_t>(input.clock)];
       setup.inputs.Set(input.kind,
-                       {input, delay, input_values[i][1] + setup.parameters.input_scale[kind]});
+                       {input, delay, input_values[i][1] + setup.parameters.input_scale[family]});
     }
     setup.inputs.Seek(0.0);
   }

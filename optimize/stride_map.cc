@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/check.h"
+#include "model/mechanisms/gear.h"
 
 namespace hoplab {
 namespace {
@@ -25,6 +26,25 @@ double SlopeOf(const Hopper& hopper) {
   for (const EffectSetting& setting : hopper.effects)
     if (setting.effect->info.name == "ground_slope") slope += setting.values[0];
   return slope;
+}
+
+// Of which motors the gear has play, and whether motors lag so long that what they give is a state.
+struct MotorStates {
+  std::vector<int> geared;  // hindmost 1
+  bool lag = false;
+};
+MotorStates MotorStatesOf(const Hopper& hopper, Eigen::Index states) {
+  MotorStates motors;
+  const int legs = RobotOf(hopper).legs;
+  Parameters<double> acting = hopper.request.parameters;
+  for (const EffectSetting& setting : hopper.effects)
+    if (const auto change = setting.effect->hooks0.change_parameters)
+      change(setting.values.data(), acting);
+  for (int leg = 0; leg < legs; ++leg)
+    if (Gear<double>::HasPlay(*acting.robot, leg)) motors.geared.push_back(leg + 1);
+  const auto gears = static_cast<Eigen::Index>(motors.geared.size());
+  motors.lag = states > kBodyStates + 3 * legs + 2 * gears;
+  return motors;
 }
 
 // Share of a period, in [0, 1).
@@ -167,7 +187,12 @@ std::vector<SectionComponent> StrideMap::Components(const SectionState& at) cons
   of_legs("leg_angle_", "_rad", 0.1);
   of_legs("leg_angle_rate_", "_rad_per_s", 10.0);
   of_legs("contact_", "_m", height);
-  if (at.size() > kBodyStates + 3 * legs) of_legs("motor_torque_", "_N_m", 1.0);
+  const MotorStates motors = MotorStatesOf(hopper(), at.size());
+  for (const int motor : motors.geared) {
+    list.push_back({"gear_twist_" + std::to_string(motor) + "_rad", 0.01});
+    list.push_back({"rotor_rate_" + std::to_string(motor) + "_rad_per_s", 10.0});
+  }
+  if (motors.lag) of_legs("motor_torque_", "_N_m", 1.0);
   return list;
 }
 

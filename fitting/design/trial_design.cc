@@ -100,14 +100,22 @@ void Set(TrialDesign& design, DesignSetting setting, double value) {
   }
 }
 
-// Pitch, and where its motors are held the angle of each.
+// Where a motor of a trial is held, or begins, where a log drives it.
+double AngleOf(const TrialProblem& trial, int leg) {
+  const RobotParameters<double>& robot = *trial.parameters.robot;
+  if (robot.control == MotorControl::kRecorded && !robot.starts_at_angles)
+    for (const DrivenColumn& column : trial.inputs)
+      if (column.kind == OfMotor(InputKind::kLegAngle1, leg)) return column.values.front();
+  return robot.angle[static_cast<std::size_t>(leg)];
+}
+
+// Pitch, and the angle of each motor, which is held in a trial to record unless a clock turns it.
 void AddRobotRanges(const std::vector<TrialProblem>& train, std::vector<DesignRange>& ranges) {
   const RobotParameters<double>& robot = *train.front().parameters.robot;
   const int held = robot.control == MotorControl::kClock ? 0 : robot.legs;
   for (int leg = 0; leg < held; ++leg) {
     Extent angle;
-    for (const TrialProblem& trial : train)
-      angle.Add(trial.parameters.robot->angle[static_cast<std::size_t>(leg)]);
+    for (const TrialProblem& trial : train) angle.Add(AngleOf(trial, leg));
     const auto setting = static_cast<DesignSetting>(static_cast<int>(DesignSetting::kLeg1) + leg);
     ranges.push_back({setting, angle.low - kMostTurn, angle.high + kMostTurn});
   }
@@ -252,6 +260,12 @@ TrialProblem TrialOf(const TrialDesign& design, const TrialProblem& like) {
   trial.start_mode = Mode::kFlight;
   trial.touchdown_angles.clear();
   trial.inputs.clear();
+  if (trial.parameters.robot && trial.parameters.robot->control == MotorControl::kRecorded) {
+    RobotParameters<double>& robot = *trial.parameters.robot;
+    robot.control = MotorControl::kHeld;
+    for (int leg = 0; leg < robot.legs; ++leg)
+      robot.angle[static_cast<std::size_t>(leg)] = AngleOf(like, leg);
+  }
   trial.shared_priors.clear();
   const int states = like.parameters.robot ? 6 : 4;
   trial.own.resize(static_cast<std::size_t>(states));

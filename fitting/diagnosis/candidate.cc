@@ -22,12 +22,20 @@ bool Simulates(const FitProblem& problem, const Effect& effect) {
                      [&](const EffectSetting& e) { return e.effect == &effect; });
 }
 
+// The inputs whose scale the effect changes by another name: the gain of a motor that is told a
+// logged torque.
+InputSet ScaledBy(const EffectInfo& effect) {
+  if (effect.name == "torque_gain") return BitOf(InputKind::kHipTorque);
+  if (!effect.name.starts_with("motor_gain")) return 0;
+  if (effect.robot_leg == 0) return BitsOfFamily(InputKind::kHipTorque);
+  return BitOf(OfMotor(InputKind::kHipTorque1, effect.robot_leg - 1));
+}
+
 // Whether a delay or scale that the effect would change is fitted by its own name already.
 bool IsFitted(const FitProblem& problem, const Effect& effect) {
   const std::string_view name = effect.info.name;
-  const bool gain = name == "torque_gain";  // the scale of a logged torque by another name
   const bool delays = name.ends_with("_input_delay");
-  const InputSet of = gain ? BitOf(InputKind::kHipTorque) : effect.info.needs_inputs;
+  const InputSet of = ScaledBy(effect.info) | effect.info.needs_inputs;
   return std::any_of(problem.shared.begin(), problem.shared.end(), [&](const SharedParameter& s) {
     return s.direction.of == SensitivityDirection::Of::kInput &&
            (BitOf(static_cast<InputKind>(s.direction.index)) & of) != 0 &&

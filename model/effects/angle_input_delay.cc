@@ -16,7 +16,8 @@ struct AngleInputDelay {
       .for_ball = false,
       .dissipative = false,
       .parameters = kParameters,
-      .needs_inputs = BitOf(InputKind::kLegAngle)};
+      .needs_inputs = BitsOfFamily(InputKind::kLegAngle),
+      .for_robot = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

@@ -16,7 +16,8 @@ struct ForceInputScale {
       .for_ball = true,
       .dissipative = false,
       .parameters = kParameters,
-      .needs_inputs = BitOf(InputKind::kBodyForceX) | BitOf(InputKind::kBodyForceY)};
+      .needs_inputs = BitOf(InputKind::kBodyForceX) | BitOf(InputKind::kBodyForceY),
+      .for_robot = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

@@ -27,6 +27,14 @@ inline constexpr std::array<std::string_view, kMaxLegs + 1> kWeakMotor = {
     "the motor of leg 3 is weaker or stronger than its controller thinks",
     "the motor of leg 4 is weaker or stronger than its controller thinks"};
 
+inline constexpr std::array<std::string_view, kMaxLegs + 1> kGearWithPlay = {
+    "the gears of the robot's motors have play: no torque passes while their teeth are apart",
+    "the gear of the motor of leg 1 (the hindmost) has play: no torque passes while its teeth are "
+    "apart",
+    "the gear of the motor of leg 2 has play: no torque passes while its teeth are apart",
+    "the gear of the motor of leg 3 has play: no torque passes while its teeth are apart",
+    "the gear of the motor of leg 4 has play: no torque passes while its teeth are apart"};
+
 constexpr EffectInfo InfoOfLeg(int leg, std::string_view name, std::string_view equation,
                                std::string_view sentence,
                                std::span<const EffectParameter> parameters) {
@@ -82,6 +90,44 @@ struct MotorGainOf {
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
     parameters.robot->gain_of[leg - 1] *= 1.0 + p[0];
+  }
+};
+
+/// Of the motor of a leg; of all of them where `leg` is 0.
+template <int leg>
+struct Backlash {
+  static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
+      "backlash", "backlash_1", "backlash_2", "backlash_3", "backlash_4"};
+  static constexpr std::array kParameters = {
+      EffectParameter{"play", "rad", 0.0, 0.0, 0.5, 0.02},
+      EffectParameter{"tooth_torque", "N m", 20.0, 0.1, 1e5, 10.0, /*is_shape=*/true},
+      EffectParameter{"tooth_damping", "s/rad", 0.2, 0.0, 10.0, 0.1, /*is_shape=*/true},
+      EffectParameter{"hub_share", "-", 0.1, 0.001, 0.9, 0.1, /*is_shape=*/true}};
+  static constexpr EffectInfo kInfo = {
+      .name = kNames[leg],
+      .kind = EffectKind::kParameter,
+      .equation =
+          "no torque passes while |twist| < play/2; beyond, 2 tooth_torque/play of it (M96)",
+      .sentence = kGearWithPlay[leg],
+      .for_legs = false,
+      .for_ball = false,
+      .dissipative = true,
+      .has_threshold = true,
+      .parameters = kParameters,
+      .for_robot = true,
+      .robot_leg = leg};
+
+  template <class T>
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    RobotParameters<T>& robot = *parameters.robot;
+    for (int i = 0; i < kMaxLegs; ++i) {
+      if (leg != 0 && i != leg - 1) continue;
+      const auto motor = static_cast<std::size_t>(i);
+      robot.play[motor] += p[0];
+      robot.tooth_torque[motor] = p[1];
+      robot.tooth_damping[motor] = p[2];
+      robot.hub_share[motor] = p[3];
+    }
   }
 };
 

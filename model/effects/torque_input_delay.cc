@@ -16,7 +16,8 @@ struct TorqueInputDelay {
       .for_ball = false,
       .dissipative = false,
       .parameters = kParameters,
-      .needs_inputs = BitOf(InputKind::kHipTorque)};
+      .needs_inputs = BitsOfFamily(InputKind::kHipTorque),
+      .for_robot = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

@@ -25,6 +25,7 @@ enum class EventKind {
   kFallPitch,       // a robot's body pitches beyond its limit
   kSlide,           // a foot that held begins to slide
   kStick,           // a sliding foot comes to hold
+  kGearMesh,        // teeth of a motor's gear meet or part
   kSwitch,          // mode change of a piecewise-smooth system without a leg
   kCorner           // a formula is about to go on by another branch
 };
@@ -106,10 +107,10 @@ struct GuardCrossing {
 /// |guard|/scale below which a guard counts as at zero: rounding of a state of size one.
 inline constexpr double kAtZero = 1e-11;
 
-/// Four legs of a robot that roll and slide, their motors limited, have 29.
-inline constexpr int kMaxGuards = 29;
+/// Four legs of a robot that roll and slide, their motors limited and geared, have 33.
+inline constexpr int kMaxGuards = 33;
 /// Most states of a mechanism, and of what a stepper integrates: with eight sensitivities of each.
-/// A robot on four legs with mass whose motors lag has 26.
-inline constexpr int kMaxStates = 26;
+/// A robot on four legs with mass whose motors lag and have gears has 34.
+inline constexpr int kMaxStates = 34;
 
 }  // namespace hoplab

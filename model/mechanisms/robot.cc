@@ -12,6 +12,8 @@
 #include "model/mechanisms/robot_events_inl.h"
 #include "model/mechanisms/robot_feet_inl.h"
 #include "model/mechanisms/robot_legs_inl.h"
+#include "model/mechanisms/robot_motors_inl.h"
+#include "model/mechanisms/robot_stances_inl.h"
 
 namespace hoplab {
 
@@ -20,8 +22,9 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
     : p_(setup.parameters),
       robot_(*p_.robot),
       effects_(setup.effects),
+      inputs_(setup.inputs),
       legs_(robot_.legs),
-      has_body_force_(effects_.HasBodyForce()),
+      has_body_force_(effects_.HasBodyForce() || inputs_.HasForce()),
       has_leg_mass_(!IsZero(robot_.leg_mass)),
       lags_(robot_.control != MotorControl::kLocked &&
             Value(robot_.motor_lag) >= robot_detail::kShortestLag),
@@ -46,6 +49,7 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
                       robot_.friction, robot_.clamp);
     leg_[i].clock = MotorClock<T>(robot_, i, p_.time_origin);
     gain_[i] = robot_.motor_gain * robot_.gain_of[i];
+    SetUpMotor(i);
   }
   ListGuards(Mode::kFlight);
 }
@@ -103,49 +107,7 @@ T Robot<T>::Reach(const T& angle) const {
   return Value(b) > 0.0 ? T(p_.r * (1.0 + cos(b))) : T(2.0 * p_.r * cos(b));
 }
 
-// M75: what the motor is told to give, before its limit [N m].
-template <class T>
-T Robot<T>::Command(int leg, const T& t, const T* z) const {
-  T angle = robot_.angle[leg], rate(0.0);
-  if (robot_.control == MotorControl::kClock) {
-    const Leg& own = leg_[leg];
-    angle = own.clock.Angle(own.piece, t);
-    rate = own.clock.Rate(own.piece);
-  }
-  return robot_.motor_kp * (angle - z[Angle(leg)]) + robot_.motor_kd * (rate - z[Rate(leg)]);
-}
-
-template <class T>
-T Robot<T>::Torque(int leg, const T& t, const T* z) const {
-  if (robot_.control == MotorControl::kLocked) return T(0.0);
-  const double side = leg_[leg].limit;
-  return side == 0.0 ? Command(leg, t, z) : T(side * robot_.torque_limit);
-}
-
-// ---- start, discrete state, knots ------------------------------------------------------------
-
-// A start gives the body's motion, and the pitch and its rate; motors begin on their reference.
-template <class T>
-void Robot<T>::CompleteStart(T* z, int given) const {
-  if (given > 6) return;
-  for (int i = 0; i < legs_; ++i) {
-    z[Angle(i)] = robot_.angle[i];
-    z[Rate(i)] = T(0.0);
-    if (robot_.control != MotorControl::kClock) continue;
-    const MotorClock<T>& clock = leg_[i].clock;
-    const int piece = clock.PieceAt(0.0);
-    z[Angle(i)] = clock.Angle(piece, T(0.0));
-    z[Rate(i)] = clock.Rate(piece);
-  }
-}
-
-template <class T>
-void Robot<T>::FindLimits(double t, const T* z) {
-  for (int i = 0; i < legs_; ++i) {
-    const double command = Value(Command(i, T(t), z));
-    leg_[i].limit = std::abs(command) > robot_.torque_limit ? (command > 0.0 ? 1 : -1) : 0;
-  }
-}
+// ---- start, discrete state ------------------------------------------------------------
 
 template <class T>
 Mode Robot<T>::Begin(Mode, T* z) {
@@ -157,6 +119,7 @@ Mode Robot<T>::Begin(Mode, T* z) {
     leg.piece = leg.clock.PieceAt(0.0);
     if (foot_has_inertia_) z[FootSpeed(i)] = T(0.0);
   }
+  FindTeeth(z);
   FindLimits(0.0, z);
   for (int i = 0; i < legs_; ++i) {
     if (lags_) z[Given(i)] = Torque(i, T(0.0), z);
@@ -183,6 +146,7 @@ Mode Robot<T>::Resume(std::span<const Foot> feet, const T* z) {
     const double tip = std::max(0.0, 2.0 * kPi * leg.turns - angle);
     if (IsDown(leg)) leg.arc.StartAt(leg.stance == Stance::kToe ? tip : 0.0);
   }
+  FindTeeth(z);
   FindLimits(0.0, z);
   const Mode mode = ModeNow();
   ListGuards(mode);
@@ -200,20 +164,24 @@ template <class T>
 void Robot<T>::SaveDiscreteState(DiscreteState& to) const {
   for (int i = 0; i < legs_; ++i) {
     const Leg& leg = leg_[i];
-    for (int value : {static_cast<int>(leg.stance), leg.turns, leg.limit, leg.piece}) to.Put(value);
+    for (int value : {static_cast<int>(leg.stance), leg.turns, leg.limit, leg.piece, leg.teeth})
+      to.Put(value);
     to.Put(leg.slides);
     leg.arc.Save(to);
   }
+  inputs_.Save(to);
 }
 template <class T>
 void Robot<T>::LoadDiscreteState(DiscreteState& from) {
   for (int i = 0; i < legs_; ++i) {
     Leg& leg = leg_[i];
     leg.stance = static_cast<Stance>(static_cast<int>(from.Take()));
-    for (int* value : {&leg.turns, &leg.limit, &leg.piece}) *value = static_cast<int>(from.Take());
+    for (int* value : {&leg.turns, &leg.limit, &leg.piece, &leg.teeth})
+      *value = static_cast<int>(from.Take());
     leg.slides = from.Take();
     leg.arc.Load(from);
   }
+  inputs_.Load(from);
   ListGuards(ModeNow());
 }
 
@@ -225,39 +193,12 @@ void Robot<T>::StartSearch(Mode mode, const double* z) {
     leg.stance = Stance::kFlight;
     leg.slides = 0.0;
     leg.piece = leg.clock.PieceAt(0.0);
+    leg.teeth = leg.geared() ? TeethAt(leg, z[Twist(leg)]) : 0;
     if (mode == Mode::kFlight || z[Contact(i)] == 0.0) continue;
     leg.turns = TurnsOf(z[Pitch()] + z[Angle(i)]);
     leg.stance = Stance::kRolling;
     leg.arc.StartAt(0.0);
   }
-}
-
-template <class T>
-double Robot<T>::NextKnot(Mode) const {
-  double next = std::numeric_limits<double>::infinity();
-  if (robot_.control != MotorControl::kClock) return next;
-  for (int i = 0; i < legs_; ++i) next = std::min(next, Value(leg_[i].clock.End(leg_[i].piece)));
-  return next;
-}
-
-template <class T>
-std::optional<T> Robot<T>::PassKnot(Mode mode, double t, T* z) {
-  if (robot_.control != MotorControl::kClock) return std::nullopt;
-  int due = 0;
-  for (int i = 1; i < legs_; ++i)
-    if (leg_[i].clock.End(leg_[i].piece) < leg_[due].clock.End(leg_[due].piece)) due = i;
-  Leg& leg = leg_[due];
-  const T instant = leg.clock.End(leg.piece);
-  const T before = lags_shortly_ ? Torque(due, T(t), z) : T(0.0);
-  ++leg.piece;
-  // The rate of the reference jumps, and with it the command: on which side of its limit it is then
-  // is part of the knot.
-  const double command = Value(Command(due, T(t), z));
-  leg.limit = std::abs(command) > robot_.torque_limit ? (command > 0.0 ? 1 : -1) : 0;
-  if (lags_shortly_) MissJump(due, Torque(due, T(t), z) - before, z);
-  AskCones(/*except=*/-1, T(t), z);
-  ListGuards(mode);
-  return instant;
 }
 
 // ---- what it tells ---------------------------------------------------------------------------
@@ -287,7 +228,7 @@ Observation<T> Robot<T>::Observe(Mode mode, const T& t, const T* z) const {
   for (int i = 0; i < legs_; ++i) {
     const Leg& leg = leg_[i];
     const bool down = mode != Mode::kFlight && IsDown(leg);
-    seen[OfLeg(Channel::kLegAngle1, i)] = z[Angle(i)];
+    seen[OfLeg(Channel::kLegAngle1, i)] = MotorAngle(i, z);
     seen[OfLeg(Channel::kHipTorque1, i)] = Torque(i, t, z);
     seen[OfLeg(Channel::kContact1, i)] = T(down ? 1.0 : 0.0);
     if (!down) continue;

@@ -4,6 +4,7 @@
 
 #include "model/hybrid/hybrid_system.h"
 #include "model/laws/clamped/clamped_arc.h"
+#include "model/mechanisms/gear.h"
 #include "model/mechanisms/mechanism_setup.h"
 #include "model/mechanisms/motor_clock.h"
 #include "model/mechanisms/robot_leg_shape.h"
@@ -16,10 +17,10 @@ using LegMotion = std::array<T, 4>;
 
 /// A rigid body with pitch on up to four clamped arcs, each turned by a motor at its hip (section 8
 /// of the equation sheet). State: x, y, vx, vy of the body's reference point, pitch and its rate,
-/// the motors' angles, their rates, of each leg the contact coordinate (X0 while it rolls, x_c
-/// on its toe), where motors lag what each is giving, and where its feet have inertia their speed
-/// over the ground. Flight is when no leg is on the ground;
-/// which ones are and how is a discrete state.
+/// the legs' angles, their rates, of each leg the contact coordinate (X0 while it rolls, x_c
+/// on its toe), of each motor whose gear has play its twist and the rotor's rate, where motors lag
+/// what each is giving, and where its feet have inertia their speed over the ground. Flight is when
+/// no leg is on the ground; which ones are and how is a discrete state.
 template <class T>
 class Robot final : public HybridSystem<T> {
  public:
@@ -45,6 +46,7 @@ class Robot final : public HybridSystem<T> {
   std::optional<T> PassKnot(Mode mode, double t, T* z) override;
   std::optional<BallisticFlight<T>> FreeFlight() const override;
   double FirstStep(Mode mode, const T* z) const override;
+  double LongestStep(Mode mode, const T& t, const T* z) const override;
   Observation<T> Observe(Mode mode, const T& t, const T* z) const override;
   T Energy(Mode mode, const T* z) const override;
 
@@ -52,12 +54,17 @@ class Robot final : public HybridSystem<T> {
   using Stance = Foot::Stance;
   struct Leg {
     Stance stance = Stance::kFlight;
-    double slides = 0.0;  // direction of its foot
-    int turns = 0;        // whole turns taken off the hip's angle since it landed
-    int limit = 0;        // side of the torque limit its motor is at
-    int piece = 0;        // of its clock
+    double slides = 0.0;   // direction of its foot
+    int turns = 0;         // whole turns taken off the hip's angle since it landed
+    int limit = 0;         // side of the torque limit its motor is at
+    int piece = 0;         // of its clock
+    int teeth = 0;         // of its gear that are pressed, 0: none
+    int gear_place = -1;   // of its gear among those with play; -1: it has none
+    bool is_told = false;  // its motor, a torque that was recorded
+    Gear<T> gear = {};
     ClampedArc<T> arc = {};
     MotorClock<T> clock = {};
+    bool geared() const { return gear_place >= 0; }
   };
   /// The guards there are, in the order they fire.
   struct GuardRef {
@@ -79,8 +86,10 @@ class Robot final : public HybridSystem<T> {
   int Angle(int leg) const { return 6 + leg; }
   int Rate(int leg) const { return 6 + legs_ + leg; }
   int Contact(int leg) const { return 6 + 2 * legs_ + leg; }
-  int Given(int leg) const { return 6 + 3 * legs_ + leg; }
-  int FootSpeed(int leg) const { return 6 + (lags_ ? 4 : 3) * legs_ + leg; }
+  int Twist(const Leg& leg) const { return 6 + 3 * legs_ + 2 * leg.gear_place; }
+  int RotorRate(const Leg& leg) const { return Twist(leg) + 1; }
+  int Given(int leg) const { return 6 + 3 * legs_ + 2 * gears_ + leg; }
+  int FootSpeed(int leg) const { return Given(0) + (lags_ ? legs_ : 0) + leg; }
   bool HasCone() const { return Value(robot_.friction) < std::numeric_limits<double>::infinity(); }
   bool IsDown(const Leg& leg) const { return leg.stance != Stance::kFlight; }
   /// Whether a foot slides with a speed of its own (M89).
@@ -100,7 +109,7 @@ class Robot final : public HybridSystem<T> {
   void Accelerate(const Frame& frame, const Push& push, const T* z, T* dz) const;
   void AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z, T* dz) const;
   void LagShortly(const Frame& frame, Push& push, const T* z, T* dz) const;
-  void MissJump(int leg, const T& jump, T* z) const;
+  void MissJump(int leg, const T& jump, const T* at, T* z) const;
   struct LegInertia;  // the mass of a leg in the way it is now
   struct Sides;       // forces or momenta of all motions
   LegInertia InertiaOf(int i, const LegPlace& at) const;
@@ -136,9 +145,21 @@ class Robot final : public HybridSystem<T> {
   ClampedPlace<T> PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const;
   static int TurnsOf(double angle);
   T Reach(const T& angle) const;
+  /// Of the rotor, relative to the body: what an encoder on the motor reads.
+  T MotorAngle(int leg, const T* z) const;
+  T MotorRate(int leg, const T* z) const;
+  struct Reference;  // what a motor's controller follows
+  Reference ReferenceOf(int leg, const T& t) const;
+  void SetUpMotor(int i);
+  static int TeethAt(const Leg& leg, double twist);
+  void FindTeeth(const T* z);
+  T GearTorque(const Leg& leg, int i, const T* z) const;
   T Command(int leg, const T& t, const T* z) const;
   T Torque(int leg, const T& t, const T* z) const;
+  T ToldRate(int leg, const T* z, const T* dz) const;
+  void FindLimit(int leg, double t, const T* z);
   void FindLimits(double t, const T* z);
+  void MoveAlong(Mode mode, double t, const T& by, const T* z, T* to) const;
   void ListGuards(Mode mode);
   Mode ModeNow() const;
   std::optional<Outcome> Land(int i, const T& t, T* z, bool comes_down = true);
@@ -147,13 +168,16 @@ class Robot final : public HybridSystem<T> {
   void SlideAway(const GuardRef& guard, T* z);
   void HoldFoot(int i, const T& t, T* z);
   T TorqueMargin(int i, const T& t, const T* z) const;
+  T GearMargin(const Leg& leg, const T* z) const;
   void BeginOnFoot(int i, T* z);
   void LiftOff(int i, T* z);
 
   Parameters<T> p_;
   RobotParameters<T> robot_;
   ActiveEffects<T> effects_;
+  InputSignals<T> inputs_;
   int legs_;
+  int gears_ = 0;                    // motors whose gear has play
   T clamp_, cos_clamp_, sin_clamp_;  // the angle the clamp spans [rad]
   T gravity_x_, gravity_y_;
   bool has_body_force_;
@@ -164,6 +188,7 @@ class Robot final : public HybridSystem<T> {
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;
   std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]
+  std::array<T, kMaxLegs> hub_;   // inertia that turns with each leg's base [kg m^2]
   std::array<GuardRef, kMaxGuards> guards_;
   int guard_count_ = 0;
 };

@@ -34,7 +34,7 @@ typename Robot<T>::Impact Robot<T>::MomentaOf(const T* z, int without) const {
   sides.y += py;
   sides.pitch += robot_.pitch_inertia * turn + now.com.x * py - now.com.y * px;
   for (int i = 0; i < legs_; ++i) {
-    sides.motor[i] += robot_.rotor_inertia * z[Rate(i)];
+    sides.motor[i] += hub_[i] * z[Rate(i)];
     now.at[i] = LegOf(frame, i, z);
     now.legs[i] = InertiaOf(i, now.at[i]);
     if (i == without) continue;

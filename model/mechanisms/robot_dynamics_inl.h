@@ -14,7 +14,8 @@ template <class T>
 struct Robot<T>::Push {
   T force_x{0.0}, force_y{0.0};               // on the body [N]
   T moment{0.0};                              // on the body about its centre of mass [N m]
-  std::array<T, kMaxLegs> on_motor;           // on each motor's angle [N m]
+  std::array<T, kMaxLegs> on_motor;           // on each leg's angle [N m]
+  std::array<T, kMaxLegs> on_rotor;           // on each rotor whose gear has play [N m]
   std::array<ClampedLoad<T>, kMaxLegs> load;  // of each leg that is down
 };
 
@@ -52,13 +53,20 @@ typename Robot<T>::Push Robot<T>::PushOf(const Frame& frame, const T& t, const T
       push.force_y += fy;
       push.moment += (hip.x - com.x) * fy - (hip.y - com.y) * fx + on_hip;
     }
-    push.on_motor[i] = robot_.control == MotorControl::kLocked
-                           ? T(0.0)
-                           : T(gain_[i] * (lags_ ? z[Given(i)] : Torque(i, t, z)) + on_hip);
+    T given(0.0);
+    if (robot_.control != MotorControl::kLocked)
+      given = gain_[i] * (lags_ ? z[Given(i)] : Torque(i, t, z));
+    if (leg.geared()) {
+      const T passed = GearTorque(leg, i, z);
+      push.on_rotor[i] = given - passed;
+      given = passed;
+    }
+    push.on_motor[i] = robot_.control == MotorControl::kLocked ? T(0.0) : T(given + on_hip);
   }
   if (has_body_force_) {
-    const Vector2<T> air = effects_.BodyForce(
+    Vector2<T> air = effects_.BodyForce(
         {t + p_.time_origin, z[kX], z[kY], z[kVx], z[kVy], ModeNow() != Mode::kFlight});
+    AddInputForce(inputs_, p_.slope, t, air);
     push.force_x += air.x;
     push.force_y += air.y;
   }
@@ -79,6 +87,7 @@ void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
     dz[Contact(i)] = T(0.0);
     if (FootMoves(i)) dz[Contact(i)] = z[FootSpeed(i)];
     if (lags_) dz[Given(i)] = (Torque(i, t, z) - z[Given(i)]) / robot_.motor_lag;
+    if (leg_[i].geared()) dz[Twist(leg_[i])] = z[RotorRate(leg_[i])] - z[Rate(i)];
   }
   Accelerate(frame, push, z, dz);
   if (lags_shortly_) LagShortly(frame, push, z, dz);
@@ -86,6 +95,9 @@ void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
 
 template <class T>
 void Robot<T>::Accelerate(const Frame& frame, const Push& push, const T* z, T* dz) const {
+  for (int i = 0; i < legs_; ++i)
+    if (leg_[i].geared())
+      dz[RotorRate(leg_[i])] = push.on_rotor[i] / (robot_.rotor_inertia - hub_[i]);
   if (has_leg_mass_) return AccelerateWithLegMass(frame, push, z, dz);
   const bool locked = robot_.control == MotorControl::kLocked;
   const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
@@ -94,8 +106,7 @@ void Robot<T>::Accelerate(const Frame& frame, const Push& push, const T* z, T* d
   dz[kVx] = push.force_x / p_.m + gravity_x_ + spin * com.y + turn * turn * com.x;
   dz[kVy] = push.force_y / p_.m + gravity_y_ - spin * com.x + turn * turn * com.y;
   dz[Pitch() + 1] = spin;
-  for (int i = 0; i < legs_; ++i)
-    dz[Rate(i)] = locked ? T(0.0) : T(push.on_motor[i] / robot_.rotor_inertia);
+  for (int i = 0; i < legs_; ++i) dz[Rate(i)] = locked ? T(0.0) : T(push.on_motor[i] / hub_[i]);
 }
 
 // M86: a lag too short to integrate, to its first order: what a motor gives is behind by the lag
@@ -104,29 +115,29 @@ template <class T>
 void Robot<T>::LagShortly(const Frame& frame, Push& push, const T* z, T* dz) const {
   for (int i = 0; i < legs_; ++i) {
     if (leg_[i].limit != 0) continue;
-    const T rate =
-        robot_.control == MotorControl::kClock ? leg_[i].clock.Rate(leg_[i].piece) : T(0.0);
-    const T told = robot_.motor_kp * (rate - z[Rate(i)]) - robot_.motor_kd * dz[Rate(i)];
-    push.on_motor[i] -= gain_[i] * robot_.motor_lag * told;
+    const T behind = gain_[i] * robot_.motor_lag * ToldRate(i, z, dz);
+    (leg_[i].geared() ? push.on_rotor : push.on_motor)[i] -= behind;
   }
   Accelerate(frame, push, z, dz);
 }
 
-// M86: where what a motor is told jumps, the lag withholds the lag times the jump of its impulse.
-// Accelerations are affine in the motors' torques: what one of 1 N m adds is the column of the
-// inverse mass matrix.
+// M86: where what a motor is told jumps, the lag withholds the lag times the jump of its impulse,
+// at the state `at`. Accelerations are affine in the motors' torques: what one of 1 N m adds is the
+// column of the inverse mass matrix.
 template <class T>
-void Robot<T>::MissJump(int leg, const T& jump, T* z) const {
-  const Frame frame(z[Pitch()] - p_.slope);
+void Robot<T>::MissJump(int leg, const T& jump, const T* at, T* z) const {
+  const Frame frame(at[Pitch()] - p_.slope);
   Push none, unit;
   none.on_motor.fill(T(0.0));
+  none.on_rotor.fill(T(0.0));
   none.load.fill(ClampedLoad<T>{});
   unit.on_motor = none.on_motor;
+  unit.on_rotor = none.on_rotor;
   unit.load = none.load;
-  unit.on_motor[leg] = T(1.0);
+  (leg_[leg].geared() ? unit.on_rotor : unit.on_motor)[leg] = T(1.0);
   T without[kMaxStates], with[kMaxStates];
-  Accelerate(frame, none, z, without);
-  Accelerate(frame, unit, z, with);
+  Accelerate(frame, none, at, without);
+  Accelerate(frame, unit, at, with);
   const T impulse = -gain_[leg] * robot_.motor_lag * jump;
   const auto add = [&](int rate) { z[rate] += impulse * (with[rate] - without[rate]); };
   add(kVx);
@@ -134,6 +145,7 @@ void Robot<T>::MissJump(int leg, const T& jump, T* z) const {
   add(Pitch() + 1);
   for (int i = 0; i < legs_; ++i) {
     add(Rate(i));
+    if (leg_[i].geared()) add(RotorRate(leg_[i]));
     if (foot_has_inertia_) add(FootSpeed(i));
   }
 }

@@ -5,7 +5,8 @@
 
 #include "base/units.h"
 #include "model/laws/leg_load.h"
-#include "model/mechanisms/robot.h"
+#include "model/mechanisms/robot_feet_inl.h"
+#include "model/mechanisms/robot_motors_inl.h"
 
 // Guards and resets of a robot: what its legs and motors do next.
 
@@ -71,7 +72,10 @@ void Robot<T>::ListGuards(Mode mode) {
   }
   for (int i = 0; i < legs_; ++i) add({EventKind::kFallHeight, i, r});
   if (robot_.control != MotorControl::kLocked && std::isfinite(robot_.torque_limit))
-    for (int i = 0; i < legs_; ++i) add({EventKind::kTorqueLimit, i, robot_.torque_limit});
+    for (int i = 0; i < legs_; ++i)
+      if (!leg_[i].is_told) add({EventKind::kTorqueLimit, i, robot_.torque_limit});
+  for (int i = 0; i < legs_; ++i)
+    if (leg_[i].geared()) add({EventKind::kGearMesh, i, Value(leg_[i].gear.half)});
   if (mode == Mode::kFlight) add({EventKind::kApex, 0, 1.0});
   add({EventKind::kFallPitch, 0, 1.0});
 }
@@ -91,7 +95,10 @@ int Robot<T>::GuardCount(Mode) const {
 template <class T>
 GuardSpec Robot<T>::Guard(Mode, int i) const {
   const GuardRef& guard = guards_[i];
-  return {.event = guard.event, .scale = guard.scale, .leg = guard.leg};
+  return {.event = guard.event,
+          .scale = guard.scale,
+          .is_smooth = guard.event == EventKind::kGearMesh,
+          .leg = guard.leg};
 }
 
 template <class T>
@@ -146,6 +153,9 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
         break;
       case EventKind::kTorqueLimit:
         g[k] = TorqueMargin(i, t, z);
+        break;
+      case EventKind::kGearMesh:
+        g[k] = GearMargin(leg_[i], z);
         break;
       default:
         g[k] = z[kVy];  // apex
@@ -207,44 +217,6 @@ void Robot<T>::BeginOnFoot(int i, T* z) {
   if (!(Value(load.fy) > 0.0)) LiftOff(i, z);
 }
 
-// A foot that comes to rest holds, but where it would be drawn the other way by more than its cone.
-template <class T>
-void Robot<T>::Stick(int i, const T& t, T* z) {
-  const double went = leg_[i].slides;
-  leg_[i].slides = 0.0;
-  z[FootSpeed(i)] = T(0.0);
-  SlideOutsideCone(i, went, t, z);
-}
-
-// A foot that begins to hold where it cannot slides, but not the way it just came.
-template <class T>
-void Robot<T>::SlideOutsideCone(int i, double went, const T& t, const T* z) {
-  std::array<ClampedLoad<T>, kMaxLegs> loads;
-  std::array<Vector2<T>, kMaxLegs> ground;
-  GroundForces(Frame(z[Pitch()] - p_.slope), t, z, loads, ground);
-  const double along = Value(ground[i].x), up = Value(ground[i].y);
-  if (!(up > 0.0) || std::abs(along) <= Value(robot_.friction) * up) return;
-  const double way = along > 0.0 ? -1.0 : 1.0;
-  if (way != went) leg_[i].slides = way;
-}
-
-// Where accelerations jump, so do the forces on the other feet: one that holds may be beyond its
-// cone.
-template <class T>
-void Robot<T>::AskCones(int except, const T& t, const T* z) {
-  if (!foot_has_inertia_) return;
-  for (int i = 0; i < legs_; ++i)
-    if (i != except && IsDown(leg_[i]) && leg_[i].slides == 0.0) SlideOutsideCone(i, 0.0, t, z);
-}
-
-template <class T>
-void Robot<T>::LiftOff(int i, T* z) {
-  leg_[i].stance = Stance::kFlight;
-  leg_[i].slides = 0.0;
-  z[Contact(i)] = T(0.0);
-  if (foot_has_inertia_) z[FootSpeed(i)] = T(0.0);
-}
-
 // Where rates jump, so does what the motors are told: on which side of its limit each is then is
 // part of the event, and a short lag misses the jump (M86).
 template <class T>
@@ -256,7 +228,7 @@ void Robot<T>::TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& to
     case EventKind::kRollingToToe:
     case EventKind::kToeToRolling:
       FindLimits(Value(t), z);
-      for (int i = 0; i < legs_ && lags_shortly_; ++i) MissJump(i, Torque(i, t, z) - told[i], z);
+      for (int i = 0; i < legs_ && lags_shortly_; ++i) MissJump(i, Torque(i, t, z) - told[i], z, z);
       break;
     case EventKind::kStick:
       break;
@@ -295,6 +267,9 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
       break;
     case EventKind::kTorqueLimit:
       leg.limit = leg.limit != 0 ? 0 : Value(Command(guard.leg, t, z)) > 0.0 ? 1 : -1;
+      break;
+    case EventKind::kGearMesh:
+      leg.teeth = leg.teeth != 0 ? 0 : Value(z[Twist(leg)]) > 0.0 ? 1 : -1;
       break;
     case EventKind::kFallArc:
       end = Outcome::kFellArc;

@@ -1,62 +1,49 @@
 #pragma once
 
-#include "model/mechanisms/robot_events_inl.h"
+#include <cmath>
 
-// What a robot's foot on the ground goes over into: rolling, its toe, sliding, holding; M74 to M76,
-// M89.
+#include "model/mechanisms/robot.h"
+
+// Feet of a robot that come to rest, or lose their hold.
 
 namespace hoplab {
 
-// The leg goes over to its toe, or lies down on its arc again.
+// A foot that comes to rest holds, but where it would be drawn the other way by more than its cone.
 template <class T>
-void Robot<T>::RollOnto(int i, Stance to, T* z) {
-  Leg& leg = leg_[i];
-  if (follows_feet_) ChangeStance(i, to, z);
-  leg.stance = to;
-  if (foot_has_inertia_ || leg.slides == 0.0) {
-    const T along = p_.r * leg.arc.length();
-    if (to == Stance::kToe)
-      z[Contact(i)] += along;
-    else
-      z[Contact(i)] -= along;
-  }
-  leg.arc.Restart();
+void Robot<T>::Stick(int i, const T& t, T* z) {
+  const double went = leg_[i].slides;
+  leg_[i].slides = 0.0;
+  z[FootSpeed(i)] = T(0.0);
+  SlideOutsideCone(i, went, t, z);
+}
+
+// A foot that begins to hold where it cannot slides, but not the way it just came.
+template <class T>
+void Robot<T>::SlideOutsideCone(int i, double went, const T& t, const T* z) {
+  std::array<ClampedLoad<T>, kMaxLegs> loads;
+  std::array<Vector2<T>, kMaxLegs> ground;
+  GroundForces(Frame(z[Pitch()] - p_.slope), t, z, loads, ground);
+  const double along = Value(ground[i].x), up = Value(ground[i].y);
+  if (!(up > 0.0) || std::abs(along) <= Value(robot_.friction) * up) return;
+  const double way = along > 0.0 ? -1.0 : 1.0;
+  if (way != went) leg_[i].slides = way;
+}
+
+// Where accelerations jump, so do the forces on the other feet: one that holds may be beyond its
+// cone.
+template <class T>
+void Robot<T>::AskCones(int except, const T& t, const T* z) {
+  if (!foot_has_inertia_) return;
+  for (int i = 0; i < legs_; ++i)
+    if (i != except && IsDown(leg_[i]) && leg_[i].slides == 0.0) SlideOutsideCone(i, 0.0, t, z);
 }
 
 template <class T>
-void Robot<T>::SlideAway(const GuardRef& guard, T* z) {
-  Leg& leg = leg_[guard.leg];
-  const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), guard.leg, z);
-  if (guard.side > 0 && !foot_has_inertia_ &&
-      !leg.arc.CanSlideForward(FootOf(leg), PlaceOf(leg, guard.leg, hip, z))) {
-    LiftOff(guard.leg, z);
-    return;
-  }
-  leg.slides = guard.side;
-  if (!foot_has_inertia_) leg.arc.Restart();
-}
-
-template <class T>
-void Robot<T>::HoldFoot(int i, const T& t, T* z) {
-  if (foot_has_inertia_) {
-    Stick(i, t, z);
-    return;
-  }
-  Leg& leg = leg_[i];
-  const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), i, z);
-  const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
-  z[Contact(i)] = z[kX] + ClampOf(hip).x + load.lead;
-  leg.slides = 0.0;
-  leg.arc.Restart();
-}
-
-// Below zero where the motor meets its limit, or, beyond it, where it comes back.
-template <class T>
-T Robot<T>::TorqueMargin(int i, const T& t, const T* z) const {
-  const T command = Command(i, t, z);
-  const double side = leg_[i].limit;
-  if (side != 0.0) return side * command - robot_.torque_limit;
-  return robot_.torque_limit - (Value(command) < 0.0 ? T(-command) : command);
+void Robot<T>::LiftOff(int i, T* z) {
+  leg_[i].stance = Stance::kFlight;
+  leg_[i].slides = 0.0;
+  z[Contact(i)] = T(0.0);
+  if (foot_has_inertia_) z[FootSpeed(i)] = T(0.0);
 }
 
 }  // namespace hoplab

@@ -222,9 +222,14 @@ T Robot<T>::Energy(Mode, const T* z) const {
       energy += 0.5 * Dot(u, inertia.mass * u) - gravity_x_ * x - gravity_y_ * y;
     }
     if (robot_.control == MotorControl::kLocked) continue;
-    energy += 0.5 * robot_.rotor_inertia * z[Rate(i)] * z[Rate(i)];
+    energy += 0.5 * hub_[i] * z[Rate(i)] * z[Rate(i)];
+    if (leg.geared()) {
+      const T& rate = z[RotorRate(leg)];
+      energy += 0.5 * (robot_.rotor_inertia - hub_[i]) * rate * rate +
+                leg.gear.Energy(leg.teeth, z[Twist(leg)]);
+    }
     if (robot_.control == MotorControl::kHeld) {
-      const T off = robot_.angle[i] - z[Angle(i)];
+      const T off = robot_.angle[i] - MotorAngle(i, z);
       energy += 0.5 * robot_.motor_kp * off * off;
     }
   }

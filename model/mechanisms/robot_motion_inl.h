@@ -56,7 +56,7 @@ void Robot<T>::AddLegRows(int i, const LegPlace& at, const LegInertia& leg, cons
       e[j][3] = -share[j] * sides.foot[i];
     }
   }
-  const T own = locked ? T(1.0) : T(1.0 / (robot_.rotor_inertia + e[2][2]));
+  const T own = locked ? T(1.0) : T(1.0 / (hub_[i] + e[2][2]));
   rows.over[i] = own;
   // The pitch moves hip and base.
   for (int j = 0; j < 3; ++j) {

@@ -206,5 +206,50 @@ TEST_F(RobotCli, SearchesTheClockOfARobot) {
   EXPECT_TRUE(best.at("parameters").contains("controller.phases.1"));
 }
 
+// A log of what held motors were told, with next to no noise, moves the robot as they did; what is
+// generated of it is checked and fitted, its inputs with it.
+TEST_F(RobotCli, MotorsFollowALog) {
+  std::filesystem::copy_file(Shipped("experiments/robot-drop.yaml"), temp_.path() / "drop.yaml");
+  ASSERT_EQ(Hoplab({"generate", "drop.yaml", "--set", "dataset.sample_rate_hz=2000", "--set",
+                    "dataset.channels.hip_torque_2_N_m={sigma: 1}", "--set",
+                    "dataset.trials=[{role: train}]", "--noise", "1e-9", "--out", "log"})
+                .exit_code,
+            0);
+  const auto told = [&](std::vector<std::string> arguments) {
+    for (const char* set :
+         {"controller.type=recorded", "inputs.hip_torque_1_N_m={file: log/train-1.csv}",
+          "inputs.hip_torque_2_N_m={file: log/train-1.csv}",
+          "dataset.channels={body_x_m: {sigma: 0.0005}, body_y_m: {sigma: "
+          "0.0005}, body_pitch_rad: {sigma: 0.001}}",
+          "dataset.sample_rate_hz=2000", "dataset.trials=[{role: train}]"})
+      arguments.insert(arguments.end(), {"--set", set});
+    return Hoplab(arguments);
+  };
+  const ProcessResult held = Hoplab({"simulate", "drop.yaml", "--json"});
+  const ProcessResult again = told({"simulate", "drop.yaml", "--json"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const auto first = nlohmann::json::parse(held.out), second = nlohmann::json::parse(again.out);
+  EXPECT_EQ(second.at("mechanism").at("driven_by"),
+            nlohmann::json::parse(R"(["hip_torque_1", "hip_torque_2"])"));
+  EXPECT_EQ(second.at("events").size(), first.at("events").size());
+  const auto &then = first.at("final_state"), &now = second.at("final_state");
+  for (const char* key : {"x_m", "y_m"})
+    EXPECT_NEAR(now.at(key).get<double>(), then.at(key).get<double>(), 1e-4) << key;
+
+  ASSERT_EQ(told({"generate", "drop.yaml", "--out", "made"}).exit_code, 0);
+  EXPECT_EQ(Hoplab({"check", "made"}).exit_code, 0);
+  const ProcessResult fit =
+      Hoplab({"fit", "made", "--json", "--quiet", "--free", "E,input.hip_torque_2.scale"});
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  for (const auto& p : nlohmann::json::parse(fit.out).at("parameters")) {
+    const bool modulus = p.at("name") == "E";
+    EXPECT_NEAR(p.at("value").get<double>(), modulus ? 22e9 : 1.0, modulus ? 0.3e9 : 0.02);
+  }
+  const ProcessResult both =
+      Hoplab({"simulate", "drop.yaml", "--set", "inputs.hip_torque_1_N_m={file: log/train-1.csv}"});
+  EXPECT_EQ(both.exit_code, 65);
+  EXPECT_NE(both.err.find("controller of type held"), std::string::npos) << both.err;
+}
+
 }  // namespace
 }  // namespace hoplab::testing
