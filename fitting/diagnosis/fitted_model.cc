@@ -9,6 +9,7 @@
 #include "fitting/discrepancy/restricted_likelihood.h"
 #include "fitting/growing_horizon.h"
 #include "fitting/threshold.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
@@ -184,14 +185,19 @@ void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
   request.starts = glance.starts;
   request.max_iterations = kLook;
   request.shared = others;
-  const SolveResult without = Solve(request);
+  // A robot's search over all rows at once may end in another order of events.
+  const bool grows = TraitsOf(model.problem.law).lands_leg_by_leg;
+  const auto search = [grows](const SolveRequest& of) {
+    return grows ? GrowHorizon(of) : Solve(of);
+  };
+  const SolveResult without = search(request);
   const SolveResult* best = &without;
   std::vector<SolveResult> looks;
   looks.reserve(beginnings.size());
   for (const Eigen::VectorXd& begun : beginnings) {
     if (settings.stop && *settings.stop) return;
     request.shared = begun;
-    const SolveResult& found = looks.emplace_back(Solve(request));
+    const SolveResult& found = looks.emplace_back(search(request));
     if (LedOn(found) && (found.cost < best->cost || !LedOn(*best))) best = &found;
   }
   if (best == &without || (LedOn(without) && without.cost - best->cost < kWorthFollowing)) return;
@@ -200,7 +206,7 @@ void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
   if (glance.of_hops) request.starts = StartsFor(request);
   request.max_iterations = 2 * settings.max_iterations;
   request.give_up_above = model.ok() ? model.cost : settings.give_up_above;
-  SolveResult found = Solve(request);
+  SolveResult found = search(request);
   const double least = kCostTolerance * std::abs(model.cost);  // less is rounding
   if (LedOn(found) && (!model.ok() || model.cost - found.cost > least)) Take(model, found);
 }

@@ -111,6 +111,24 @@ TEST_F(RobotCli, DiagnosisNamesTheSoftLeg) {
   EXPECT_NE(third.err.find("is of a leg this robot does not have"), std::string::npos) << third.err;
 }
 
+// Small sizes of it change nothing: it is sought from several.
+TEST_F(RobotCli, DiagnosisNamesTheGearWithPlay) {
+  ASSERT_EQ(Hoplab({"generate", Shipped("experiments/robot-drop.yaml"), "--out", "made", "--with",
+                    "backlash_2:play=0.02"})
+                .exit_code,
+            0);
+  const ProcessResult run =
+      Hoplab({"diagnose", "made", "--effects", "backlash_1,backlash_2,motor_gain_2,leg_stiffness_2",
+              "--json", "--quiet"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto record = nlohmann::json::parse(run.out);
+  EXPECT_EQ(record.at("verdict"), "named");
+  ASSERT_EQ(record.at("causes").size(), 1u);
+  const auto& cause = record.at("causes")[0];
+  EXPECT_EQ(cause.at("name"), "backlash_2");
+  EXPECT_NEAR(cause.at("parameters")[0].at("value").get<double>(), 0.02, 0.0005);
+}
+
 TEST_F(RobotCli, RefusesWhatDoesNotGoTogether) {
   const auto refused = [&](const std::string& set, const std::string& why) {
     const ProcessResult run =
