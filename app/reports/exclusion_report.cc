@@ -45,7 +45,7 @@ double RelativeBound(const CandidateResult& c) {
 
 std::string ExclusionLines(const Diagnosis& d, bool colours) {
   std::vector<const CandidateResult*> excluded;
-  std::vector<std::string> unneeded, unseen, untried;
+  std::vector<std::string> unneeded, unseen, untried, unsought;
   for (const CandidateResult& c : d.naming.candidates) {
     if (!c.candidate.only_recording.empty()) continue;  // the same effect, more narrowly
     if (c.status == CandidateStatus::kExcluded || c.status == CandidateStatus::kNotNeeded) {
@@ -53,6 +53,8 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
         unneeded.push_back(c.candidate.Name());
       else
         excluded.push_back(&c);
+    } else if (c.candidate.effect->info.slow && c.status == CandidateStatus::kNotTested) {
+      unsought.push_back(c.candidate.Name());
     } else if (c.candidate.effect->info.has_threshold && c.status == CandidateStatus::kNotTested) {
       untried.push_back(c.candidate.Name());
     } else if (c.status == CandidateStatus::kNotTested) {
@@ -78,6 +80,12 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
         "not tried",
         Capped(untried) + ": small sizes change nothing, and no simulation ran at larger ones",
         colours);
+  if (!unsought.empty())
+    text += Labelled("not sought",
+                     Capped(unsought) +
+                         ": runs with them are slow, so they are tried where the "
+                         "causes found leave something to see",
+                     colours);
   return text;
 }
 

@@ -13,6 +13,6 @@ struct CalibrationTable {
   std::array<double, NameFeatures::kCount> weights;
 };
 inline constexpr CalibrationTable kCalibration = {
-    922, 6.488, {-2.469, -0.8229, -1.369, -4.601, 2.088, -1.112, -0.1746}};
+    922, 6.547, {-2.444, -0.8163, -1.378, -4.673, 2.09, -1.147, -0.1256}};
 
 }  // namespace hoplab

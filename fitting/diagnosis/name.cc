@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 
@@ -13,6 +12,7 @@
 #include "fitting/diagnosis/pool.h"
 #include "fitting/diagnosis/refits.h"
 #include "fitting/diagnosis/remainder.h"
+#include "fitting/diagnosis/weigh.h"
 
 namespace hoplab {
 namespace {
@@ -32,8 +32,6 @@ constexpr double kMuch = 5e-3;
 constexpr int kJoin = 3;
 // Rounds in which a set is put in order; each but the last changes it.
 constexpr int kRounds = 8;
-// Weights below this share of the best are not told.
-constexpr double kLeastWeight = 1e-4;
 
 class Search {
  public:
@@ -57,6 +55,7 @@ class Search {
     const CandidateSet single = refits_.Better({}, Singles(), kSingleWidth, BestScored());
     CandidateSet current = single;
     current = refits_.Better(current, Pairs(), kPairsSettled);
+    if (SeeksSlowOnes(current)) current = refits_.Better(current, SlowOnes(), kPairsSettled);
     if (!current.empty())
       current = refits_.Better(current, BeyondThresholds(single), kPairsSettled);
     current = Grown(current);
@@ -75,8 +74,8 @@ class Search {
       c.alone = refits_.At(alone);
       c.gain = c.alone.ok() ? refits_.Gain(alone) : 0.0;
     }
-    FindGroups(current);
-    Weigh();
+    FindGroups(current, refits_, naming_);
+    Weigh(refits_, naming_);
     Judge(current);
     naming_.interrupted = Stopped();
     return std::move(naming_);
@@ -103,7 +102,7 @@ class Search {
   std::vector<CandidateSet> Singles() const {
     std::vector<CandidateSet> sets;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
-      if (naming_.candidates[i].separable || naming_.candidates[i].has_threshold)
+      if (naming_.candidates[i].separable || (naming_.candidates[i].has_threshold && !IsSlow(i)))
         sets.push_back({static_cast<int>(i)});
     }
     return sets;
@@ -145,11 +144,6 @@ class Search {
     return ranked;
   }
 
-  static CandidateSet With(CandidateSet set, int i) {
-    set.insert(std::upper_bound(set.begin(), set.end(), i), i);
-    return set;
-  }
-
   // By what gains most beside the set under its own noise, and under white noise.
   std::vector<CandidateSet> Forward(const CandidateSet& set) {
     const auto white = Ranked(set, refits_.White(set));
@@ -187,11 +181,30 @@ class Search {
     }
     return std::nullopt;
   }
+  bool IsSlow(std::size_t i) const { return naming_.candidates[i].candidate.effect->info.slow; }
+  // The set misses more than noise does, by three of its standard deviations.
+  bool MisfitIsSeen(const CandidateSet& set) const {
+    const double noise = 0.5 * null_at_.degrees_of_freedom();
+    return refits_.White(set).cost - noise > 3.0 * std::sqrt(noise);
+  }
+  bool SeeksSlowOnes(const CandidateSet& set) const {
+    for (std::size_t i = 0; i < naming_.candidates.size(); ++i)
+      if (IsSlow(i)) return MisfitIsSeen(set);
+    return false;
+  }
+  std::vector<CandidateSet> SlowOnes() const {
+    std::vector<CandidateSet> sets;
+    for (std::size_t i = 0; i < naming_.candidates.size(); ++i)
+      if (IsSlow(i)) sets.push_back({static_cast<int>(i)});
+    return sets;
+  }
   // No linear model promises what has a threshold: it is tried, and taken as far as it gains.
   std::vector<CandidateSet> BeyondThresholds(const CandidateSet& set) {
     std::vector<CandidateSet> tried, together, sets;
+    const bool slow_ones = SeeksSlowOnes(set);
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
       if (!naming_.candidates[i].has_threshold || Holds(set, i)) continue;
+      if (IsSlow(i) && !slow_ones) continue;
       tried.push_back(With(set, i));
       const std::optional<int> other = ShowsBeside(i);
       if (!other || Holds(set, *other)) continue;
@@ -284,66 +297,6 @@ class Search {
       }
     }
     return swaps;
-  }
-
-  // ---- what can take a member's place: the fewest that hold 95 % of the weight of that place
-  void FindGroups(const CandidateSet& set) {
-    constexpr double kHeld = 0.95;
-    for (const int member : set) {
-      CandidateSet less = set;
-      less.erase(std::find(less.begin(), less.end(), member));
-      std::vector<std::pair<double, int>> place = {{refits_.Worth(set), member}};
-      for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
-        if (std::find(set.begin(), set.end(), i) != set.end()) continue;
-        const CandidateSet swapped = With(less, i);
-        if (refits_.Settled(swapped)) place.emplace_back(refits_.Worth(swapped), i);
-      }
-      std::stable_sort(place.begin() + 1, place.end(),
-                       [](const auto& a, const auto& b) { return a.first > b.first; });
-      double whole = 0.0, held = 0.0;
-      for (const auto& [worth, i] : place) whole += std::exp(worth - refits_.Worth(set));
-      std::vector<int> group;
-      std::vector<double> weights;
-      std::vector<FittedModel> rivals;
-      for (const auto& [worth, i] : place) {
-        if (held >= kHeld * whole) break;
-        group.push_back(i);
-        weights.push_back(std::exp(worth - refits_.Worth(set)));
-        rivals.push_back(refits_.At(With(less, i)));
-        held += weights.back();
-      }
-      for (double& w : weights) w /= held;
-      naming_.gaps.push_back(GapOf(set, group));
-      naming_.groups.push_back(std::move(group));
-      naming_.rivals.push_back(std::move(rivals));
-      naming_.group_weights.push_back(std::move(weights));
-    }
-  }
-  double GapOf(const CandidateSet& set, const std::vector<int>& group) const {
-    double gap = std::numeric_limits<double>::infinity();
-    for (const auto& [other, worth] : refits_.Visited()) {
-      const bool has = std::any_of(other.begin(), other.end(), [&](int i) {
-        return std::any_of(group.begin(), group.end(), [&](int g) { return SameEffect(i, g); });
-      });
-      if (!has) gap = std::min(gap, refits_.Worth(set) - worth);
-    }
-    return gap;
-  }
-
-  // Probabilities of candidates and of something not listed, over all models visited.
-  void Weigh() {
-    std::vector<std::pair<CandidateSet, double>> visited = refits_.Visited();
-    std::stable_sort(visited.begin(), visited.end(),
-                     [](const auto& a, const auto& b) { return a.second > b.second; });
-    const double best = visited.front().second;
-    double sum = 0.0;
-    for (auto& [set, worth] : visited) sum += worth = std::exp(worth - best);
-    for (auto& [set, weight] : visited) {
-      const double share = weight / sum;
-      for (const int i : set) naming_.candidates[static_cast<std::size_t>(i)].probability += share;
-      naming_.unlisted_probability += share * refits_.At(set).evidence.discrepancy_probability();
-      if (weight >= kLeastWeight) naming_.posterior.emplace_back(set, share);
-    }
   }
 
   void Judge(const CandidateSet& model) {

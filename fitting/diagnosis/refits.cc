@@ -223,6 +223,11 @@ std::vector<std::pair<CandidateSet, double>> Refits::Visited() const {
   return visited;
 }
 
+CandidateSet With(CandidateSet set, int i) {
+  set.insert(std::upper_bound(set.begin(), set.end(), i), i);
+  return set;
+}
+
 std::vector<CandidateSet> Eliminations(const CandidateSet& set) {
   std::vector<CandidateSet> sets;
   for (std::size_t i = 0; i < set.size(); ++i) {

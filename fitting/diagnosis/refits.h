@@ -85,6 +85,9 @@ class Refits {
   int planned_ = 0;
 };
 
+/// The set with candidate `i` in its place.
+CandidateSet With(CandidateSet set, int i);
+
 /// The sets with one member less.
 std::vector<CandidateSet> Eliminations(const CandidateSet& set);
 

@@ -39,6 +39,8 @@ struct EffectInfo {
   bool sharp = false;
   /// It has a threshold: small values change nothing, and neither does the derivative at null.
   bool has_threshold = false;
+  /// Runs with it take many times as long: it is sought only where a misfit is seen without it.
+  bool slow = false;
   /// Another effect without which it hardly shows: a search tries both at once, too.
   std::string_view shows_beside = {};
   /// Means nothing, or is not modelled, on a leg with a mass at its toe.

@@ -113,6 +113,7 @@ struct Backlash {
       .for_ball = false,
       .dissipative = true,
       .has_threshold = true,
+      .slow = true,
       .parameters = kParameters,
       .for_robot = true,
       .robot_leg = leg};
