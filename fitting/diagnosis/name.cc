@@ -55,9 +55,10 @@ class Search {
     const CandidateSet single = refits_.Better({}, Singles(), kSingleWidth, BestScored());
     CandidateSet current = single;
     current = refits_.Better(current, Pairs(), kPairsSettled);
-    if (SeeksSlowOnes(current)) current = refits_.Better(current, SlowOnes(), kPairsSettled);
+    const bool slow_ones = SeeksSlowOnes(current);
+    if (slow_ones) current = refits_.Better(current, SlowOnes(), kPairsSettled);
     if (!current.empty())
-      current = refits_.Better(current, BeyondThresholds(single), kPairsSettled);
+      current = refits_.Better(current, BeyondThresholds(single, slow_ones), kPairsSettled);
     current = Grown(current);
     if (LeavesMuch(current)) {
       const CandidateSet exchanged = Exchanged(current);
@@ -164,7 +165,8 @@ class Search {
     if (!matters.empty() && !refits_.At(set).problem.noise.IsWhite())
       take(Ranked(set, refits_.At(set)));
     take(white);
-    for (const CandidateSet& grown : BeyondThresholds(set)) sets.push_back(grown);
+    for (const CandidateSet& grown : BeyondThresholds(set, SeeksSlowOnes(set)))
+      sets.push_back(grown);
     return sets;
   }
   static bool Holds(const CandidateSet& set, int i) {
@@ -199,9 +201,8 @@ class Search {
     return sets;
   }
   // No linear model promises what has a threshold: it is tried, and taken as far as it gains.
-  std::vector<CandidateSet> BeyondThresholds(const CandidateSet& set) {
+  std::vector<CandidateSet> BeyondThresholds(const CandidateSet& set, bool slow_ones) {
     std::vector<CandidateSet> tried, together, sets;
-    const bool slow_ones = SeeksSlowOnes(set);
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
       if (!naming_.candidates[i].has_threshold || Holds(set, i)) continue;
       if (IsSlow(i) && !slow_ones) continue;

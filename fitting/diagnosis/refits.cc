@@ -12,7 +12,8 @@ namespace {
 
 // Iterations of a trial refit; one that is settled has as many more as it needs.
 constexpr int kTryIterations = 12;
-// What a cause loses whose size ends at a physical bound: one true cause in 20000 does [nats].
+// What a cause loses whose size ends at a physical bound, as if one true cause in 20000 did
+// [nats]: a choice, not a measured rate.
 constexpr double kAtBound = 10.0;
 // A linear forecast worth a second try where its refit falls short [nats].
 constexpr double kForecast = 8.0;
