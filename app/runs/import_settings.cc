@@ -121,6 +121,7 @@ void AddImportOptions(CLI::App& sub, ImportSettings& settings) {
        "Keep these seconds of the log's clock; each repetition makes a trial", "[FILE=]FROM:TO");
   list("--shift", settings.shift, "Add to a channel, as y=-35:mm", "CHANNEL=NUMBER[:UNIT]");
   sub.add_flag("--zero-time", settings.zero_time, "Let time begin at the first row kept");
+  sub.add_flag("--mend-times", settings.mend_times, "Mend repeated and swapped stamps");
   list("--role", settings.role, "train (default) or test", "FILE=ROLE");
   sub.add_option("--type", settings.type, "c_leg (default), straight_leg or ball")
       ->check(OneOf({"c_leg", "straight_leg", "ball"}))
