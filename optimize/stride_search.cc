@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/mechanisms/gear.h"
 #include "optimize/stride_measures.h"
 
 namespace hoplab {
@@ -13,7 +14,21 @@ constexpr int kStrides = 20;
 // Further from its steady stride than this change from stride to stride Newton seldom finds it.
 constexpr double kNear = 0.05;
 // Newton's residual while searching: the point that is kept is found again to rounding.
-constexpr FixedPointOptions kRough{.tolerance = 1e-7, .max_iterations = 6};
+constexpr FixedPointOptions kRough{.tolerance = 1e-7, .max_iterations = 12};
+
+// Strides take some 500 steps of the integrator. Of a wide box every thirtieth run lands where it
+// takes a million and ends all the same, which was most of a search's time. Teeth with play are
+// stiff at their best.
+constexpr long kMostSteps = 2000L * kStrides;
+
+Hopper WithFewSteps(Hopper hopper) {
+  const RobotParameters<double>& robot = *hopper.request.parameters.robot;
+  for (int leg = 0; leg < robot.legs; ++leg)
+    if (Gear<double>::HasPlay(robot, leg)) return hopper;
+  long& most = hopper.request.integrator.max_steps;
+  most = std::min(most, kMostSteps);
+  return hopper;
+}
 
 double ChangeOf(const StrideMap& map, const SectionState& from, const SectionState& to) {
   const std::vector<SectionComponent> components = map.Components(from);
@@ -74,25 +89,30 @@ StrideEnd EndOfStrides(const Hopper& hopper) {
   return {start.outcome != Outcome::kCompleted, ChangeAt(start) <= kSettled};
 }
 
-void ScoreStride(const SearchProblem& problem, const Hopper& hopper, SearchPoint& point) {
+void ScoreStride(const SearchProblem& problem, const Hopper& at, SearchPoint& point) {
+  const Hopper hopper = WithFewSteps(at);
   StrideStart start = StartStrides(hopper, kStrides);
   point.outcome = start.outcome;
-  if (start.outcome != Outcome::kCompleted || !start.map)
-    return SetVerdict(point, PointVerdict::kRunEnded, 1.0 - start.strides / kStrides);
+  const bool fell = start.outcome != Outcome::kCompleted;
+  const double left = 1.0 - start.strides / kStrides;
+  if (!start.map) return SetVerdict(point, PointVerdict::kRunEnded, left);
   const double change = ChangeAt(start);
-  FixedPoint steady;
-  if (change <= kNear) steady = FindFixedPoint(*start.map, start.state, kRough);
+  const FixedPoint steady = FindFixedPoint(*start.map, start.state, kRough);
   if (!steady.found())
-    return SetVerdict(point, PointVerdict::kNoConvergence, 0.5 + 0.5 * Squash(change));
+    return fell ? SetVerdict(point, PointVerdict::kRunEnded, left)
+                : SetVerdict(point, PointVerdict::kNoConvergence, 0.5 + 0.5 * Squash(change));
   const StrideMeasures stride = MeasureStride(*start.map, steady.state);
   point.spectral_radius = steady.spectral_radius;
   point.speed = stride.speed;
   point.torque = stride.peak_torque;
   point.cost_of_transport = stride.cost_of_transport;
   point.gait = NameOf(stride.kind);
+  // A stride that falls, or from which the start leads elsewhere, tells how far it is from a gait.
   if (!steady.stable())
     return SetVerdict(point, PointVerdict::kNoConvergence,
-                      0.5 * Squash(point.spectral_radius - 1.0));
+                      0.1 + 0.4 * Squash(point.spectral_radius - 1.0));
+  if (fell || !(change <= kNear || EndOfStrides(hopper).settled))
+    return SetVerdict(point, PointVerdict::kNoConvergence, 0.1 * std::max(left, 0.0));
   if (const double broken = Violation(problem.constraints, point); broken > 0.0)
     return SetVerdict(point, PointVerdict::kConstraint, Squash(broken));
   const Worth worth = WorthOf(problem.objective, point);
