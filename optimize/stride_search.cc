@@ -14,7 +14,7 @@ constexpr int kStrides = 20;
 // Further from its steady stride than this change from stride to stride Newton seldom finds it.
 constexpr double kNear = 0.05;
 // Newton's residual while searching: the point that is kept is found again to rounding.
-constexpr FixedPointOptions kRough{.tolerance = 1e-7, .max_iterations = 12};
+constexpr FixedPointOptions kRough{.tolerance = 1e-7, .max_iterations = 6};
 
 // Strides take some 500 steps of the integrator. Of a wide box every thirtieth run lands where it
 // takes a million and ends all the same, which was most of a search's time. Teeth with play are
