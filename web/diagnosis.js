@@ -69,13 +69,17 @@ function causesPart(causes, extension) {
     shareText(c.share), isNumber(c.probability) ? c.probability.toFixed(2) : notComputed,
     ...channels.map((ch) => (isNumber(c.held_out_rmse_without[ch]) ? quantity(c.held_out_rmse_without[ch], unit(ch), 3) : notComputed))];
   const heads = ['size', 'explains', 'P', ...channels.map((ch) => `without it, ${splitUnit(ch).name}`)];
-  const [main, small] = [causes.filter((c) => c.main), causes.filter((c) => !c.main)];
+  const [main, small] = [causes.filter((c) => c.main), causes.filter((c) => !c.main && !c.stands_in)];
+  const doubted = (cs) => cs.map((c) => `${causeText({...c, effect: c.name})} (${shareText(c.share)}, P ${isNumber(c.probability) ? c.probability.toFixed(2) : notComputed})`).join(', ');
+  const [needed, leftOut] = [causes.filter((c) => c.stands_in), list(run.set_aside)];
   const align = `llrr${'r'.repeat(channels.length)}`;
   const left = Object.entries(run.left ?? {}).filter(([, l]) => isNumber(l?.amplitude) && l.amplitude > 0);
   const asked = causes.map((c) => c.name);
   return section(main.length ? 'The causes' : 'Small corrections',
     main.length ? dataTable(['main cause', ...heads], main.map(row), align, 'What each cause explains, and the held-out errors without it') : undefined,
     small.length ? details('Small corrections the data also want, which may stand for details of the model', dataTable(['cause', ...heads], small.map(row), align)) : undefined,
+    needed.length ? paragraph(`The model needs them, but most likely in place of something not listed: ${doubted(needed)}.`) : undefined,
+    leftOut.length ? paragraph(`Left out, since they would explain a little more and most likely do not act: ${doubted(leftOut)}.`) : undefined,
     ...causes.flatMap((c) => list(c.varies).filter((v) => v.told || !v.refitted).map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
       paragraph(variesText(v)),
       dataTable(['trial', v.name], v.trials.map((t) => [t.trial, quantity(t.value, v.unit, 3)]), 'lr')))),
