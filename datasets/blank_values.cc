@@ -1,6 +1,7 @@
 #include "datasets/blank_values.h"
 
 #include <optional>
+#include <utility>
 
 #include "base/input_error.h"
 #include "datasets/read_spec.h"
@@ -9,6 +10,12 @@ namespace hoplab {
 
 const char* const kTouchdownAngleHint =
     "toe ahead positive: from the set-up or a still of the film";
+const char* const kHipHint = "[x, y] of its hip in m, ahead of and above the body's point";
+const char* const kMotorsHint =
+    "what the motors did: {type: held, angles_rad: [0.6, 0.4]}, or a clock";
+const char* const kMotorAnglesHint = "where the motors begin, in rad, hindmost first";
+const char* const kRobotStartHint =
+    "{x_m, y_m, vx_m_per_s, vy_m_per_s, pitch_rad, pitch_rate_rad_per_s} at the first row";
 
 const std::vector<NeededValue>& NeededValues(MechanismKind type) {
   static const std::vector<NeededValue> kCLeg = {
@@ -39,12 +46,18 @@ const std::vector<NeededValue>& NeededValues(MechanismKind type) {
       {"body_mass_kg", "all of the robot: weigh it"},
       {"gravity_m_per_s2", "9.81, less under a counterweight"},
       {"pitch_inertia_kg_m2", "about the centre of mass: swing it from a hip and time it"},
+      {"friction", "under the feet; without it they hold", true},
       {"motor.rotor_inertia_kg_m2", "of the rotor, times the square of the gear: a data sheet"},
       {"motor.kp_N_m_per_rad", "of the controller that holds the motor's angle"},
       {"motor.kd_N_m_s_per_rad", "likewise"},
+      {"motor.torque_limit_N_m", "of each motor; without it they give any", true},
       {"leg.rest_radius_m", "half the distance from hip to toe, unloaded"},
       {"leg.E_Pa", "of the strip, the start of the fit: a data sheet will do"},
+      {"leg.width_m", "of the strip, of legs that are one here the sum: calliper"},
+      {"leg.thickness_m", "of the strip, in the plane of motion: calliper"},
       {"leg.material_damping_s", "the start of the fit: 0.0004 will do"},
+      {"leg.clamp_m", "what the hub holds rigid of each leg; without it 0", true},
+      {"leg.mass_kg", "of each leg, beside the body's: weigh it; without it 0", true},
   };
   if (type == MechanismKind::kRobot) return kRobot;
   return type == MechanismKind::kCLeg ? kCLeg : type == MechanismKind::kBall ? kBall : kStraight;
@@ -71,6 +84,25 @@ bool IsBlank(const YamlNode* node) {
   return node != nullptr && node->kind == YamlNode::Kind::kNull;
 }
 
+void FindBlanksOfLegs(const YamlNode& mechanism, std::vector<BlankValue>* blanks) {
+  const YamlNode* legs = mechanism.Find("legs");
+  if (legs == nullptr) return;
+  for (std::size_t i = 0; i < legs->items.size(); ++i) {
+    const YamlNode* hip = legs->items[i].Find("hip_m");
+    if (IsBlank(hip))
+      blanks->push_back({hip->place, "mechanism.legs[" + std::to_string(i) + "].hip_m", kHipHint});
+  }
+}
+
+// What each trial of a mechanism needs, and its hint.
+std::vector<std::pair<std::string, const char*>> KeysOfTrials(MechanismKind type) {
+  if (type == MechanismKind::kBall) return {};
+  if (type != MechanismKind::kRobot) return {{"touchdown_angle_deg", kTouchdownAngleHint}};
+  return {{"controller", kMotorsHint},
+          {"controller.angles_rad", kMotorAnglesHint},
+          {"initial", kRobotStartHint}};
+}
+
 }  // namespace
 
 std::vector<BlankValue> FindBlankValues(const YamlNode& dataset) {
@@ -83,15 +115,15 @@ std::vector<BlankValue> FindBlankValues(const YamlNode& dataset) {
     const YamlNode* node = FindDotted(*mechanism, needed.key);
     if (IsBlank(node)) blanks.push_back({node->place, "mechanism." + needed.key, needed.hint});
   }
+  if (*type == MechanismKind::kRobot) FindBlanksOfLegs(*mechanism, &blanks);
   const YamlNode* trials = dataset.Find("trials");
-  if (trials == nullptr || *type == MechanismKind::kBall || *type == MechanismKind::kRobot)
-    return blanks;
-  for (std::size_t i = 0; i < trials->items.size(); ++i) {
-    const YamlNode* angle = trials->items[i].Find("touchdown_angle_deg");
-    if (IsBlank(angle))
-      blanks.push_back({angle->place, "trials[" + std::to_string(i) + "].touchdown_angle_deg",
-                        kTouchdownAngleHint});
-  }
+  if (trials == nullptr) return blanks;
+  for (std::size_t i = 0; i < trials->items.size(); ++i)
+    for (const auto& [key, hint] : KeysOfTrials(*type)) {
+      const YamlNode* node = FindDotted(trials->items[i], key);
+      if (IsBlank(node))
+        blanks.push_back({node->place, "trials[" + std::to_string(i) + "]." + key, hint});
+    }
   return blanks;
 }
 

@@ -14,14 +14,16 @@ Json ImportRecord(const ImportRequest& request, const ImportSettings& settings,
                     {"zero_time", settings.zero_time},
                     {"mend_times", settings.mend_times},
                     {"rate_hz", NumberOrNull(settings.rate_hz)},
-                    {"type", settings.type},
+                    {"type", NameOf(made.type)},
+                    {"legs", made.legs > 0 ? Json(made.legs) : Json()},
+                    {"unit", settings.unit},
                     {"set", settings.set}};
   Json record = NewRecord(header);
   record["notes"] = made.notes;
   record["columns"] = Json::array();
   for (std::size_t i = 0; i < made.columns.size(); ++i) {
     const MappedColumn& mapped = made.map.columns[i];
-    record["columns"].push_back({{"channel", TargetName(mapped.channel)},
+    record["columns"].push_back({{"channel", TargetName(mapped.target)},
                                  {"column", made.columns[i]},
                                  {"unit", mapped.unit.name},
                                  {"negated", mapped.negate},
@@ -32,7 +34,7 @@ Json ImportRecord(const ImportRequest& request, const ImportSettings& settings,
   record["trials"] = Json::array();
   for (const ImportedLog& log : made.logs) {
     Json missing = Json::object();
-    for (const auto& [channel, count] : log.trace.missing) missing[ChannelName(channel)] = count;
+    for (const auto& [target, count] : log.trace.missing) missing[TargetName(target)] = count;
     record["trials"].push_back({{"file", log.file},
                                 {"source", log.source},
                                 {"format", log.format},

@@ -17,7 +17,7 @@ std::vector<std::string> MapTable(const ImportResult& made) {
   table.AddRow({"channel", "column", "in", "", "why"});
   for (std::size_t i = 0; i < made.columns.size(); ++i) {
     const MappedColumn& mapped = made.map.columns[i];
-    table.AddRow({TargetName(mapped.channel),
+    table.AddRow({TargetName(mapped.target),
                   (mapped.negate ? "-" : "") + Printable(made.columns[i]), mapped.unit.name,
                   mapped.guessed ? "guessed" : "", mapped.guessed ? mapped.why : ""});
   }
@@ -35,12 +35,20 @@ std::string ShellWord(const std::string& text) {
   return quoted + "'";
 }
 
+// "robot, 2 legs"; nothing of a hopper, which is what is taken for granted.
+std::string MechanismLine(const std::string& begin, const ImportResult& made) {
+  if (made.legs == 0) return "";
+  return begin + NameOf(made.type) + ", " + std::to_string(made.legs) +
+         (made.legs == 1 ? " leg\n" : " legs\n");
+}
+
 }  // namespace
 
 std::string GuessesText(const ImportResult& made) {
   std::string text;
   for (const std::string& line : MapTable(made)) text += line + '\n';
   if (!made.unused.empty()) text += "  not used: " + Printable(Join(made.unused), 400) + '\n';
+  text += MechanismLine("  mechanism: ", made);
   text += "  in words:";
   for (const std::string& word : made.map_texts) text += " --map " + ShellWord(word);
   return text + '\n';
@@ -55,13 +63,14 @@ std::string ImportReport(const std::string& name, const std::string& out, const 
   trials.AddRow({"trial", "role", "from", "rows", "seconds", "missing samples"});
   for (const ImportedLog& log : made.logs) {
     std::string missing;
-    for (const auto& [channel, count] : log.trace.missing)
+    for (const auto& [target, count] : log.trace.missing)
       missing += (missing.empty() ? "" : ", ") + std::to_string(count) + " of " +
-                 WithoutUnit(ChannelName(channel));
+                 WithoutUnit(TargetName(target));
     trials.AddRow({log.file, RoleName(log.role), log.format, std::to_string(log.trace.rows),
                    Fixed(log.trace.last_s - log.trace.first_s, 3), missing});
   }
   text += WithHeader(trials.Lines(), colours) + '\n';
+  text += MechanismLine("  mechanism   ", made);
   text += "  dataset     " + out + '\n';
   if (made.blanks.empty()) return text;
   return text + "  to fill in  " + std::to_string(made.blanks.size()) + " values in " +

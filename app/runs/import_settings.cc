@@ -78,28 +78,47 @@ void AddShift(const std::string& text, TraceOptions* options) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos)
     throw UsageError("--shift: " + Printable(text) + "; must be CHANNEL=NUMBER:UNIT, as y=-35:mm");
-  const std::optional<Channel> channel = ChannelOfWord(text.substr(0, equals), "--shift");
+  const ColumnTarget target = TargetOfWord(text.substr(0, equals), "--shift");
   const std::string amount = text.substr(equals + 1);
   const std::size_t colon = std::min(amount.find(':'), amount.size());
   const std::string number(Trim(std::string_view(amount).substr(0, colon)));
   const std::optional<double> value = ParseDouble(number);
   if (!value || !std::isfinite(*value))
     throw UsageError("--shift: " + Printable(text) + "; must be CHANNEL=NUMBER:UNIT, as y=-35:mm");
-  const Dimension dimension = TargetDimension(channel);
+  const Dimension dimension = TargetDimension(target);
   const std::optional<LogUnit> unit = colon < amount.size()
                                           ? FindUnit(amount.substr(colon + 1))
                                           : FindUnit(UnitNames(dimension).front());
   if (!unit || unit->dimension != dimension)
     throw InputError({"--shift", Printable(text),
-                      TargetName(channel) + " is " + DimensionName(dimension),
+                      TargetName(target) + " is " + DimensionName(dimension),
                       "Units: " + Join(UnitNames(dimension)) + "."});
-  options->shifts[channel] = ToSi(number, *unit);
+  options->shifts[target] = ToSi(number, *unit);
 }
 
-MechanismKind TypeOf(const std::string& word) {
-  return word == "ball"           ? MechanismKind::kBall
-         : word == "straight_leg" ? MechanismKind::kStraightLeg
-                                  : MechanismKind::kCLeg;
+std::vector<std::string> TypeNames() {
+  std::vector<std::string> names;
+  for (const MechanismKind type : kMechanisms) names.emplace_back(NameOf(type));
+  return names;
+}
+
+// One a kind: "deg", "mm", "N m".
+std::vector<LogUnit> UnitsOf(const ImportSettings& settings) {
+  std::vector<LogUnit> units;
+  for (const std::string& text : settings.unit) {
+    const std::optional<LogUnit> unit = FindUnit(text);
+    if (!unit || unit->dimension == Dimension::kNone)
+      throw InputError({"--unit", Printable(text), "is no unit that is known",
+                        "As --unit deg, --unit mm or --unit 'N m'."});
+    for (const LogUnit& other : units)
+      if (other.dimension == unit->dimension)
+        throw InputError(
+            {"--unit", Printable(text),
+             std::string("is ") + DimensionName(unit->dimension) + ", and so is " + other.name,
+             "Say one for all, and the others by --map."});
+    units.push_back(*unit);
+  }
+  return units;
 }
 
 }  // namespace
@@ -121,10 +140,16 @@ void AddImportOptions(CLI::App& sub, ImportSettings& settings) {
        "Keep these seconds of the log's clock; each repetition makes a trial", "[FILE=]FROM:TO");
   list("--shift", settings.shift, "Add to a channel, as y=-35:mm", "CHANNEL=NUMBER[:UNIT]");
   sub.add_flag("--zero-time", settings.zero_time, "Let time begin at the first row kept");
+  sub.add_flag("--mend-times", settings.mend_times, "Mend repeated and swapped stamps");
   list("--role", settings.role, "train (default) or test", "FILE=ROLE");
-  sub.add_option("--type", settings.type, "c_leg (default), straight_leg or ball")
-      ->check(OneOf({"c_leg", "straight_leg", "ball"}))
+  list("--unit", settings.unit, "Of columns whose unit stands nowhere: deg, mm, 'N m'", "UNIT");
+  sub.add_option("--type", settings.type,
+                 "c_leg, straight_leg, ball or robot (default: robot or c_leg, by the columns)")
+      ->check(OneOf(TypeNames()))
       ->option_text("MECHANISM");
+  sub.add_option("--legs", settings.legs, "Of a robot (default: as many as have columns)")
+      ->check(CLI::Range(1, 4))
+      ->option_text("N");
   list("--set", settings.set, "A value a fit needs, as mechanism.body_mass_kg=1.01", "KEY=VALUE");
   sub.add_option("--format", settings.format,
                  "csv, motive, trc, sto, mat or hdf5 (default: by the file)")
@@ -141,7 +166,10 @@ void AddImportOptions(CLI::App& sub, ImportSettings& settings) {
 ImportRequest ImportRequestOf(const ImportSettings& settings) {
   ImportRequest request;
   request.logs = LogsOf(settings);
-  request.type = TypeOf(settings.type);
+  for (const MechanismKind type : kMechanisms)
+    if (settings.type == NameOf(type)) request.type = type;
+  request.legs = settings.legs;
+  request.units = UnitsOf(settings);
   request.name = settings.name;
   if (request.name.empty()) {
     std::filesystem::path folder(settings.out);

@@ -11,9 +11,10 @@ namespace hoplab {
 
 /// What the command line of `hoplab import` says.
 struct ImportSettings {
-  std::vector<std::string> logs, map, cut, role, shift, set;
+  std::vector<std::string> logs, map, cut, role, shift, set, unit;
   std::string out, name, format;
-  std::string type = "c_leg";
+  std::string type;  // empty: as the columns are
+  std::optional<int> legs;
   std::optional<double> rate_hz;
   bool accept_guesses = false, zero_time = false, mend_times = false, force = false, json = false;
 };

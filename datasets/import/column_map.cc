@@ -11,28 +11,6 @@
 namespace hoplab {
 namespace {
 
-using Target = std::optional<Channel>;
-
-struct Word {
-  std::string_view text;
-  Target target;
-};
-
-const std::vector<Word>& Words() {
-  static const std::vector<Word> kWords = [] {
-    std::vector<Word> words = {
-        {"t", std::nullopt}, {"time", std::nullopt}, {"time_s", std::nullopt}};
-    for (const Channel channel : RecordedChannels())
-      if (const std::string_view word = InfoOf(channel).word; !word.empty())
-        words.push_back({word, channel});
-    return words;
-  }();
-  return kWords;
-}
-
-// "body_y" of "body_y_m".
-std::string WithoutUnit(Channel id) { return SplitTitle(ChannelName(id)).stem; }
-
 std::string Shown(const Table& table) {
   std::vector<std::string> names;
   for (const SourceColumn& column : table.columns) names.push_back(column.name);
@@ -104,22 +82,24 @@ std::pair<std::size_t, bool> FindSigned(const Table& table, const MapEntry& entr
 
 [[noreturn]] void FailUnit(const Table& table, const MappedColumn& mapped, const std::string& unit,
                            const std::string& rule) {
-  const Dimension wanted = TargetDimension(mapped.channel);
-  throw InputError({table.file,
-                    "column " + Printable(table.columns[mapped.column].name) +
-                        (unit.empty() ? "" : " in " + Printable(unit)),
-                    rule,
-                    "Units of " + std::string(DimensionName(wanted)).substr(2) + ": " +
-                        Join(UnitNames(wanted)) + "; say which, as --map " +
-                        MapText(table, mapped) + "."});
+  const Dimension wanted = TargetDimension(mapped.target);
+  throw InputError(
+      {table.file,
+       "column " + Printable(table.columns[mapped.column].name) +
+           (unit.empty() ? "" : " in " + Printable(unit)),
+       rule,
+       "Units of " + std::string(DimensionName(wanted)).substr(2) + ": " + Join(UnitNames(wanted)) +
+           "; say which, as --map " + MapText(table, mapped) +
+           (unit.empty() ? ", or --unit '" + UnitNames(wanted).front() + "' for all without one."
+                         : ".")});
 }
 
 // The unit of a column: what the user says, else what the file says of it or of all such columns,
 // else a guess.
 void FindUnitOf(const Table& table, const std::string& said, ColumnMap* map, MappedColumn* mapped) {
-  const Dimension wanted = TargetDimension(mapped->channel);
-  const std::string target = TargetName(mapped->channel);
-  if (mapped->channel && IsContact(*mapped->channel)) {
+  const Dimension wanted = TargetDimension(mapped->target);
+  const std::string target = TargetName(mapped->target);
+  if (mapped->target.channel && IsContact(*mapped->target.channel)) {
     mapped->unit = *FindUnit("1");
     return;
   }
@@ -158,24 +138,12 @@ void FindUnitOf(const Table& table, const std::string& said, ColumnMap* map, Map
 void CheckTwice(const ColumnMap& map) {
   for (std::size_t i = 0; i < map.columns.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (map.columns[i].channel == map.columns[j].channel)
-        throw InputError({"--map", TargetName(map.columns[i].channel), "is given twice",
+      if (map.columns[i].target == map.columns[j].target)
+        throw InputError({"--map", TargetName(map.columns[i].target), "is given twice",
                           "Remove one of the two."});
 }
 
 }  // namespace
-
-std::optional<Channel> ChannelOfWord(const std::string& word, const std::string& place) {
-  std::vector<std::string> known;
-  for (const Word& w : Words()) {
-    if (word == w.text) return w.target;
-    known.emplace_back(w.text);
-  }
-  for (const Channel id : RecordedChannels())
-    if (word == ChannelName(id) || word == WithoutUnit(id)) return id;
-  throw InputError({place, Printable(word), "is no channel",
-                    "Known: " + Join(known) + ", and the names of the format, as body_y_m."});
-}
 
 std::optional<MapEntry> ParseMapEntry(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -192,17 +160,8 @@ std::optional<MapEntry> ParseMapEntry(const std::string& text) {
     entry.column.erase(0, 1);
   }
   if (entry.column.empty()) return std::nullopt;
-  entry.channel =
-      ChannelOfWord(std::string(Trim(std::string_view(text).substr(0, equals))), "--map");
+  entry.target = TargetOfWord(std::string(Trim(std::string_view(text).substr(0, equals))), "--map");
   return entry;
-}
-
-std::string TargetName(const std::optional<Channel>& channel) {
-  return channel ? ChannelName(*channel) : "time_s";
-}
-
-Dimension TargetDimension(const std::optional<Channel>& channel) {
-  return channel ? DimensionOf(*channel) : Dimension::kTime;
 }
 
 bool ColumnMap::HasGuesses() const {
@@ -210,19 +169,24 @@ bool ColumnMap::HasGuesses() const {
                      [](const MappedColumn& column) { return column.guessed; });
 }
 
+bool ColumnMap::IsRobots() const {
+  return std::any_of(columns.begin(), columns.end(),
+                     [](const MappedColumn& column) { return column.target.IsRobots(); });
+}
+
 ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entries,
-                         bool without_time) {
+                         bool without_time, std::optional<MechanismKind> type) {
   ColumnMap map;
   std::vector<std::pair<MappedColumn, std::string>> said;
   bool has_time = without_time;
   for (const MapEntry& entry : entries) {
     const auto [column, negate] = FindSigned(table, entry);
-    said.push_back({MappedColumn{entry.channel, column, negate}, entry.unit});
-    has_time = has_time || !entry.channel;
+    said.push_back({MappedColumn{entry.target, column, negate}, entry.unit});
+    has_time = has_time || entry.target.IsTime();
   }
   // Time first, then the height: guessed units of the others are told by them.
   const auto rank = [](const auto& s) {
-    return !s.first.channel ? 0 : s.first.channel == Channel::kBodyY ? 1 : 2;
+    return s.first.target.IsTime() ? 0 : s.first.target == Channel::kBodyY ? 1 : 2;
   };
   std::stable_sort(said.begin(), said.end(),
                    [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
@@ -232,14 +196,17 @@ ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entrie
     map.columns.push_back(mapped);
   }
   if (entries.empty()) {
-    for (MappedColumn guess : GuessChannels(table, map)) {
+    const Guesses guesses = GuessChannels(table, map, type);
+    map.warnings.insert(map.warnings.end(), guesses.notes.begin(), guesses.notes.end());
+    for (MappedColumn guess : guesses.columns) {
       if (guess.unit.name.empty()) FindUnitOf(table, "", &map, &guess);
       map.columns.push_back(guess);
     }
   }
   CheckTwice(map);
-  const auto channels = std::count_if(map.columns.begin(), map.columns.end(),
-                                      [](const MappedColumn& m) { return m.channel.has_value(); });
+  const auto channels =
+      std::count_if(map.columns.begin(), map.columns.end(),
+                    [](const MappedColumn& m) { return m.target.channel.has_value(); });
   if (channels == 0)
     throw InputError({table.file, "", "no column could be told to be a channel of a dataset",
                       "Name them, as --map t=COLUMN:ms --map y=COLUMN:mm; the columns are: " +
@@ -248,15 +215,9 @@ ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entrie
 }
 
 std::string MapText(const Table& table, const MappedColumn& mapped) {
-  std::string target = TargetName(mapped.channel);
-  for (const Word& word : Words())
-    if (word.target == mapped.channel) {
-      target = word.text;
-      break;
-    }
   const std::string& name = table.columns[mapped.column].name;
   const bool several = Candidates(table, name).size() != 1;
-  return target + "=" + (mapped.negate ? "-" : "") +
+  return WordOf(mapped.target) + "=" + (mapped.negate ? "-" : "") +
          (several ? "#" + std::to_string(mapped.column + 1) : name) +
          (mapped.unit.name.empty() || mapped.unit.dimension == Dimension::kNone
               ? ""

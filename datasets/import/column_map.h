@@ -4,14 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "base/mechanism_kind.h"
+#include "datasets/import/column_target.h"
 #include "datasets/import/table.h"
 
 namespace hoplab {
 
 /// What the user says of one channel: `y=-Z:mm`.
 struct MapEntry {
-  std::optional<Channel> channel;  // absent: time
-  std::string column;              // as the file has it, its title without unit, or #3
+  ColumnTarget target;
+  std::string column;  // as the file has it, its title without unit, or #3
   bool negate = false;
   std::string unit;  // empty: as the file says
 };
@@ -21,17 +23,10 @@ struct MapEntry {
 /// that does not exist.
 std::optional<MapEntry> ParseMapEntry(const std::string& text);
 
-/// A channel by a name of the command line: "y", "body_y", "body_y_m"; absent for time ("t").
-/// Throws InputError with `place` if there is none.
-std::optional<Channel> ChannelOfWord(const std::string& word, const std::string& place);
-/// "time_s" or the channel's name.
-std::string TargetName(const std::optional<Channel>& channel);
-Dimension TargetDimension(const std::optional<Channel>& channel);
-
-/// One channel and where its samples come from.
+/// One target and where its samples come from.
 struct MappedColumn {
-  std::optional<Channel> channel;  // absent: time
-  std::size_t column = 0;          // of the table
+  ColumnTarget target;
+  std::size_t column = 0;  // of the table
   bool negate = false;
   LogUnit unit;
   bool guessed = false;  // the column or its unit is neither in the file nor said by the user
@@ -43,14 +38,17 @@ struct ColumnMap {
   std::vector<MappedColumn> columns;
   std::vector<std::string> warnings;
   bool HasGuesses() const;
+  /// Whether a column is one that only a robot has.
+  bool IsRobots() const;
 };
 
 /// What the user's entries mean in this table; time, units and, if there are no entries, channels
-/// that they do not say are guessed. `without_time`: a sample rate stands in for the times. Throws
-/// InputError if a column is not there or is several, a unit does not belong to its channel, or
-/// there is nothing to guess from.
+/// that they do not say are guessed. `without_time`: a sample rate stands in for the times. Columns
+/// of a robot are guessed where `type` is one, and without `type` where a pitch and a leg's angle
+/// are among them. Throws InputError if a column is not there or is several, a unit does not belong
+/// to its channel, or there is nothing to guess from.
 ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entries,
-                         bool without_time);
+                         bool without_time, std::optional<MechanismKind> type = std::nullopt);
 
 /// The --map option that says the same as `mapped` of `table`: "y=-Z:mm".
 std::string MapText(const Table& table, const MappedColumn& mapped);

@@ -1,73 +1,15 @@
 #include "datasets/import/guess_columns.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 
-#include "base/input_error.h"
-#include "base/text.h"
-#include "datasets/import/text_rows.h"
+#include "datasets/import/column_numbers.h"
+#include "datasets/import/guess_robot.h"
 #include "datasets/suspect_things.h"
 
 namespace hoplab {
 namespace {
-
-constexpr double kGravity_m_per_s2 = 9.81;
-constexpr double kFallTolerance =
-    0.25;  // of gravity: noise, friction, windows that see some stance
-
-std::vector<double> Numbers(const Table& table, std::size_t column) {
-  std::vector<double> values;
-  values.reserve(table.columns[column].cells.size());
-  for (const std::string_view cell : table.columns[column].cells)
-    values.push_back(ParseDouble(cell).value_or(std::nan("")));
-  return values;
-}
-
-double Factor(const LogUnit& unit) { return unit.factor * std::pow(10.0, unit.power_of_ten); }
-
-std::string Rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
-std::string LowerStem(const std::string& name) {
-  std::string stem = SplitTitle(name).stem;
-  std::transform(stem.begin(), stem.end(), stem.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return stem;
-}
-
-bool Increases(const Table& table, std::size_t column) {
-  const std::vector<double> values = Numbers(table, column);
-  if (values.size() < 2) return false;
-  for (std::size_t i = 1; i < values.size(); ++i)
-    if (!(values[i] > values[i - 1])) return false;
-  return true;
-}
-
-// Times in seconds by the map, or by sample number where a rate stands in for them.
-std::vector<double> Times(const Table& table, const ColumnMap& map) {
-  for (const MappedColumn& mapped : map.columns) {
-    if (mapped.channel) continue;
-    std::vector<double> times = Numbers(table, mapped.column);
-    for (double& t : times) t *= Factor(mapped.unit);
-    return times;
-  }
-  return {};
-}
-
-// How a column falls in free flight [m/s^2] if it is in metres; NaN if it cannot be told.
-double Fall(const Table& table, std::size_t column, const std::vector<double>& times) {
-  const std::vector<double> values = Numbers(table, column);
-  if (times.empty() || values.size() != times.size()) return std::nan("");
-  return ApparentGravity(times, values);
-}
-
-bool IsGravity(double fall) { return std::abs(fall / kGravity_m_per_s2 - 1) < kFallTolerance; }
 
 // ---- the parts of names
 
@@ -106,11 +48,20 @@ class ChannelGuesser {
     for (const MappedColumn& mapped : map.columns) used_.push_back(mapped.column);
   }
 
+  // A robot's columns first: what is a leg's is no hopper's. Its x keeps its sign, which goes with
+  // that of pitch and legs.
+  void TakeRobot(std::vector<MappedColumn> columns) {
+    for (const MappedColumn& column : columns) used_.push_back(column.column);
+    guesses_ = std::move(columns);
+    of_robot_ = true;
+  }
+
   std::vector<MappedColumn> Guess() {
     // Titles that leave no doubt, the format's own among them. Positions are told by how they move.
     for (const Channel channel : RecordedChannels()) GuessNamed(channel);
     const bool has_height = Has(Channel::kBodyY);
-    if (!has_height) GuessHeight();
+    if (!has_height && of_robot_) NameHeight();
+    if (!has_height && !height_) GuessHeight();
     if (!Has(Channel::kBodyX) && height_) GuessForward();
     return std::move(guesses_);
   }
@@ -118,7 +69,7 @@ class ChannelGuesser {
  private:
   bool Has(Channel channel) const {
     return std::any_of(guesses_.begin(), guesses_.end(),
-                       [&](const MappedColumn& g) { return g.channel == channel; });
+                       [&](const MappedColumn& g) { return g.target == channel; });
   }
 
   bool Free(std::size_t column) const {
@@ -186,8 +137,8 @@ class ChannelGuesser {
       }
       for (const LogUnit& unit : units) {
         // ApparentGravity looks for what falls; upside down it would rise.
-        const double fall = per_unit * Factor(unit);
-        const double rise = FallUpsideDown(i) * Factor(unit);
+        const double fall = per_unit * SiFactor(unit);
+        const double rise = FallUpsideDown(i) * SiFactor(unit);
         if (IsGravity(fall)) Better({i, unit, false, fall});
         if (IsGravity(rise)) Better({i, unit, true, rise});
       }
@@ -202,15 +153,37 @@ class ChannelGuesser {
     Take(guess);
   }
 
+  // A robot may walk without ever falling, and its legs brake it as if it fell along x. Of two
+  // coordinates of one thing, x and another, the other is the height; of three no name tells.
+  void NameHeight() {
+    std::vector<std::size_t> heights;
+    const std::vector<std::size_t> positions = Positions();
+    for (const std::size_t i : positions) {
+      const std::string stem = LowerStem(table_.columns[i].name);
+      if (!IsCoordinate(stem) || (stem.back() != 'y' && stem.back() != 'z')) continue;
+      std::string of_thing;  // the axes of the same thing
+      for (const std::size_t j : positions) {
+        const std::string other = LowerStem(table_.columns[j].name);
+        if (IsCoordinate(other) && ThingOf(other) == ThingOf(stem)) of_thing += other.back();
+      }
+      if (of_thing.size() == 2 && of_thing.find('x') != of_thing.npos) heights.push_back(i);
+    }
+    if (heights.size() != 1) return;
+    height_ = Height{heights[0], {}, false, 0};
+    MappedColumn guess{Channel::kBodyY, heights[0]};
+    guess.why = "the coordinate beside x";
+    Take(guess);
+  }
+
   double FallUpsideDown(std::size_t column) const {
-    std::vector<double> values = Numbers(table_, column);
+    std::vector<double> values = ColumnNumbers(table_, column);
     if (times_.empty() || values.size() != times_.size()) return std::nan("");
     for (double& v : values) v = -v;
     return ApparentGravity(times_, values);
   }
 
   void Better(const Height& candidate) {
-    const auto off = [](const Height& h) { return std::abs(h.fall / kGravity_m_per_s2 - 1); };
+    const auto off = [](const Height& h) { return FromGravity(h.fall); };
     // Several markers fall alike: a later one must be clearly nearer to take the place.
     if (!height_ || off(candidate) < off(*height_) - 0.05) height_ = candidate;
   }
@@ -227,7 +200,7 @@ class ChannelGuesser {
       if (travel.range <= furthest) continue;
       furthest = travel.range;
       guess.column = i;
-      guess.negate = travel.net < 0;
+      guess.negate = travel.net < 0 && !of_robot_;
     }
     if (furthest == 0) return;
     guess.why =
@@ -240,7 +213,7 @@ class ChannelGuesser {
     double range = 0, net = 0;  // in the column's unit
   };
   Travel TravelOf(std::size_t column) const {
-    const std::vector<double> all = Numbers(table_, column);
+    const std::vector<double> all = ColumnNumbers(table_, column);
     std::vector<double> values;
     std::copy_if(all.begin(), all.end(), std::back_inserter(values),
                  [](double v) { return std::isfinite(v); });
@@ -254,78 +227,23 @@ class ChannelGuesser {
   std::vector<std::size_t> used_;
   std::vector<MappedColumn> guesses_;
   std::optional<Height> height_;
+  bool of_robot_ = false;
 };
 
 }  // namespace
 
-MappedColumn GuessTime(const Table& table) {
-  static constexpr std::array<std::string_view, 8> kNames = {
-      "time_s", "time", "t", "timestamp", "zeit", "seconds", "elapsed", "sim_time"};
-  for (const std::string_view wanted : kNames) {
-    for (std::size_t i = 0; i < table.columns.size(); ++i) {
-      const std::string& name = table.columns[i].name;
-      std::string stem = LowerStem(name);
-      const std::size_t parent = stem.find_last_of("/.");  // log.t, /body/t
-      if (parent != stem.npos) stem.erase(0, parent + 1);
-      if (stem != wanted) continue;
-      MappedColumn time{std::nullopt, i};
-      time.guessed = name != "time_s" && table.units.count(Dimension::kTime) == 0;
-      time.why = time.guessed ? "is called so" : "the format's own name";
-      return time;
+Guesses GuessChannels(const Table& table, const ColumnMap& map, std::optional<MechanismKind> type) {
+  ChannelGuesser guesser(table, map);
+  Guesses guesses;
+  if (type.value_or(MechanismKind::kRobot) == MechanismKind::kRobot) {
+    Guesses robot = GuessRobot(table, map);
+    if (type || LooksLikeRobot(robot.columns)) {
+      guesser.TakeRobot(std::move(robot.columns));
+      guesses.notes = std::move(robot.notes);
     }
   }
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    const std::string stem = LowerStem(table.columns[i].name);
-    if (stem.starts_with("frame") || stem.starts_with("index") || !Increases(table, i)) continue;
-    const std::string& unit = table.columns[i].unit;
-    if (!unit.empty() && (!FindUnit(unit) || FindUnit(unit)->dimension != Dimension::kTime))
-      continue;
-    MappedColumn time{std::nullopt, i};
-    time.guessed = true;
-    time.why = "the first column that increases throughout";
-    return time;
-  }
-  throw InputError({table.file, "", "no column could be told to be the time",
-                    "Name it, as --map t=COLUMN:ms, or give the sample rate, as --rate 500."});
-}
-
-std::vector<MappedColumn> GuessChannels(const Table& table, const ColumnMap& map) {
-  return ChannelGuesser(table, map).Guess();
-}
-
-std::optional<GuessedUnit> GuessUnit(const Table& table, const ColumnMap& map,
-                                     const MappedColumn& mapped) {
-  if (!mapped.channel) {
-    std::vector<double> times = Numbers(table, mapped.column);
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
-    if (steps.empty()) return std::nullopt;
-    std::nth_element(steps.begin(), steps.begin() + static_cast<long>(steps.size() / 2),
-                     steps.end());
-    const double step = steps[steps.size() / 2];
-    // A hop lasts some tenths of a second and is sampled a hundred to some thousand times a second.
-    const std::string why = "a sample every " + Rounded(step);
-    if (step >= 5e-5 && step < 0.1) return GuessedUnit{*FindUnit("s"), why};
-    if (step >= 0.1 && step < 50) return GuessedUnit{*FindUnit("ms"), why};
-    if (step >= 50 && step < 50'000) return GuessedUnit{*FindUnit("us"), why};
-    if (step >= 50'000) return GuessedUnit{*FindUnit("ns"), why};
-    return std::nullopt;
-  }
-  if (TargetDimension(mapped.channel) != Dimension::kLength) return std::nullopt;
-  if (mapped.channel == Channel::kBodyY) {
-    const double per_unit = Fall(table, mapped.column, Times(table, map));
-    for (const char* name : {"m", "mm", "cm"}) {
-      const LogUnit unit = *FindUnit(name);
-      const double fall = per_unit * Factor(unit);
-      if (IsGravity(fall))
-        return GuessedUnit{
-            unit, "falls at " + Rounded(fall) + " m/s^2 in flight if it is in " + unit.name};
-    }
-  }
-  for (const MappedColumn& other : map.columns)
-    if (TargetDimension(other.channel) == Dimension::kLength)
-      return GuessedUnit{other.unit, "as " + table.columns[other.column].name};
-  return std::nullopt;
+  guesses.columns = guesser.Guess();
+  return guesses;
 }
 
 }  // namespace hoplab

@@ -16,9 +16,14 @@ namespace hoplab {
 /// InputError if there is none.
 MappedColumn GuessTime(const Table& table);
 
+struct Guesses {
+  std::vector<MappedColumn> columns;
+  std::vector<std::string> notes;  // what was not taken, and why
+};
+
 /// Channels by what their columns are called and how they move. `map` has the time. A channel's
-/// unit is left empty where the file states it.
-std::vector<MappedColumn> GuessChannels(const Table& table, const ColumnMap& map);
+/// unit is left empty where the file states it. Those of a robot: as ResolveColumns has it.
+Guesses GuessChannels(const Table& table, const ColumnMap& map, std::optional<MechanismKind> type);
 
 struct GuessedUnit {
   LogUnit unit;

@@ -30,7 +30,10 @@ struct ImportRequest {
   std::vector<MapEntry> map;        // empty: all is guessed
   TraceOptions options;             // but for the cuts, which are the logs'
   std::string name;                 // of the dataset
-  MechanismKind type = MechanismKind::kCLeg;
+  /// Absent: a robot where columns are those of one, else a C-leg.
+  std::optional<MechanismKind> type;
+  std::optional<int> legs;     // of a robot; absent: as many as have columns
+  std::vector<LogUnit> units;  // of columns whose unit stands nowhere, one a kind
   /// Values for keys that would be left blank: {"mechanism.body_mass_kg", "1.01"},
   /// {"trials.0.touchdown_angle_deg", "25"}.
   std::vector<std::pair<std::string, std::string>> values;
@@ -46,6 +49,8 @@ struct ImportedLog {
 
 struct ImportResult {
   std::map<std::string, std::string> files;  // the dataset's, by name
+  MechanismKind type = MechanismKind::kCLeg;
+  int legs = 0;  // of a robot
   std::vector<ImportedLog> logs;
   ColumnMap map;                       // of the first log, which the others follow
   std::vector<std::string> columns;    // names of the mapped columns, in the order of `map`

@@ -18,20 +18,18 @@ class TraceBuilder {
   TraceBuilder(const Table& table, const ColumnMap& map, const TraceOptions& options)
       : table_(table), options_(options) {
     for (const MappedColumn& mapped : map.columns)
-      if (mapped.channel) {
+      if (!mapped.target.IsTime()) {
         channels_.push_back(&mapped);
       } else {
         time_ = &mapped;
       }
-    std::sort(channels_.begin(), channels_.end(), [](const MappedColumn* a, const MappedColumn* b) {
-      return *a->channel < *b->channel;
-    });
+    std::sort(channels_.begin(), channels_.end(),
+              [](const MappedColumn* a, const MappedColumn* b) { return a->target < b->target; });
   }
 
   ImportedTrace Build() {
     trace_.csv = "time_s";
-    for (const MappedColumn* mapped : channels_)
-      trace_.csv += std::string(",") + ChannelName(*mapped->channel);
+    for (const MappedColumn* mapped : channels_) trace_.csv += "," + TargetName(mapped->target);
     trace_.csv += "\n";
     std::vector<StampedRow> rows = RowsOfCut(CommonLength());
     if (options_.mend_times) Mend(rows);
@@ -82,7 +80,7 @@ class TraceBuilder {
       Fail(row, mapped, cell, "must be a finite number", "Leave the cell empty if it is missing.");
     std::string text = ToSi(cell, mapped.unit);
     if (mapped.negate) text = NegateDecimal(text);
-    const auto shift = options_.shifts.find(mapped.channel);
+    const auto shift = options_.shifts.find(mapped.target);
     if (shift == options_.shifts.end()) return text;
     return Sum(row, mapped, text, shift->second);
   }
@@ -170,7 +168,7 @@ class TraceBuilder {
     std::string line = time;
     for (const MappedColumn* mapped : channels_) {
       const std::string text = SiText(row, *mapped);
-      if (text.empty()) ++trace_.missing[*mapped->channel];
+      if (text.empty()) ++trace_.missing[mapped->target];
       if (!text.empty()) CheckSample(row, *mapped, *ParseDouble(text));
       line += "," + text;
     }
@@ -181,8 +179,8 @@ class TraceBuilder {
 
   void CheckSample(std::size_t row, const MappedColumn& mapped, double value) const {
     const std::string_view cell = table_.columns[mapped.column].cells[row];
-    const Range range = ChannelRange(*mapped.channel);
-    if (IsContact(*mapped.channel) && value != 0 && value != 1)
+    const Range range = TargetRange(mapped.target);
+    if (mapped.target.channel && IsContact(*mapped.target.channel) && value != 0 && value != 1)
       Fail(row, mapped, cell, "must be 0 or 1", "Write 1 while the leg is on the ground.");
     if (!range.Contains(value))
       Fail(row, mapped, std::string(cell) + " " + mapped.unit.name, "must be in " + range.Text(),

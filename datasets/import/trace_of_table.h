@@ -15,15 +15,15 @@ struct TraceOptions {
   std::optional<double> from_s, to_s;  // by the log's clock, both included
   bool zero_time = false;              // the first row kept is at 0
   bool mend_times = false;             // repeated and swapped stamps are mended, not refused
-  /// Added to a channel after its sign is changed: decimal text in SI units; absent key: time.
-  std::map<std::optional<Channel>, std::string> shifts;
+  /// Added to a column after its sign is changed: decimal text in SI units.
+  std::map<ColumnTarget, std::string> shifts;
 };
 
 struct ImportedTrace {
-  std::string csv;  // of a trial, channels in the order of Channel
+  std::string csv;  // of a trial, in the order of ColumnTarget
   std::size_t rows = 0;
-  double first_s = 0, last_s = 0;          // as in csv
-  std::map<Channel, std::size_t> missing;  // samples
+  double first_s = 0, last_s = 0;               // as in csv
+  std::map<ColumnTarget, std::size_t> missing;  // samples
   MendedTimes mended;
 };
 

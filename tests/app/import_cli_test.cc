@@ -154,6 +154,23 @@ TEST_F(ImportCli, OptionsThatNameWhatIsNotThereAreBadInput) {
   EXPECT_EQ(CountEntries(temp_.path()), 1);
 }
 
+// An option that messages tell of, and pages.
+TEST_F(ImportCli, StampsAreMendedWhereThatIsAsked) {
+  std::string text = ReadText(temp_.path() / "drop.csv");
+  const std::size_t row = text.find('\n', text.find('\n') + 1) + 1;
+  text.insert(row, text.substr(row, text.find('\n', row) + 1 - row));  // a row written twice
+  WriteText(temp_.path() / "drop.csv", text);
+  std::vector<std::string> call = {"import", "drop.csv", "--accept-guesses", "--out", "d"};
+  call.insert(call.end(), {"--map", "t=Time:ms", "--map", "x=X:mm", "--map", "y=Z:mm"});
+  const ProcessResult refused = Hoplab(call);
+  EXPECT_EQ(refused.exit_code, 65);
+  EXPECT_TRUE(Says(refused.err, "or say --mend-times")) << refused.err;
+  call.emplace_back("--mend-times");
+  const ProcessResult mended = Hoplab(call);
+  EXPECT_EQ(mended.exit_code, 0) << mended.err;
+  EXPECT_TRUE(Says(ReadText(temp_.path() / "d" / "dataset.yaml"), "mended")) << mended.err;
+}
+
 TEST_F(ImportCli, TheHelpFitsAScreen) {
   const ProcessResult help = Hoplab({"import", "--help"});
   EXPECT_EQ(help.exit_code, 0);

@@ -43,7 +43,7 @@ class ImportMap : public ::testing::Test {
 
 TEST(ImportMapEntry, SignAndUnitAreTakenOff) {
   const MapEntry entry = ParseMapEntry("y=-hip Z:mm").value();
-  EXPECT_EQ(entry.channel, Channel::kBodyY);
+  EXPECT_EQ(entry.target, Channel::kBodyY);
   EXPECT_EQ(entry.column, "hip Z");
   EXPECT_EQ(entry.unit, "mm");
   EXPECT_TRUE(entry.negate);
@@ -53,7 +53,7 @@ TEST(ImportMapEntry, AColonThatNoUnitFollowsBelongsToTheName) {
   const MapEntry entry = ParseMapEntry("body_x_m=rig:Marker 1").value();
   EXPECT_EQ(entry.column, "rig:Marker 1");
   EXPECT_EQ(entry.unit, "");
-  EXPECT_FALSE(ParseMapEntry("t=Time:ms").value().channel);
+  EXPECT_TRUE(ParseMapEntry("t=Time:ms").value().target.IsTime());
 }
 
 TEST(ImportMapEntry, WhatIsNoEntryIsNone) {
