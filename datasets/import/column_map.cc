@@ -83,12 +83,13 @@ std::pair<std::size_t, bool> FindSigned(const Table& table, const MapEntry& entr
 [[noreturn]] void FailUnit(const Table& table, const MappedColumn& mapped, const std::string& unit,
                            const std::string& rule) {
   const Dimension wanted = TargetDimension(mapped.target);
+  const std::string kind = DimensionName(wanted);  // "an angle"
   throw InputError(
       {table.file,
        "column " + Printable(table.columns[mapped.column].name) +
            (unit.empty() ? "" : " in " + Printable(unit)),
        rule,
-       "Units of " + std::string(DimensionName(wanted)).substr(2) + ": " + Join(UnitNames(wanted)) +
+       "Units of " + kind.substr(kind.find(' ') + 1) + ": " + Join(UnitNames(wanted)) +
            "; say which, as --map " + MapText(table, mapped) +
            (unit.empty() ? ", or --unit '" + UnitNames(wanted).front() + "' for all without one."
                          : ".")});

@@ -184,7 +184,10 @@ TEST_F(ImportRobot, AUnitThatNothingTellsIsAskedFor) {
   const std::string error = InputErrorOf([&] {
     ImportFile(Log({"pitch", "q1", "q2", "tau_1"}), {});
   });
-  EXPECT_NE(error.find("column tau_1; its unit stands nowhere"), std::string::npos) << error;
+  EXPECT_NE(error.find("column tau_1; its unit stands nowhere and cannot be told from the numbers. "
+                       "Units of torque: "),
+            std::string::npos)
+      << error;
   EXPECT_NE(error.find("or --unit 'N m' for all"), std::string::npos) << error;
 }
 
