@@ -27,6 +27,12 @@ FittedModel Without(const FittedModel& model, const std::vector<SetAside>& membe
   return less;
 }
 
+bool IsInAGroup(const Naming& naming, int candidate) {
+  return std::any_of(naming.groups.begin(), naming.groups.end(), [&](const std::vector<int>& g) {
+    return std::find(g.begin(), g.end(), candidate) != g.end();
+  });
+}
+
 template <class T>
 void Erase(std::vector<T>& of_members, const std::vector<std::size_t>& descending) {
   for (const std::size_t i : descending)
@@ -40,8 +46,12 @@ bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_proble
   const FittedModel best = Without(naming.best, members, null_problem, settings);
   if (!best.ok()) return false;
   std::vector<std::size_t> places;
-  for (std::size_t i = naming.best_set.size(); i-- > 0;)
-    if (IsOneOf(members, naming.best_set[i])) places.push_back(i);
+  std::vector<int> as_good;  // they, and what does as well in their places
+  for (std::size_t i = naming.best_set.size(); i-- > 0;) {
+    if (!IsOneOf(members, naming.best_set[i])) continue;
+    places.push_back(i);
+    as_good.insert(as_good.end(), naming.groups[i].begin(), naming.groups[i].end());
+  }
   Erase(naming.best_set, places);
   Erase(naming.groups, places);
   Erase(naming.rivals, places);
@@ -61,8 +71,9 @@ bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_proble
     other = Without(other, members, null_problem, single);
   });
   naming.best = best;
-  for (const SetAside& m : members)
-    naming.candidates[static_cast<std::size_t>(m.candidate)].status = CandidateStatus::kNotNeeded;
+  for (const int i : as_good)
+    if (!IsInAGroup(naming, i))
+      naming.candidates[static_cast<std::size_t>(i)].status = CandidateStatus::kNotNeeded;
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -41,6 +42,29 @@ TEST(SetAside, WhereNoMainCauseIsLikelyAllStay) {
   EXPECT_TRUE(causes[0].main && causes[1].main);
 }
 
+// Only a small cause, only an unlikely one, and only beside a main one that is likely.
+TEST(SetAside, DoubtfulAreSmallUnlikelyCausesBesideALikelyOne) {
+  Naming naming;
+  FittedModel best;
+  for (int i = 0; i < 4; ++i) {
+    naming.best_set.push_back(i);
+    best.members.push_back(CandidateOf(testing::kSixEffects[static_cast<std::size_t>(i)]));
+  }
+  best.problem = Extend(best.problem, best.members);
+  best.shared = Eigen::Vector4d(1.0, 2.0, 3.0, 4.0);
+  ExtensionReport report;
+  report.causes = {Cause(0, true, 0.97), Cause(1, true, 0.1), Cause(2, false, 0.1),
+                   Cause(3, false, 0.6)};
+  FindStandIns(report.causes);
+  const std::vector<SetAside> doubtful = DoubtfulCorrections(report, best, naming);
+  ASSERT_EQ(doubtful.size(), 1u);
+  EXPECT_EQ(doubtful[0].candidate, 2);
+  EXPECT_EQ(doubtful[0].values, Eigen::VectorXd::Constant(1, 3.0));
+  EXPECT_EQ(doubtful[0].probability, 0.1);
+  for (CauseReport& c : report.causes) c.group_probability = 0.4;
+  EXPECT_TRUE(DoubtfulCorrections(report, best, naming).empty());
+}
+
 TEST(SetAside, AStandInSpoilsTheSurenessOfTheNames) {
   ExtensionReport report;
   report.causes = {Cause(0, true, 0.97), Cause(1, true, 0.1)};
@@ -60,6 +84,10 @@ TEST(SetAside, TakingAMemberOutGivesTheModelThatNeverHadIt) {
   ASSERT_EQ(n.best.members, (std::vector{delay, bias}));
   const int out = n.best_set[0], kept = n.best_set[1];
   const double was = n.best.cost;
+  // As if a third one did as well in its place.
+  const int third = (std::max(out, kept) + 1) % static_cast<int>(n.candidates.size());
+  n.groups[0] = {out, third};
+  n.candidates[static_cast<std::size_t>(third)].status = CandidateStatus::kIndistinguishable;
   ASSERT_TRUE(
       TakeOut({{out, delay, n.best.ValuesOf(0), 0.01, 0.1}}, fit.problem, fit.Settings(), n));
   EXPECT_EQ(n.best.members, std::vector{bias});
@@ -73,7 +101,9 @@ TEST(SetAside, TakingAMemberOutGivesTheModelThatNeverHadIt) {
   EXPECT_GT(n.best.cost, was + 10.0);
   EXPECT_NEAR(n.best.cost, fit.RefittedWith(bias).cost, 1e-3 * n.best.cost);
   EXPECT_TRUE(n.best.settled);
-  EXPECT_EQ(n.candidates[static_cast<std::size_t>(out)].status, CandidateStatus::kNotNeeded);
+  for (const int i : {out, third})
+    EXPECT_EQ(n.candidates[static_cast<std::size_t>(i)].status, CandidateStatus::kNotNeeded);
+  EXPECT_EQ(n.candidates[static_cast<std::size_t>(kept)].status, CandidateStatus::kSupported);
 }
 
 TEST(SetAside, AModelWithItIsNoLikelierThanItsName) {
