@@ -60,27 +60,33 @@ function variesText(v) {
   return `${text}. With these sizes the causes explain ${shareText(w.explained)} of the misfit instead of ${shareText(w.explained_one_size)}${errors.length ? `, held-out ${errors.join(', ')}` : ''} (${significant(w.evidence_nats, 2)} nats).`;
 }
 
+const chance = (p) => (isNumber(p) ? p.toFixed(2) : notComputed);
+
 // The extension taken apart: what each cause explains, how likely the name is, and the held-out error without it.
 function causesPart(causes, extension) {
   if (!causes.length) return undefined;
   const channels = Object.keys(causes[0].held_out_rmse_without);
   const unit = (c) => splitUnit(c).unit;
   const row = (c) => [causeText({...c, effect: c.name}), c.parameters.map((p) => `${p.name} = ${quantity(p.value, p.unit, 3)}`).join('; '),
-    shareText(c.share), isNumber(c.probability) ? c.probability.toFixed(2) : notComputed,
+    shareText(c.share), chance(c.probability),
     ...channels.map((ch) => (isNumber(c.held_out_rmse_without[ch]) ? quantity(c.held_out_rmse_without[ch], unit(ch), 3) : notComputed))];
   const heads = ['size', 'explains', 'P', ...channels.map((ch) => `without it, ${splitUnit(ch).name}`)];
-  const [main, small] = [causes.filter((c) => c.main), causes.filter((c) => !c.main)];
+  const [main, small] = [causes.filter((c) => c.main), causes.filter((c) => !c.main && !c.stands_in)];
+  const doubted = (cs) => cs.map((c) => `${causeText({...c, effect: c.name})} (${shareText(c.share)}, P ${chance(c.probability_group ?? c.probability)})`).join(', ');
+  const [needed, leftOut] = [causes.filter((c) => c.stands_in), list(run.set_aside)];
   const align = `llrr${'r'.repeat(channels.length)}`;
   const left = Object.entries(run.left ?? {}).filter(([, l]) => isNumber(l?.amplitude) && l.amplitude > 0);
   const asked = causes.map((c) => c.name);
   return section(main.length ? 'The causes' : 'Small corrections',
     main.length ? dataTable(['main cause', ...heads], main.map(row), align, 'What each cause explains, and the held-out errors without it') : undefined,
     small.length ? details('Small corrections the data also want, which may stand for details of the model', dataTable(['cause', ...heads], small.map(row), align)) : undefined,
+    needed.length ? paragraph(`The model needs them, but most likely in place of something not listed: ${doubted(needed)}.`) : undefined,
+    leftOut.length ? paragraph(`Left out, since they would explain a little more and most likely do not act: ${doubted(leftOut)}.`) : undefined,
     ...causes.flatMap((c) => list(c.varies).filter((v) => v.told || !v.refitted).map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
       paragraph(variesText(v)),
       dataTable(['trial', v.name], v.trials.map((t) => [t.trial, quantity(t.value, v.unit, 3)]), 'lr')))),
     otherModelsPart(extension),
-    paragraph(`Probability that the cause is outside the catalogue: ${isNumber(run.probability_unlisted) ? run.probability_unlisted.toFixed(2) : notComputed}.`),
+    paragraph(`Probability that the cause is outside the catalogue: ${chance(run.probability_unlisted)}.`),
     left.length && extension ? paragraph(`What is left is a smooth error of ${left.map(([ch, l]) => `${splitUnit(ch).name} ${quantity(l.amplitude, unit(ch), 3)} over ${quantity(l.time_scale_s, 's', 2)}`).join(', ')}: ${shareText(run.left_share ?? 0)} of the misfit.`) : undefined,
     explained(...asked, 'share', 'probability', 'main-cause', 'discrepancy'));
 }

@@ -54,8 +54,7 @@ extern constexpr Command import = {
     .name = "import",
     .what = "Make a dataset of recordings: CSV, Motive, OpenSim, MATLAB, HDF5",
     .footer =
-        "Channels: t x y vx vy ax ay leg_angle leg_length fx fy torque contact, ..\n"
-        "Of a robot: body_pitch leg_angle_1 hip_torque_1 contact_1 reference_1 told_torque_1, ..\n"
+        "Channels: t x y vx ax leg_angle fx torque body_pitch leg_angle_1 reference_1, ..\n"
         "Without --accept-guesses it shows what it would take for what.\n"
         "Examples:\n"
         "  hoplab import docs/tutorial/run-1.csv --accept-guesses --out mine\n"

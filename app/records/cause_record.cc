@@ -5,10 +5,8 @@
 namespace hoplab {
 namespace {
 
-Json ParametersOfMember(const FittedModel& e, std::size_t member) {
+Json SizesOfCause(const Candidate& c, const Eigen::VectorXd& values) {
   Json out = Json::array();
-  const Candidate& c = e.members[member];
-  const Eigen::VectorXd values = e.ValuesOf(static_cast<int>(member));
   for (int k = 0; k < c.parameter_count(); ++k) {
     const EffectParameter& p = c.Parameter(k);
     out.push_back({{"name", p.name}, {"unit", p.unit}, {"value", NumberOrNull(values[k])}});
@@ -110,10 +108,10 @@ Json CausesRecord(const Diagnosis& d) {
   for (const bool main : {true, false}) {
     for (const CauseReport& c : d.extension->causes) {
       if (c.main != main) continue;
-      const std::size_t member = d.naming.MemberOf(c.candidate);
+      const auto member = static_cast<int>(d.naming.MemberOf(c.candidate));
       out.push_back({{"name", c.cause.effect->info.name},
                      {"only_in_trial", TextOrNull(c.cause.only_recording)},
-                     {"parameters", ParametersOfMember(best, member)},
+                     {"parameters", SizesOfCause(c.cause, best.ValuesOf(member))},
                      {"probability", NumberOrNull(c.probability)},
                      {"probability_group", NumberOrNull(c.group_probability)},
                      {"probability_by_evidence", NumberOrNull(c.evidence_probability)},
@@ -121,12 +119,25 @@ Json CausesRecord(const Diagnosis& d) {
                      {"varies", VariesRecord(d, c)},
                      {"share", NumberOrNull(c.share)},
                      {"main", c.main},
+                     {"stands_in", c.stands_in},
                      {"held_out_rmse_without", ByChannel(d.problem, c.rmse_without)},
                      {"held_out_gain",
                       {{"nats_per_sample", NumberOrNull(c.gain.nats_per_sample)},
                        {"ci95", IntervalRecord(c.gain.ci95)}}}});
     }
   }
+  return out;
+}
+
+Json SetAsideRecord(const Diagnosis& d) {
+  Json out = Json::array();
+  if (!d.extension) return out;
+  for (const SetAside& s : d.extension->set_aside)
+    out.push_back({{"name", s.cause.effect->info.name},
+                   {"only_in_trial", TextOrNull(s.cause.only_recording)},
+                   {"parameters", SizesOfCause(s.cause, s.values)},
+                   {"probability", NumberOrNull(s.probability)},
+                   {"share", NumberOrNull(s.share)}});
   return out;
 }
 

@@ -11,6 +11,8 @@ Json MembersRecord(const std::vector<Candidate>& members);
 Json GroupsRecord(const Diagnosis& diagnosis);
 /// The causes of the extension, main ones first, the largest share first.
 Json CausesRecord(const Diagnosis& diagnosis);
+/// Corrections the data are told without, as their names are most likely wrong.
+Json SetAsideRecord(const Diagnosis& diagnosis);
 /// The models visited with their posterior weights, the best first.
 Json PosteriorRecord(const Diagnosis& diagnosis);
 

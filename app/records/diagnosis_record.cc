@@ -180,6 +180,7 @@ void AddModels(const DiagnosisRun& run, Json& record) {
   record["energy"] = EnergyRecord(run.energy);
   record["penalty_nats"] = d.naming.log_odds > 0.0 ? Json(d.naming.log_odds) : Json(nullptr);
   record["causes"] = CausesRecord(d);
+  record["set_aside"] = SetAsideRecord(d);
   record["probability_unlisted"] = NumberOrNull(d.UnlistedProbability());
   record["left"] = LeftRecord(d.naming.best.problem);
   record["left_share"] = NumberOrNull(d.left.share);

@@ -112,7 +112,8 @@ std::string SmallLine(const Diagnosis& d, bool colours) {
   std::vector<std::string> names;
   if (!d.extension->MainCauses().empty()) {
     for (const CauseReport& c : d.extension->causes) {
-      if (!c.main) names.push_back(CauseText(c.cause) + " (" + ShareText(c.share) + ")");
+      if (!c.main && !c.stands_in)
+        names.push_back(CauseText(c.cause) + " (" + ShareText(c.share) + ")");
     }
   }
   if (names.empty()) return "";
@@ -120,6 +121,29 @@ std::string SmallLine(const Diagnosis& d, bool colours) {
       "small",
       "corrections the data also want, which may stand for details of the model: " + Join(names),
       colours);
+}
+
+// What the model needs though its name is most likely wrong, and what it is told without.
+std::string DoubtedLines(const Diagnosis& d, bool colours) {
+  std::vector<std::string> needed, left_out;
+  for (const CauseReport& c : d.extension->causes) {
+    if (c.stands_in)
+      needed.push_back(fmt::format("{} ({}, P {:.2f})", CauseText(c.cause), ShareText(c.share),
+                                   c.group_probability));
+  }
+  for (const SetAside& s : d.extension->set_aside)
+    left_out.push_back(
+        fmt::format("{} ({}, P {:.2f})", CauseText(s.cause), ShareText(s.share), s.probability));
+  std::string text;
+  if (!needed.empty())
+    text += Labelled("stand-in",
+                     "needed, but most likely in place of something not listed: " + Join(needed),
+                     colours);
+  if (!left_out.empty())
+    text += Labelled("left out",
+                     "would explain a little more, but most likely does not act: " + Join(left_out),
+                     colours);
+  return text;
 }
 
 // "train-1.csv 0.3 N, ...", the first few.
@@ -269,7 +293,7 @@ std::string SureLine(const Diagnosis& d, bool colours) {
 
 std::string CauseLines(const Diagnosis& d, bool colours) {
   return CauseTable(d, colours) + MeaningLines(d, colours) + VariesLines(d, colours) +
-         SmallLine(d, colours) + OtherModelsLine(d, colours);
+         SmallLine(d, colours) + DoubtedLines(d, colours) + OtherModelsLine(d, colours);
 }
 
 std::string DoubtLines(const Diagnosis& d, bool colours) {

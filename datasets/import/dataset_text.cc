@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/text.h"
 #include "datasets/blank_values.h"
+#include "datasets/import/column_target.h"
 #include "datasets/import/robot_text.h"
 #include "datasets/read_spec.h"
 #include "datasets/write_dataset.h"

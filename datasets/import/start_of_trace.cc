@@ -1,7 +1,7 @@
 #include "datasets/import/start_of_trace.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -25,48 +25,18 @@ double SixDigits(double value) {
   return ParseDouble(text).value_or(value);
 }
 
-using Matrix = std::array<std::array<double, 6>, 3>;  // [A | 1]
-
-// The inverse of the left half, in the right one; false where there is none.
-bool Invert(Matrix& m) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::size_t pivot = i;
-    for (std::size_t j = i + 1; j < 3; ++j)
-      if (std::abs(m[j][i]) > std::abs(m[pivot][i])) pivot = j;
-    std::swap(m[i], m[pivot]);
-    if (std::abs(m[i][i]) < 1e-12) return false;
-    const double by = m[i][i];
-    for (double& value : m[i]) value /= by;
-    for (std::size_t j = 0; j < 3; ++j) {
-      const double times = m[j][i];
-      if (j == i) continue;
-      for (std::size_t k = 0; k < 6; ++k) m[j][k] -= times * m[i][k];
-    }
-  }
-  return true;
-}
-
 // The parabola through samples `v` at `u`, times in windows; nothing where they do not tell one.
-std::optional<Estimate> Parabola(const std::vector<double>& u, const std::vector<double>& v) {
-  Matrix normal = {};
-  std::array<double, 3> right = {}, c = {};
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    const std::array<double, 3> powers = {1, u[i], u[i] * u[i]};
-    for (std::size_t a = 0; a < 3; ++a) {
-      right[a] += powers[a] * v[i];
-      for (std::size_t b = 0; b < 3; ++b) normal[a][b] += powers[a] * powers[b];
-    }
-  }
-  for (std::size_t a = 0; a < 3; ++a) normal[a][3 + a] = 1;
-  if (!Invert(normal)) return std::nullopt;
-  for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t b = 0; b < 3; ++b) c[a] += normal[a][3 + b] * right[b];
-  double squares = 0;
-  for (std::size_t i = 0; i < u.size(); ++i)
-    squares += std::pow(v[i] - c[0] - u[i] * (c[1] + u[i] * c[2]), 2);
-  const double noise = std::sqrt(squares / static_cast<double>(u.size() - 3));
-  return Estimate{SixDigits(c[0]), SixDigits(c[1] / kWindow_s), 2 * noise * std::sqrt(normal[0][3]),
-                  2 * noise * std::sqrt(normal[1][4]) / kWindow_s};
+std::optional<Estimate> Parabola(const Eigen::VectorXd& u, const Eigen::VectorXd& v) {
+  Eigen::MatrixX3d powers(u.size(), 3);
+  powers << Eigen::VectorXd::Ones(u.size()), u, u.cwiseAbs2();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> qr(powers);
+  if (qr.rank() < 3) return std::nullopt;
+  const Eigen::Vector3d c = qr.solve(v);
+  const double noise = (v - powers * c).norm() / std::sqrt(static_cast<double>(u.size() - 3));
+  const Eigen::Matrix3d covariance = (powers.transpose() * powers).inverse();
+  return Estimate{SixDigits(c[0]), SixDigits(c[1] / kWindow_s),
+                  2 * noise * std::sqrt(covariance(0, 0)),
+                  2 * noise * std::sqrt(covariance(1, 1)) / kWindow_s};
 }
 
 std::optional<Estimate> Begin(const Trace& trace, Channel channel) {
@@ -81,7 +51,8 @@ std::optional<Estimate> Begin(const Trace& trace, Channel channel) {
     v.push_back((*values)[i]);
   }
   if (u.size() < kFewestSamples) return std::nullopt;
-  return Parabola(u, v);
+  const auto rows = static_cast<Eigen::Index>(u.size());
+  return Parabola(Eigen::VectorXd::Map(u.data(), rows), Eigen::VectorXd::Map(v.data(), rows));
 }
 
 double AtLeast(double least, double sigma) { return SixDigits(std::max(least, sigma)); }

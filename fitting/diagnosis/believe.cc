@@ -22,6 +22,11 @@ double Disagreement(const Heterogeneity& h) {
   return std::min(Rarity(h.p_value), kPlainRarity) * spread;
 }
 
+bool SomeMainIsLikely(const std::vector<CauseReport>& causes) {
+  return std::any_of(causes.begin(), causes.end(),
+                     [](const CauseReport& c) { return c.main && c.group_probability >= kLikely; });
+}
+
 }  // namespace
 
 void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
@@ -47,6 +52,26 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
     c.group_probability = CalibratedProbability(f);
     c.probability = c.group_probability * naming.group_weights[member].front();
   }
+}
+
+void FindStandIns(std::vector<CauseReport>& causes) {
+  if (!SomeMainIsLikely(causes)) return;
+  for (CauseReport& c : causes) {
+    c.stands_in = c.main && c.group_probability < kLikely;
+    c.main = c.main && !c.stands_in;
+  }
+}
+
+std::vector<SetAside> DoubtfulCorrections(const ExtensionReport& report, const FittedModel& best,
+                                          const Naming& naming) {
+  std::vector<SetAside> doubtful;
+  if (!SomeMainIsLikely(report.causes)) return doubtful;
+  for (const CauseReport& c : report.causes) {
+    if (c.main || c.stands_in || c.group_probability >= kLikely) continue;
+    const int member = static_cast<int>(naming.MemberOf(c.candidate));
+    doubtful.push_back({c.candidate, c.cause, best.ValuesOf(member), c.share, c.probability});
+  }
+  return doubtful;
 }
 
 }  // namespace hoplab

@@ -9,4 +9,11 @@ namespace hoplab {
 void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
              const std::vector<Heterogeneity>& sizes);
 
+/// Tells main causes from those that stand in for something else (CauseReport::stands_in).
+void FindStandIns(std::vector<CauseReport>& causes);
+
+/// The small corrections whose names are most likely wrong, where some main cause is likely right.
+std::vector<SetAside> DoubtfulCorrections(const ExtensionReport& report, const FittedModel& best,
+                                          const Naming& naming);
+
 }  // namespace hoplab

@@ -134,8 +134,34 @@ class Pipeline {
 
   // ---- extend, measure
   void Extended(const std::vector<Candidate>& candidates) {
+    ExtensionReport report = ReportOf(candidates, {});
+    FindStandIns(report.causes);
+    const std::vector<SetAside> doubtful = DoubtfulCorrections(report, d_.naming.best, d_.naming);
+    if (!doubtful.empty() && !Stopped()) {
+      Stage("taking out corrections that are most likely not what they say");
+      if (TakeOut(doubtful, d_.plain.problem, Settings(), d_.naming))
+        report = Retold(report, candidates, doubtful);
+    }
+    d_.extension = std::move(report);
+    MeasureSizes(*d_.extension, d_, Settings());
+    for (const CauseReport* c : d_.extension->ToldCauses()) {
+      const int member = static_cast<int>(d_.naming.MemberOf(c->candidate));
+      d_.extension->at_bound |= d_.naming.best.AtPhysicalBound(member);
+    }
+    MeasureCandidates();
+    for (const std::vector<FittedModel>& rivals : d_.naming.rivals) {
+      if (rivals.size() < 2 || d_.experiment) continue;
+      Stage("looking for the trial that would tell the causes apart");
+      d_.experiment = ProposeExperiment(rivals, train_, options_.fit.jobs);
+    }
+  }
+
+  // What the best extension is worth, without the sizes trial by trial.
+  ExtensionReport ReportOf(const std::vector<Candidate>& candidates,
+                           const std::vector<SetAside>& set_aside) {
     const FittedModel& best = d_.naming.best;
     ExtensionReport report;
+    report.set_aside = set_aside;
     report.uncertainty = AssessUncertainty(best.problem, train_, best.shared, best.starts,
                                            options_.fit.loss, options_.fit.jobs);
     report.after = MeasureHeldOut(best, options_.fit.jobs);
@@ -151,8 +177,8 @@ class Pipeline {
     const Linearisation at = LineariseAt(best, all, train_, options_.fit.jobs);
     report.remainder = Detect(at, others, basis_, Seed(kRemainderStream));
     report.other_models = OtherModelsOf(d_.naming, at, others);
+    Doubt(set_aside, report.other_models);
     HoldOtherModels(report.other_models, best, report.uncertainty);
-    RefitSettings settings = Settings();
     report.white_square = 2.0 * best.cost;
     report.explained = 1.0 - LeftShare(d_.detection, report.white_square, best.parameter_count());
     report.causes = TakeApart(d_.naming,
@@ -161,15 +187,30 @@ class Pipeline {
                                .after = &report.after,
                                .material = options_.material,
                                .seed = Seed(kBootstrapStream)},
-                              settings);
+                              Settings());
     Believe(report, d_, HeterogeneityOf(best, train_, options_.fit.jobs));
-    MeasureSizes(report, d_, settings);
-    for (const CauseReport* c : report.ToldCauses()) {
-      const std::size_t member = d_.naming.MemberOf(c->candidate);
-      report.at_bound = report.at_bound || best.AtPhysicalBound(static_cast<int>(member));
-    }
-    d_.extension = std::move(report);
+    return report;
+  }
 
+  // The extension without its doubtful corrections. How sure its names are was judged with them,
+  // as in the cases it was learnt from.
+  ExtensionReport Retold(const ExtensionReport& with, const std::vector<Candidate>& candidates,
+                         const std::vector<SetAside>& doubtful) {
+    ExtensionReport report = ReportOf(candidates, doubtful);
+    for (CauseReport& c : report.causes) {
+      const auto before =
+          std::find_if(with.causes.begin(), with.causes.end(),
+                       [&](const CauseReport& b) { return b.candidate == c.candidate; });
+      c.features = before->features;
+      c.probability = before->probability;
+      c.group_probability = before->group_probability;
+    }
+    FindStandIns(report.causes);
+    return report;
+  }
+
+  // Every candidate added alone.
+  void MeasureCandidates() {
     d_.candidate_gains.resize(d_.naming.candidates.size());
     double most = 0.0;
     for (const CandidateResult& c : d_.naming.candidates) most = std::max(most, c.gain);
@@ -180,11 +221,6 @@ class Pipeline {
       d_.candidate_gains[static_cast<std::size_t>(i)] = CompareHeldOut(
           d_.null, d_.before, MeasureHeldOut(c.alone, 1, true), Seed(kBootstrapStream), nullptr);
     });
-    for (const std::vector<FittedModel>& rivals : d_.naming.rivals) {
-      if (rivals.size() < 2 || d_.experiment) continue;
-      Stage("looking for the trial that would tell the causes apart");
-      d_.experiment = ProposeExperiment(rivals, train_, options_.fit.jobs);
-    }
   }
 
   // As free forces, what no cause explains.

@@ -16,6 +16,7 @@
 #include "fitting/diagnosis/other_models.h"
 #include "fitting/diagnosis/probes.h"
 #include "fitting/diagnosis/separate.h"
+#include "fitting/diagnosis/set_aside.h"
 #include "fitting/diagnosis/shares.h"
 #include "fitting/fit_dataset.h"
 #include "fitting/uncertainty.h"
@@ -117,6 +118,7 @@ struct ExtensionReport {
   bool at_bound = false;      // a told cause's size lies on a physical bound
 
   std::vector<CauseReport> causes;   // the members, the largest share first
+  std::vector<SetAside> set_aside;   // what the evidence wanted besides
   std::optional<SizesReport> sizes;  // absent where no told cause varies
   /// Whether the told cause's parameter `k` is told to differ between trials: it does to first
   /// order, and the refit, if it came to rest, pays.
@@ -128,8 +130,8 @@ struct ExtensionReport {
   std::vector<const CauseReport*> MainCauses() const;
   /// The main causes; all of them where none is main.
   std::vector<const CauseReport*> ToldCauses() const;
-  /// That every told cause is right, or a name that does as well: the least of them, since what
-  /// spoils one spoils all.
+  /// That every told cause is right, or a name that does as well, and nothing stands in for
+  /// another: the least of them, since what spoils one spoils all.
   double Probability() const;
   /// Nothing does as well in the place of a told cause.
   bool Alone(const Naming& naming) const;

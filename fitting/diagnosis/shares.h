@@ -22,7 +22,10 @@ struct CauseReport {
   /// Rise of the squared misfit without it over the fall from the plain model to the extension;
   /// shares of causes that overlap do not add to one.
   double share = 0.0;
-  bool main = false;                 // IsMainCause
+  bool main = false;  // IsMainCause, and not in place of something else
+  /// It would be main, and its name is most likely wrong, while that of another main cause is
+  /// likely right: the model needs it, so something acts that it stands in for.
+  bool stands_in = false;
   std::vector<double> rmse_without;  // held-out, per channel; NaN where not computed
   HeldOutGain gain;                  // held-out, of the extension over the model without it
   /// One a parameter: whether trials agree on its size.

@@ -141,6 +141,8 @@ bool ExtensionReport::TellsSizesOf(const CauseReport& cause, std::size_t k) cons
 double ExtensionReport::Probability() const {
   double least = 1.0;
   for (const CauseReport* c : ToldCauses()) least = std::min(least, c->group_probability);
+  for (const CauseReport& c : causes)
+    if (c.stands_in) least = std::min(least, c.group_probability);
   return least;
 }
 

@@ -65,6 +65,8 @@ TEST_F(DiagnoseCli, FindsASlipperyFloorThatNoSlopeTellsOf) {
     if (cause.at("main").get<bool>()) main.insert(cause.at("name"));
   }
   EXPECT_EQ(main, (std::set<std::string>{"leg_mass", "foot_coulomb_friction"}));
+  EXPECT_TRUE(diagnosis.at("set_aside").empty());
+  for (const auto& cause : diagnosis.at("causes")) EXPECT_FALSE(cause.at("stands_in").get<bool>());
 
   const ProcessResult fit = Hoplab({"fit", "slippery", "--with", "leg_mass,foot_coulomb_friction",
                                     "--json", "--quiet", "--out", "fit"});

@@ -178,8 +178,9 @@ TEST(ForeignRigs, CausesOfRigsDrawnAtRandom) {
   EXPECT_GE(count.right, 0.95 * count.main);
   EXPECT_GE(count.found, 0.95 * count.wanted);
   EXPECT_GE(count.near, 16);
-  // A known miss: rig 5 is out by 0.07 %, rig 14 by 0.01 %.
-  EXPECT_GE(count.covered, 16);
+  EXPECT_GE(count.covered, 17);
+  // Few names: what most likely does not act is left out (set_aside.h).
+  EXPECT_GE(count.small_right, 0.8 * count.small);
   // An interval that holds everything says nothing.
   EXPECT_LE(count.width / count.rigs, 0.01);
 }

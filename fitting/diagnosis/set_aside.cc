@@ -1,0 +1,91 @@
+#include "fitting/diagnosis/set_aside.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace hoplab {
+namespace {
+
+bool IsOneOf(const std::vector<SetAside>& members, int candidate) {
+  return std::any_of(members.begin(), members.end(),
+                     [&](const SetAside& m) { return m.candidate == candidate; });
+}
+
+// The same model without them; as it was where it has none of them or was not fitted.
+FittedModel Without(const FittedModel& model, const std::vector<SetAside>& members,
+                    const FitProblem& null_problem, const RefitSettings& settings) {
+  FittedModel less = model;
+  for (const SetAside& m : members) {
+    const auto at = std::find(less.members.begin(), less.members.end(), m.cause);
+    if (at == less.members.end() || !less.ok()) continue;
+    less = RefitWithout(less, static_cast<int>(at - less.members.begin()), null_problem, settings);
+    less.settled = false;
+  }
+  if (!less.settled) Settle(less, settings);
+  return less;
+}
+
+bool IsInAGroup(const Naming& naming, int candidate) {
+  return std::any_of(naming.groups.begin(), naming.groups.end(), [&](const std::vector<int>& g) {
+    return std::find(g.begin(), g.end(), candidate) != g.end();
+  });
+}
+
+template <class T>
+void Erase(std::vector<T>& of_members, const std::vector<std::size_t>& descending) {
+  for (const std::size_t i : descending)
+    of_members.erase(of_members.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
+}  // namespace
+
+bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_problem,
+             const RefitSettings& settings, Naming& naming) {
+  const FittedModel best = Without(naming.best, members, null_problem, settings);
+  if (!best.ok()) return false;
+  std::vector<std::size_t> places;
+  std::vector<int> as_good;  // they, and what does as well in their places
+  for (std::size_t i = naming.best_set.size(); i-- > 0;) {
+    if (!IsOneOf(members, naming.best_set[i])) continue;
+    places.push_back(i);
+    as_good.insert(as_good.end(), naming.groups[i].begin(), naming.groups[i].end());
+  }
+  Erase(naming.best_set, places);
+  Erase(naming.groups, places);
+  Erase(naming.rivals, places);
+  Erase(naming.group_weights, places);
+  Erase(naming.gaps, places);
+  Erase(naming.without, places);
+  std::vector<FittedModel*> others;
+  for (FittedModel& without : naming.without) others.push_back(&without);
+  for (std::vector<FittedModel>& group : naming.rivals) {
+    group.front() = best;
+    for (std::size_t k = 1; k < group.size(); ++k) others.push_back(&group[k]);
+  }
+  RefitSettings single = settings;
+  single.jobs = 1;
+  ParallelFor(static_cast<int>(others.size()), settings.jobs, [&](int i) {
+    FittedModel& other = *others[static_cast<std::size_t>(i)];
+    other = Without(other, members, null_problem, single);
+  });
+  naming.best = best;
+  for (const int i : as_good)
+    if (!IsInAGroup(naming, i))
+      naming.candidates[static_cast<std::size_t>(i)].status = CandidateStatus::kNotNeeded;
+  return true;
+}
+
+void Doubt(const std::vector<SetAside>& members, std::vector<OtherModel>& models) {
+  for (OtherModel& model : models) {
+    for (const SetAside& m : members) {
+      if (m.candidate != model.candidate) continue;
+      model.log_odds = std::min(model.log_odds, std::log(m.probability / (1.0 - m.probability)));
+    }
+  }
+  std::erase_if(models,
+                [](const OtherModel& model) { return !(model.log_odds > std::log(kRuledOut)); });
+}
+
+}  // namespace hoplab

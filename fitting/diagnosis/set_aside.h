@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "fitting/diagnosis/name.h"
+#include "fitting/diagnosis/other_models.h"
+
+namespace hoplab {
+
+/// A small correction that the evidence wants and that is most likely not what its name says: the
+/// data are told without it, and what it explained counts as left.
+struct SetAside {
+  int candidate = 0;  // place in Naming::candidates
+  Candidate cause;
+  Eigen::VectorXd values;    // in the model that had it, own units
+  double share = 0.0;        // of the misfit, in that model (CauseReport::share)
+  double probability = 0.0;  // that the name is right, calibrated
+};
+
+/// Takes members out of `naming.best`, and out of every model compared with it; each is fitted and
+/// settled anew. Groups, weights and gaps of the others stay. False, and nothing changed, if the
+/// model without them could not be fitted. `null_problem`: of the model without causes.
+bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_problem,
+             const RefitSettings& settings, Naming& naming);
+
+/// No model with one of `members` more is likelier than that member; those that are then ruled out
+/// are dropped.
+void Doubt(const std::vector<SetAside>& members, std::vector<OtherModel>& models);
+
+}  // namespace hoplab

@@ -1,0 +1,125 @@
+#include "fitting/diagnosis/set_aside.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fitting/diagnosis/believe.h"
+#include "tests/support/diagnosed_hops.h"
+
+namespace hoplab {
+namespace {
+
+using testing::CandidateOf;
+using testing::EffectOfSize;
+using testing::NullFit;
+
+CauseReport Cause(int candidate, bool main, double probability) {
+  CauseReport c;
+  c.candidate = candidate;
+  c.cause = CandidateOf(testing::kSixEffects[static_cast<std::size_t>(candidate)]);
+  c.main = main;
+  c.probability = c.group_probability = probability;
+  return c;
+}
+
+TEST(SetAside, AMainCauseThatIsUnlikelyStandsInWhereAnotherIsLikely) {
+  std::vector<CauseReport> causes = {Cause(0, true, 0.97), Cause(1, true, 0.1),
+                                     Cause(2, false, 0.1)};
+  FindStandIns(causes);
+  EXPECT_TRUE(causes[0].main);
+  EXPECT_FALSE(causes[0].stands_in);
+  EXPECT_FALSE(causes[1].main);
+  EXPECT_TRUE(causes[1].stands_in);
+  EXPECT_FALSE(causes[2].stands_in);
+}
+
+TEST(SetAside, WhereNoMainCauseIsLikelyAllStay) {
+  std::vector<CauseReport> causes = {Cause(0, true, 0.4), Cause(1, true, 0.1)};
+  FindStandIns(causes);
+  EXPECT_TRUE(causes[0].main && causes[1].main);
+}
+
+// Only a small cause, only an unlikely one, and only beside a main one that is likely.
+TEST(SetAside, DoubtfulAreSmallUnlikelyCausesBesideALikelyOne) {
+  Naming naming;
+  FittedModel best;
+  for (int i = 0; i < 4; ++i) {
+    naming.best_set.push_back(i);
+    best.members.push_back(CandidateOf(testing::kSixEffects[static_cast<std::size_t>(i)]));
+  }
+  best.problem = Extend(best.problem, best.members);
+  best.shared = Eigen::Vector4d(1.0, 2.0, 3.0, 4.0);
+  ExtensionReport report;
+  report.causes = {Cause(0, true, 0.97), Cause(1, true, 0.1), Cause(2, false, 0.1),
+                   Cause(3, false, 0.6)};
+  FindStandIns(report.causes);
+  const std::vector<SetAside> doubtful = DoubtfulCorrections(report, best, naming);
+  ASSERT_EQ(doubtful.size(), 1u);
+  EXPECT_EQ(doubtful[0].candidate, 2);
+  EXPECT_EQ(doubtful[0].values, Eigen::VectorXd::Constant(1, 3.0));
+  EXPECT_EQ(doubtful[0].probability, 0.1);
+  for (CauseReport& c : report.causes) c.group_probability = 0.4;
+  EXPECT_TRUE(DoubtfulCorrections(report, best, naming).empty());
+}
+
+TEST(SetAside, AStandInSpoilsTheSurenessOfTheNames) {
+  ExtensionReport report;
+  report.causes = {Cause(0, true, 0.97), Cause(1, true, 0.1)};
+  FindStandIns(report.causes);
+  ASSERT_EQ(report.ToldCauses().size(), 1u);
+  EXPECT_EQ(report.Probability(), 0.1);
+}
+
+// The model told without a correction is the one fitted without it from the beginning.
+TEST(SetAside, TakingAMemberOutGivesTheModelThatNeverHadIt) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03),
+                                 EffectOfSize("sensor_delay", 0.006)}});
+  Naming n = NameCauses(fit.fits(), testing::CandidatesOf(testing::kSixEffects),
+                        fit.Linearised(fit.settled, testing::CandidatesOf(testing::kSixEffects)),
+                        fit.train, {});
+  const Candidate delay = CandidateOf("sensor_delay"), bias = CandidateOf("touchdown_angle_bias");
+  ASSERT_EQ(n.best.members, (std::vector{delay, bias}));
+  const int out = n.best_set[0], kept = n.best_set[1];
+  const double was = n.best.cost;
+  // As if a third one did as well in its place.
+  const int third = (std::max(out, kept) + 1) % static_cast<int>(n.candidates.size());
+  n.groups[0] = {out, third};
+  n.candidates[static_cast<std::size_t>(third)].status = CandidateStatus::kIndistinguishable;
+  ASSERT_TRUE(
+      TakeOut({{out, delay, n.best.ValuesOf(0), 0.01, 0.1}}, fit.problem, fit.Settings(), n));
+  EXPECT_EQ(n.best.members, std::vector{bias});
+  EXPECT_EQ(n.best_set, CandidateSet{kept});
+  EXPECT_EQ(n.groups.size(), 1u);
+  EXPECT_EQ(n.groups[0].front(), kept);
+  EXPECT_EQ(n.gaps.size(), 1u);
+  ASSERT_EQ(n.without.size(), 1u);
+  EXPECT_TRUE(n.without[0].members.empty());
+  EXPECT_NEAR(n.without[0].cost, fit.settled.cost, 1e-3 * fit.settled.cost);
+  EXPECT_GT(n.best.cost, was + 10.0);
+  EXPECT_NEAR(n.best.cost, fit.RefittedWith(bias).cost, 1e-3 * n.best.cost);
+  EXPECT_TRUE(n.best.settled);
+  for (const int i : {out, third})
+    EXPECT_EQ(n.candidates[static_cast<std::size_t>(i)].status, CandidateStatus::kNotNeeded);
+  EXPECT_EQ(n.candidates[static_cast<std::size_t>(kept)].status, CandidateStatus::kSupported);
+}
+
+TEST(SetAside, AModelWithItIsNoLikelierThanItsName) {
+  const auto odds = [](double log_odds, double probability) {
+    OtherModel other;
+    other.candidate = 3;
+    other.log_odds = log_odds;
+    std::vector<OtherModel> models = {other};
+    Doubt({{3, CandidateOf("air_drag"), {}, 0.0, probability}}, models);
+    return models.empty() ? -std::numeric_limits<double>::infinity() : models[0].log_odds;
+  };
+  EXPECT_NEAR(odds(20.0, 0.2), std::log(0.25), 1e-12);
+  EXPECT_EQ(odds(-2.0, 0.2), -2.0);                 // less likely by the data alone
+  EXPECT_TRUE(std::isinf(odds(20.0, 0.9 / 20.0)));  // ruled out
+  EXPECT_FALSE(std::isinf(odds(20.0, 1.1 / 20.0)));
+}
+
+}  // namespace
+}  // namespace hoplab
