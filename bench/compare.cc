@@ -21,6 +21,7 @@
 #include "bench/problems.h"
 #include "bench/report.h"
 #include "bench/rig_fit.h"
+#include "bench/robot_comparison.h"
 #include "bench/study_cell.h"
 #include "model/mechanisms/leg.h"
 #include "tests/support/formulas.h"
@@ -64,6 +65,7 @@ class Comparison {
     AddProblems();
     AddSimulations();
     AddFormulas();
+    robot_ = std::make_unique<RobotComparison>(timer_);
     fit_ = timer_.Add("fit", [this] { fit_ok_ = fit_ok_ && FitRigDrops().ok; });
     cell_ = timer_.Add("cell", [this] { cell_ok_ = cell_ok_ && RunStudyCell(); });
     const std::vector<PeerProgram> programs = {FindScipy(), FindOctave()};
@@ -72,6 +74,7 @@ class Comparison {
     }
     for (int lap = 0; lap < size_.laps; ++lap) {
       for (int round = 0; round < size_.rounds_per_lap; ++round) timer_.Round();
+      robot_->Lap();
       for (const PeerProgram& p : programs) {
         if (p.interpreter.empty()) continue;
         for (Problem& problem : problems_)
@@ -201,6 +204,7 @@ class Comparison {
       report_.simulations.push_back(s.row);
       report_.simulations.back().timing = timer_.timing(s.timing);
     }
+    failed_ = !robot_->Collect(report_) || failed_;
     for (const Law law : {Law::kLargeDeflection, Law::kConsistent}) {
       AddBound(fmt::format("stance with 4 sensitivities / without, {}", NameOf(law)),
                StanceTime(law, 4) / StanceTime(law, 0), 3.0, true, "x");
@@ -283,6 +287,7 @@ class Comparison {
   std::vector<Simulation> simulations_;
   std::vector<std::unique_ptr<EffectSetting>> effects_;  // what requests point at
   std::vector<FormulaPair> formulas_;
+  std::unique_ptr<RobotComparison> robot_;
   int fit_ = 0, cell_ = 0;
   bool fit_ok_ = true, cell_ok_ = true, failed_ = false;
 };

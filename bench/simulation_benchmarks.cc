@@ -5,20 +5,21 @@
 #include "bench/odeint_stance.h"
 #include "bench/problems.h"
 #include "bench/rig_fit.h"
+#include "bench/robot_second.h"
 #include "model/mechanisms/leg.h"
 
 namespace hoplab::bench {
 namespace {
 
 void Run(benchmark::State& state, SimulationRequest request,
-         IntegratorKind kind = IntegratorKind::kDop853) {
+         IntegratorKind kind = IntegratorKind::kDop853, Outcome end = Outcome::kHopLimit) {
   request.integrator.kind = kind;
   Trajectory out;
   for (auto _ : state) {
     Simulate(request, out);
     benchmark::DoNotOptimize(out.end_time);
   }
-  if (out.outcome != Outcome::kHopLimit) state.SkipWithError(SentenceOf(out.outcome).data());
+  if (out.outcome != end) state.SkipWithError(SentenceOf(out.outcome).data());
   state.counters["steps"] = static_cast<double>(out.steps);
 }
 
@@ -34,6 +35,11 @@ void TenHops(benchmark::State& state, Law law) {
 }
 void StanceBy(benchmark::State& state, IntegratorKind kind) {
   Run(state, StanceRequest(Law::kLargeDeflection, static_cast<int>(state.range(0))), kind);
+}
+
+void Robot(benchmark::State& state, double leg_mass_kg) {
+  Run(state, RobotSecond(static_cast<int>(state.range(0)), leg_mass_kg), IntegratorKind::kDop853,
+      Outcome::kCompleted);
 }
 
 void StanceByOdeint(benchmark::State& state, Law law) {
@@ -69,6 +75,8 @@ BENCHMARK_CAPTURE(TenHops, large_deflection, Law::kLargeDeflection)->HOPLAB_OVER
 BENCHMARK_CAPTURE(TenHops, consistent, Law::kConsistent)->HOPLAB_OVER_DIRECTIONS;
 BENCHMARK_CAPTURE(StanceBy, erkstep, IntegratorKind::kErkStep)->HOPLAB_OVER_DIRECTIONS;
 BENCHMARK_CAPTURE(StanceBy, cvodes, IntegratorKind::kCvodes)->HOPLAB_OVER_DIRECTIONS;
+BENCHMARK_CAPTURE(Robot, light_legs, 0.0)->Arg(0)->Arg(20)->Unit(kMicro);
+BENCHMARK_CAPTURE(Robot, legs_of_10_g, 0.010)->Arg(0)->Arg(20)->Unit(kMicro);
 BENCHMARK(ArcStanceByOdeint)->Unit(kMicro);
 BENCHMARK(StraightStanceByOdeint)->Unit(kMicro);
 BENCHMARK(WholeFit)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -140,7 +140,8 @@ std::array<double, LegShape::kCount> LegShapeByQuadrature(double psi) { return Q
 LegShape LegShapeAt(double psi) {
   static const Table table;
   const double x = (std::clamp(psi, kFirst, kLast) - kFirst) / kWidth;
-  const int i = std::min(static_cast<int>(x), kPieces - 1);
+  // Of no number: the last piece, whose polynomial is no number there either.
+  const int i = x < kPieces ? static_cast<int>(x) : kPieces - 1;
   const double t = x - i, inside = psi > kFirst && psi < kLast ? 1.0 / kWidth : 0.0;
   const auto& c = table.of[i];
   LegShape shape;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <vector>
 
 #include "base/units.h"
@@ -112,6 +113,14 @@ TEST(RobotLegShape, TableIsTheQuadrature) {
   EXPECT_LT(value, 1e-9);
   EXPECT_LT(slope, 1e-7);
   EXPECT_LT(bend, 1e-5);
+}
+
+// A step of the integrator that went astray asks for it; a search must live on.
+TEST(RobotLegShape, OfNoNumberIsNoNumber) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(LegShapeAt(none).value[LegShape::kXX]));
+  const double far = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(LegShapeAt(far).value, LegShapeAt(4.0).value);
 }
 
 }  // namespace

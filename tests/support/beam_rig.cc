@@ -13,17 +13,12 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "tests/support/arc_contact.h"
+#include "tests/support/beam_text.h"
 
 namespace hoplab::testing {
 namespace {
 
-constexpr int kArcs = 24;
-constexpr double kStep = 2e-5, kRow = 2e-3, kGravity = 9.81;
-constexpr double kStudRadius = 0.002;
-// The floor gives by about (1 - 0.99) a kSoftness^2, a the acceleration that the leg's tip would
-// have without it: 0.04 mm for a tip of a tenth of a gram under 40 N.
-constexpr double kSoftness = 1e-4;  // s
-constexpr double kHingeArmature = 1.6e-6;
+constexpr double kRow = 2e-3;
 constexpr double kWidth = 0.03, kThickness = 0.003658;
 
 struct Drop {
@@ -40,75 +35,19 @@ constexpr std::array<Drop, 9> kDrops = {{{22, 0.30, 1.0},
                                          {38, 0.31, 1.4}}};
 constexpr std::size_t kTrain = 6;
 
-constexpr double kTurn = kPi / kArcs;
-
-// A place on the leg at rest, `angle` from the hip, `radius` from the middle of its circle.
-std::array<double, 2> PlaceOn(const BeamRig& rig, double angle, double radius) {
-  return {-radius * std::sin(angle), -rig.radius + radius * std::cos(angle)};
-}
-
-// What arc `i`, whose frame is at `begin`, stands on.
-std::string FeetText(const BeamRig& rig, int i, const std::array<double, 2>& begin) {
-  if (rig.studs == 0)
-    return fmt::format(
-        "<geom class='foot' type='ellipsoid' pos='{} 0 {}' euler='0 {} 0' size='{} {} 0.01'/>",
-        -begin[0], -rig.radius - begin[1], -(i + 0.5) * kTurn, rig.radius, 0.5 * kTurn);
-  std::string text;
-  for (int k = 0; k < rig.studs; ++k) {
-    const auto stud = PlaceOn(rig, (i + (k + 0.5) / rig.studs) * kTurn, rig.radius - kStudRadius);
-    text += fmt::format("<geom class='foot' type='sphere' pos='{} 0 {}' size='{}'/>",
-                        stud[0] - begin[0], stud[1] - begin[1], kStudRadius);
-  }
-  return text;
-}
-
-// The chain from the hip, hinge by hinge; the tip is half a turn from the hip.
-std::string LegText(const BeamRig& rig) {
-  const double length = rig.radius * kTurn;
-  const double mass = rig.leg_mass / kArcs, inertia = mass * length * length / 12.0;
-  std::string text;
-  std::array<double, 2> before = {0.0, 0.0};
-  for (int i = 0; i < kArcs; ++i) {
-    const auto begin = PlaceOn(rig, i * kTurn, rig.radius),
-               middle = PlaceOn(rig, (i + 0.5) * kTurn, rig.radius);
-    text += fmt::format("<body pos='{} 0 {}'>", begin[0] - before[0], begin[1] - before[1]);
-    text += i == 0 ? std::string("<joint name='hip' type='hinge' axis='0 -1 0' armature='1.6e-6'/>")
-                   : std::string("<joint class='bend'/>");
-    text +=
-        fmt::format("<inertial pos='{} 0 {}' mass='{}' diaginertia='{} {} {}'/>",
-                    middle[0] - begin[0], middle[1] - begin[1], mass, inertia, inertia, inertia);
-    text += FeetText(rig, i, begin);
-    before = begin;
-  }
-  for (int i = 0; i < kArcs; ++i) text += "</body>";
-  return text;
-}
-
-std::string ModelText(const BeamRig& rig) {
-  const double stiffness = rig.bending_stiffness / (rig.radius * kTurn);
-  return fmt::format(
-             "<mujoco><compiler angle='radian'/>"
-             "<option timestep='{}' gravity='0 0 {}' integrator='implicit' cone='elliptic' "
-             "impratio='20'/>"
-             "<size nconmax='500' njmax='2000'/><default>"
-             "<default class='bend'><joint type='hinge' axis='0 -1 0' stiffness='{}' damping='{}' "
-             "armature='{}'/></default>"
-             "<default class='foot'><geom contype='0' conaffinity='1' "
-             "condim='3' friction='{} 0 0' priority='1' solref='{} 1' solimp='0.99 0.99 "
-             "0.001'/>"
-             "</default></default><worldbody>"
-             "<geom type='plane' size='9 1 0.1' euler='0 {} 0' contype='1' conaffinity='0'/>"
-             "<body><joint name='x' type='slide' axis='1 0 0'/>"
-             "<joint name='y' type='slide' axis='0 0 1'/>"
-             "<inertial pos='0 0 0' mass='{}' diaginertia='0.001 0.001 0.001'/>",
-             kStep, -kGravity, stiffness, rig.relaxation * stiffness, kHingeArmature, rig.friction,
-             kSoftness, -rig.slope, rig.body_mass) +
-         LegText(rig) +
-         "</body></worldbody><actuator><motor joint='hip' gear='-1'/></actuator></mujoco>";
-}
-
 using CompiledModel = std::unique_ptr<mjModel, void (*)(mjModel*)>;
 using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
+
+// Of the body the first two joints, then the hip: the order of Dof.
+std::string ModelText(const BeamRig& rig) {
+  return BeamWorldText(rig,
+                       fmt::format("<joint name='x' type='slide' axis='1 0 0'/>"
+                                   "<joint name='y' type='slide' axis='0 0 1'/>"
+                                   "<inertial pos='0 0 0' mass='{}' diaginertia='0.001 0.001 "
+                                   "0.001'/>{}",
+                                   rig.body_mass, BeamLegText(rig, "hip", kBeamHingeInertia)),
+                       "<motor joint='hip' gear='-1'/>");
+}
 
 CompiledModel Compile(const BeamRig& rig, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "rig.xml";
@@ -194,8 +133,8 @@ void RecordHops(const BeamRig& rig, mjModel& model, const std::filesystem::path&
       "  leg: {{rest_radius_m: {}, E_Pa: {}, G_Pa: 4e9, width_m: {}, thickness_m: {}, "
       "damping_N_s_per_m: 1.0}}\n"
       "channels: {{body_x_m: {{sigma: {}}}, body_y_m: {{sigma: {}}}}}\ntrials:\n",
-      std::accumulate(model.body_mass, model.body_mass + model.nbody, 0.0), kGravity, rig.radius,
-      rig.told_modulus, kWidth, kThickness, rig.noise, rig.noise);
+      std::accumulate(model.body_mass, model.body_mass + model.nbody, 0.0), kBeamGravity,
+      rig.radius, rig.told_modulus, kWidth, kThickness, rig.noise, rig.noise);
   RandomStream noise(static_cast<std::uint64_t>(rig.seed), 1);
   for (std::size_t i = 0; i < kDrops.size(); ++i) {
     const char* role = i < kTrain ? "train" : "test";

@@ -1,0 +1,110 @@
+#include "bench/beam_robot.h"
+
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "bench/robot_second.h"
+#include "model/mechanisms/motor_clock.h"
+#include "tests/support/arc_contact.h"
+#include "tests/support/beam_text.h"
+
+namespace hoplab::bench {
+namespace {
+
+using Model = std::unique_ptr<mjModel, void (*)(mjModel*)>;
+using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
+
+// The first degrees of freedom; of a leg the first is its hip.
+enum Dof { kX, kY, kPitch };
+
+std::string RobotText(const Parameters<double>& p) {
+  const RobotParameters<double>& robot = *p.robot;
+  testing::BeamRig leg;
+  leg.radius = p.r;
+  leg.bending_stiffness = p.E * p.I;
+  leg.relaxation = robot.damping;
+  leg.leg_mass = robot.leg_mass;
+  leg.friction = robot.friction;
+  std::string legs, motors;
+  for (int i = 0; i < robot.legs; ++i) {
+    const std::string hip = fmt::format("hip{}", i);
+    legs += fmt::format("<body pos='{} 0 {}'>{}</body>", robot.hip_x[i], robot.hip_y[i],
+                        testing::BeamLegText(leg, hip, robot.rotor_inertia));
+    motors += fmt::format("<motor joint='{}'/>", hip);
+  }
+  const std::string body = fmt::format(
+      "<joint name='x' type='slide' axis='1 0 0'/><joint name='y' type='slide' axis='0 0 1'/>"
+      "<joint name='pitch' type='hinge' axis='0 -1 0'/>"
+      "<inertial pos='{0} 0 {1}' mass='{2}' diaginertia='{3} {3} {3}'/>{4}",
+      robot.com_x, robot.com_y, p.m, robot.pitch_inertia, legs);
+  return testing::BeamWorldText(leg, body, motors);
+}
+
+Model Compile(const std::string& text) {
+  testing::MeetEllipsoidsAsArcs();
+  const auto file = std::filesystem::temp_directory_path() /
+                    fmt::format("hoplab-beam-robot-{}.xml",
+                                std::chrono::steady_clock::now().time_since_epoch().count());
+  std::ofstream(file) << text;
+  char message[1000] = "";
+  Model model(mj_loadXML(file.c_str(), nullptr, message, sizeof message), mj_deleteModel);
+  std::filesystem::remove(file);
+  if (!model) throw std::runtime_error(fmt::format("MuJoCo does not take the robot: {}", message));
+  return model;
+}
+
+}  // namespace
+
+BeamSecond RunBeamSecond() {
+  const SimulationRequest request = RobotSecond();
+  const RobotParameters<double>& robot = *request.parameters.robot;
+  const Model model = Compile(RobotText(request.parameters));
+  const Data data(mj_makeData(model.get()), mj_deleteData);
+  const auto hip = [&](int leg) {
+    return model
+        ->jnt_dofadr[mj_name2id(model.get(), mjOBJ_JOINT, fmt::format("hip{}", leg).c_str())];
+  };
+  std::array<int, kMaxLegs> at = {};
+  std::array<MotorClock<double>, kMaxLegs> clock;
+  data->qpos[kX] = request.initial[0];
+  data->qpos[kY] = request.initial[1];
+  data->qvel[kX] = request.initial[2];
+  data->qvel[kY] = request.initial[3];
+  for (int i = 0; i < robot.legs; ++i) {
+    at[i] = hip(i);
+    clock[i] = MotorClock<double>(robot, i, 0.0);
+    const int piece = clock[i].PieceAt(0.0);
+    data->qpos[at[i]] = clock[i].Angle(piece, 0.0);
+    data->qvel[at[i]] = clock[i].Rate(piece);
+  }
+  BeamSecond second;
+  second.step = model->opt.timestep;
+  const auto begin = std::chrono::steady_clock::now();
+  while (data->time < request.horizon) {
+    mj_step1(model.get(), data.get());
+    for (int i = 0; i < robot.legs; ++i) {
+      const int piece = clock[i].PieceAt(data->time);
+      const double told = robot.motor_kp * (clock[i].Angle(piece, data->time) - data->qpos[at[i]]) +
+                          robot.motor_kd * (clock[i].Rate(piece) - data->qvel[at[i]]);
+      data->ctrl[i] = std::clamp(told, -robot.torque_limit, robot.torque_limit);
+    }
+    mj_step2(model.get(), data.get());
+    if (data->time <= kEarly + 1e-9)
+      second.early = {data->qpos[kX], data->qpos[kY], data->qpos[kPitch]};
+  }
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+  second.seconds = passed.count();
+  if (data->warning[mjWARN_BADQACC].number > 0)
+    throw std::runtime_error("The robot fell apart in MuJoCo.");
+  return second;
+}
+
+}  // namespace hoplab::bench

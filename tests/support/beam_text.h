@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "tests/support/beam_rig.h"
+
+namespace hoplab::testing {
+
+inline constexpr double kBeamGravity = 9.81;         // m/s^2
+inline constexpr double kBeamHingeInertia = 1.6e-6;  // that each hinge adds [kg m^2]
+
+/// The leg of `rig` in MuJoCo's language: a chain of arcs from the hip `hip`, at the origin, whose
+/// rotor adds `rotor_inertia` [kg m^2].
+std::string BeamLegText(const BeamRig& rig, std::string_view hip, double rotor_inertia);
+
+/// A model with the floor of `rig` and one body on it: `body` its joints, inertia and legs,
+/// `actuators` its motors.
+std::string BeamWorldText(const BeamRig& rig, std::string_view body, std::string_view actuators);
+
+}  // namespace hoplab::testing
