@@ -53,28 +53,44 @@ SearchVariable VariableOf(const OverOption& option, const ScenarioDocument& docu
                     DidYouMean(key, known) + " Or give one, as " + option.name + "=0.5:12."});
 }
 
-SearchConstraints ConstraintsOf(const std::vector<NamedNumber>& numbers) {
+// The constraints by their names in a scenario.
+struct ConstraintName {
+  const char* name;
+  std::optional<double> SearchConstraints::* field;
+  bool of_strides, of_hops;
+};
+constexpr ConstraintName kConstraints[] = {
+    {"min_speed_m_per_s", &SearchConstraints::min_speed, true, true},
+    {"max_torque_N_m", &SearchConstraints::max_torque, true, true},
+    {"min_clearance_m", &SearchConstraints::min_clearance, false, true},
+    {"max_flexure", &SearchConstraints::max_deflection_ratio, false, true},
+    {"max_legs_apart", &SearchConstraints::max_legs_apart, true, false},
+    {"min_legs_apart", &SearchConstraints::min_legs_apart, true, false},
+    {"min_flight_share", &SearchConstraints::min_flight_share, true, false}};
+
+SearchConstraints ConstraintsOf(const std::vector<NamedNumber>& numbers, bool robot) {
   SearchConstraints constraints;
   for (const NamedNumber& number : numbers) {
-    if (number.name == "min_speed_m_per_s") {
-      constraints.min_speed = number.value;
-    } else if (number.name == "max_torque_N_m") {
-      constraints.max_torque = number.value;
-    } else if (number.name == "min_clearance_m") {
-      constraints.min_clearance = number.value;
-    } else if (number.name == "max_flexure") {
-      constraints.max_deflection_ratio = number.value;
-    } else {
+    const auto known = std::find_if(
+        std::begin(kConstraints), std::end(kConstraints),
+        [&](const ConstraintName& constraint) { return number.name == constraint.name; });
+    const auto refuse = [&](const char* rule, const std::string& remedy) {
       throw InputError(
-          {number.origin.place, "search.constraints." + Printable(number.name), "is no constraint",
-           DidYouMean(number.name,
-                      {"min_speed_m_per_s", "max_torque_N_m", "min_clearance_m", "max_flexure"})});
+          {number.origin.place, "search.constraints." + Printable(number.name), rule, remedy});
+    };
+    if (known == std::end(kConstraints)) {
+      std::vector<std::string> names;
+      for (const ConstraintName& constraint : kConstraints) names.emplace_back(constraint.name);
+      refuse("is no constraint", DidYouMean(number.name, names));
     }
+    if (robot && !known->of_strides) refuse("is that of a hopper's hops", "Leave it out.");
+    if (!robot && !known->of_hops) refuse("is that of a robot's stride", "Leave it out.");
+    constraints.*known->field = number.value;
   }
   return constraints;
 }
 
-// An objective and constraints that the mechanism has.
+// An objective that the mechanism has.
 void CheckProblem(const SearchProblem& problem, const Scenario& scenario) {
   const bool robot = scenario.mechanism.type == MechanismKind::kRobot;
   const auto refuse = [&](const std::string& key, const char* rule, const char* remedy) {
@@ -87,8 +103,6 @@ void CheckProblem(const SearchProblem& problem, const Scenario& scenario) {
   if (!robot && !IsOfHops(problem.objective))
     refuse(objective, "is that of a robot's stride",
            "Use convergence_time, spectral_radius or weighted.");
-  if (robot && problem.constraints.min_clearance)
-    refuse("constraints.min_clearance_m", "is that of a hopper's apexes", "Leave it out.");
 }
 
 }  // namespace
@@ -103,7 +117,8 @@ SearchProblem SearchProblemOfScenario(const ScenarioDocument& document, const Sc
   }
   SearchProblem problem;
   problem.objective = scenario.search->objective;
-  problem.constraints = ConstraintsOf(scenario.search->constraints);
+  problem.constraints = ConstraintsOf(scenario.search->constraints,
+                                      scenario.mechanism.type == MechanismKind::kRobot);
   CheckProblem(problem, scenario);
   std::vector<OverOption> wanted = over;
   if (wanted.empty()) {

@@ -27,8 +27,8 @@ double Violation(const SearchProblem& problem, Law law, SearchPoint& point) {
   if (c.min_speed) add("min_speed", *c.min_speed - point.speed, *c.min_speed);
   if (c.max_torque) add("max_torque", point.torque - *c.max_torque, *c.max_torque);
   if (c.min_clearance) add("min_clearance", *c.min_clearance - point.clearance, *c.min_clearance);
-  if (law == Law::kLargeDeflection)
-    add("max_flexure", point.deflection_ratio - c.max_deflection_ratio, c.max_deflection_ratio);
+  if (law == Law::kLargeDeflection && c.max_deflection_ratio)
+    add("max_flexure", point.deflection_ratio - *c.max_deflection_ratio, *c.max_deflection_ratio);
   return sum;
 }
 

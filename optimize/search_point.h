@@ -31,7 +31,10 @@ struct SearchConstraints {
   std::optional<double> min_speed;      // of the steady vx [m/s]
   std::optional<double> max_torque;     // largest |T| [N m]
   std::optional<double> min_clearance;  // least apex height above touch-down height [m]
-  double max_deflection_ratio = kMaxDeflectionRatio;  // F C/l0, `large_deflection` only
+  // Of a robot's stride (StrideMeasures), in shares of it.
+  std::optional<double> max_legs_apart, min_legs_apart, min_flight_share;
+  std::optional<double> max_deflection_ratio =
+      kMaxDeflectionRatio;  // F C/l0, `large_deflection` only
 };
 
 /// What is searched. `hopper_at` is called from several threads.
@@ -71,6 +74,8 @@ struct SearchPoint {
   double clearance = std::numeric_limits<double>::quiet_NaN();  // [m]
   double deflection_ratio = std::numeric_limits<double>::quiet_NaN();
   double cost_of_transport = std::numeric_limits<double>::quiet_NaN();  // of a robot's stride
+  double legs_apart = std::numeric_limits<double>::quiet_NaN();         // in shares of it
+  double flight_share = std::numeric_limits<double>::quiet_NaN();       // no leg on the ground
   std::string gait;                                                     // its GaitKind
 };
 

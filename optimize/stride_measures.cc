@@ -17,9 +17,7 @@ constexpr double kLeastFlight = 0.01;
 double AroundCircle(double share) { return share - std::round(share); }
 
 GaitKind KindOf(const StrideMeasures& stride) {
-  const bool together = std::all_of(stride.legs.begin(), stride.legs.end(), [](const LegUse& leg) {
-    return std::abs(AroundCircle(leg.middle)) <= kTogether;
-  });
+  const bool together = stride.legs_apart <= kTogether;
   const bool flies = stride.flight_share > kLeastFlight;
   if (together) return flies ? GaitKind::kPronk : GaitKind::kCrouch;
   if (!flies) return GaitKind::kWalk;
@@ -105,6 +103,7 @@ StrideMeasures MeasureStride(const StrideMap& map, const SectionState& state) {
     middles.push_back(sum);
     const double turn = std::arg(sum * std::conj(middles.front())) / (2.0 * std::numbers::pi);
     stride.legs.push_back({static_cast<double>(rows) / kRows, turn - std::floor(turn)});
+    stride.legs_apart = std::max(stride.legs_apart, std::abs(AroundCircle(turn)));
   }
   stride.flight_share =
       static_cast<double>(std::count(standing.begin(), standing.end(), 0)) / kRows;

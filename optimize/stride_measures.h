@@ -33,6 +33,9 @@ struct StrideMeasures {
   double cost_of_transport = std::numeric_limits<double>::quiet_NaN();
   double peak_torque = std::numeric_limits<double>::quiet_NaN();  // of any motor [N m]
   double flight_share = 0.0;                                      // no leg on the ground
+  /// How far the middle of a leg's stance lies from that of leg 1 at most, in shares of the stride;
+  /// up to 0.5.
+  double legs_apart = 0.0;
   std::vector<LegUse> legs;
 };
 

@@ -48,6 +48,9 @@ double ChangeAt(StrideStart& start) {
                   : std::numeric_limits<double>::quiet_NaN();
 }
 
+// What shares of a stride are broken by counts over a whole one.
+constexpr double kStride = 1.0;
+
 // By how much the constraints are broken, relative to their size; names the worst.
 double Violation(const SearchConstraints& constraints, SearchPoint& point) {
   double sum = 0.0, worst = 0.0;
@@ -61,6 +64,12 @@ double Violation(const SearchConstraints& constraints, SearchPoint& point) {
   };
   if (const auto& least = constraints.min_speed) add("min_speed", *least - point.speed, *least);
   if (const auto& most = constraints.max_torque) add("max_torque", point.torque - *most, *most);
+  if (const auto& most = constraints.max_legs_apart)
+    add("max_legs_apart", point.legs_apart - *most, kStride);
+  if (const auto& least = constraints.min_legs_apart)
+    add("min_legs_apart", *least - point.legs_apart, kStride);
+  if (const auto& least = constraints.min_flight_share)
+    add("min_flight_share", *least - point.flight_share, kStride);
   return sum;
 }
 
@@ -106,6 +115,8 @@ void ScoreStride(const SearchProblem& problem, const Hopper& at, SearchPoint& po
   point.speed = stride.speed;
   point.torque = stride.peak_torque;
   point.cost_of_transport = stride.cost_of_transport;
+  point.legs_apart = stride.legs_apart;
+  point.flight_share = stride.flight_share;
   point.gait = NameOf(stride.kind);
   // A stride that falls, or from which the start leads elsewhere, tells how far it is from a gait.
   if (!steady.stable())

@@ -31,6 +31,8 @@ Json PointRecord(const OptimizeRun& run, const SearchPoint& point) {
           {"clearance_m", NumberOrNull(point.clearance)},
           {"max_flexure", NumberOrNull(point.deflection_ratio)},
           {"cost_of_transport", NumberOrNull(point.cost_of_transport)},
+          {"legs_apart", NumberOrNull(point.legs_apart)},
+          {"flight_share", NumberOrNull(point.flight_share)},
           {"gait", point.gait.empty() ? Json(nullptr) : Json(point.gait)}};
 }
 

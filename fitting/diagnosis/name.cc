@@ -194,6 +194,13 @@ class Search {
       if (IsSlow(i)) return MisfitIsSeen(set);
     return false;
   }
+  // What is slow and gained nothing by itself is not tried beside others, each a minute and more.
+  bool GainsAlone(int i) const {
+    const CandidateSet alone = {i};
+    return !refits_.Has(alone) ||
+           (refits_.Usable(alone) &&
+            refits_.White({}).cost - refits_.White(alone).cost >= kWorthATry);
+  }
   std::vector<CandidateSet> SlowOnes() const {
     std::vector<CandidateSet> sets;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i)
@@ -205,7 +212,7 @@ class Search {
     std::vector<CandidateSet> tried, together, sets;
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
       if (!naming_.candidates[i].has_threshold || Holds(set, i)) continue;
-      if (IsSlow(i) && !slow_ones) continue;
+      if (IsSlow(i) && !(slow_ones && GainsAlone(i))) continue;
       tried.push_back(With(set, i));
       const std::optional<int> other = ShowsBeside(i);
       if (!other || Holds(set, *other)) continue;

@@ -70,6 +70,9 @@ TEST_F(OptimizeCli, WhatCannotBeSearchedIsRefused) {
   const ProcessResult constraint = Optimize({"--set", "search.constraints.min_sped_m_per_s=1"});
   EXPECT_EQ(constraint.exit_code, 65);
   EXPECT_NE(constraint.err.find("min_speed_m_per_s"), std::string::npos) << constraint.err;
+  const ProcessResult stride = Optimize({"--set", "search.constraints.min_flight_share=0.1"});
+  EXPECT_EQ(stride.exit_code, 65);
+  EXPECT_NE(stride.err.find("is that of a robot's stride"), std::string::npos) << stride.err;
   EXPECT_EQ(Optimize({"--set", "search=null"}).exit_code, 65);
   EXPECT_EQ(CountEntries(temp_.path()), 1);
 }

@@ -24,6 +24,7 @@ struct Search {
   int legs;
   double phase;  // of leg 2
   int budget;
+  SearchConstraints constraints = {};
 };
 
 SearchProblem GaitProblem(const Search& search) {
@@ -31,6 +32,7 @@ SearchProblem GaitProblem(const Search& search) {
   problem.variables = {{"period", 0.2, 0.6},  {"duty", 0.3, 0.8},  {"sweep", 0.3, 1.5},
                        {"offset", -0.3, 0.6}, {"speed", 0.1, 1.5}, {"height", 0.185, 0.25}};
   problem.objective = SearchObjective::kSpectralRadius;
+  problem.constraints = search.constraints;
   problem.hopper_at = [search](std::span<const double> x) {
     Hopper hopper = ClockedRobot(search.legs, x[0], x[1], x[2], x[3]);
     hopper.request.parameters.robot->phase[1] = search.phase;
@@ -86,8 +88,12 @@ TEST_P(GaitsFromScratch, AStableOneIsFoundFromMostSeeds) {
   EXPECT_GE(found, 8);
 }
 
+// Both legs stand at once, and both are in the air at once.
+constexpr SearchConstraints kPronk = {.max_legs_apart = 0.1, .min_flight_share = 0.02};
+
 INSTANTIATE_TEST_SUITE_P(Robot, GaitsFromScratch,
-                         ::testing::Values(Search{"Pronk", 2, 0.0, 700},
+                         ::testing::Values(Search{"InPhase", 2, 0.0, 1500},
+                                           Search{"Pronk", 2, 0.0, 1500, kPronk},
                                            Search{"Walk", 3, 0.5, 700}),
                          [](const auto& at) { return at.param.name; });
 

@@ -12,8 +12,9 @@ namespace {
 
 using namespace testing;
 
-SearchPoint ScoreOf(const Hopper& hopper) {
+SearchPoint ScoreOf(const Hopper& hopper, const SearchConstraints& constraints = {}) {
   SearchProblem problem;
+  problem.constraints = constraints;
   problem.variables = {{"none", 0.0, 1.0}};
   problem.objective = SearchObjective::kSpectralRadius;
   problem.hopper_at = [hopper](std::span<const double>) { return hopper; };
@@ -61,6 +62,23 @@ TEST(StrideSearch, AStableStrideThatItsStartLeadsToIsGood) {
   const SearchPoint point = ScoreOf(walk);
   EXPECT_EQ(point.verdict, PointVerdict::kGood);
   EXPECT_NEAR(point.objective, 0.8203, 0.001);
+}
+
+// The middle leg of a walk is told to be half a stride behind the others; it stands a third of one
+// behind.
+TEST(StrideSearch, HowFarLegsAreApartCanBeAskedFor) {
+  Hopper walk = WalkingRobot();
+  walk.request.integrator = {};
+  const SearchPoint apart = ScoreOf(walk, {.min_legs_apart = 0.3});
+  EXPECT_EQ(apart.verdict, PointVerdict::kGood);
+  EXPECT_NEAR(apart.legs_apart, 0.365, 0.02);
+  EXPECT_NEAR(apart.flight_share, 0.078, 0.01);
+  const SearchPoint together = ScoreOf(walk, {.max_legs_apart = 0.12});
+  EXPECT_EQ(together.verdict, PointVerdict::kConstraint);
+  EXPECT_EQ(together.violated, "max_legs_apart");
+  const SearchPoint flies = ScoreOf(walk, {.min_flight_share = 0.2});
+  EXPECT_EQ(flies.violated, "min_flight_share");
+  EXPECT_LT(flies.score, together.score);
 }
 
 }  // namespace
