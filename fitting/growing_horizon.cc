@@ -1,6 +1,8 @@
 #include "fitting/growing_horizon.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,11 @@ constexpr int kIterations = 30;
 // Relative change of the cost that ends such a round of a robot: the next one moves on from there.
 // (A hopper's traces seldom need to grow.)
 constexpr double kRobotRound = 1e-5;
+
+// Nats by which a round's cost is clearly above another's.
+constexpr double kBehind = 10.0;
+
+bool IsBehind(double cost, double other) { return std::isfinite(cost) && cost > other + kBehind; }
 
 // The trials cut to the first `fraction` of their time.
 std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
@@ -33,6 +40,11 @@ std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
 }  // namespace
 
 SolveResult GrowHorizon(SolveRequest request) {
+  RoundCosts costs;
+  return GrowHorizonBeside(std::move(request), {}, costs);
+}
+
+SolveResult GrowHorizonBeside(SolveRequest request, const RoundCosts& other, RoundCosts& costs) {
   const std::vector<TrialProblem>& whole = *request.trials;
   const int most = request.max_iterations;
   const double tolerance = request.function_tolerance;
@@ -44,6 +56,14 @@ SolveResult GrowHorizon(SolveRequest request) {
       request.function_tolerance = std::max(tolerance, kRobotRound);
     SolveResult next = Solve(request);
     if (next.status == SolveStatus::kInterrupted) return next;
+    costs.push_back(IsUsable(next.status) ? next.cost : std::numeric_limits<double>::infinity());
+    const std::size_t round = costs.size() - 1;
+    if (round < other.size() && IsBehind(costs.back(), other[round])) {
+      next.status = SolveStatus::kGaveUp;
+      next.cost = std::numeric_limits<double>::infinity();
+      next.complete = false;
+      return next;
+    }
     if (!IsUsable(next.status)) continue;
     request.shared = std::move(next.shared);
     request.starts = std::move(next.starts);

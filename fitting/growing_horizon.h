@@ -11,4 +11,12 @@ namespace hoplab {
 /// the one that was interrupted.
 SolveResult GrowHorizon(SolveRequest request);
 
+/// Costs of the rounds of a search that ended; infinite where a round came to nothing.
+using RoundCosts = std::vector<double>;
+
+/// The same, and `costs` gets those of its rounds. Where `other` has the costs of another search of
+/// the same trials, this one gives up (kGaveUp, no cost) after a round that fits clearly
+/// worse: it is in another order of events, and later rows will not bring it back.
+SolveResult GrowHorizonBeside(SolveRequest request, const RoundCosts& other, RoundCosts& costs);
+
 }  // namespace hoplab

@@ -187,17 +187,17 @@ void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
   request.shared = others;
   // A robot's search over all rows at once may end in another order of events.
   const bool grows = TraitsOf(model.problem.law).lands_leg_by_leg;
-  const auto search = [grows](const SolveRequest& of) {
-    return grows ? GrowHorizon(of) : Solve(of);
-  };
-  const SolveResult without = search(request);
+  RoundCosts of_without;
+  const SolveResult without = grows ? GrowHorizonBeside(request, {}, of_without) : Solve(request);
   const SolveResult* best = &without;
   std::vector<SolveResult> looks;
   looks.reserve(beginnings.size());
   for (const Eigen::VectorXd& begun : beginnings) {
     if (settings.stop && *settings.stop) return;
     request.shared = begun;
-    const SolveResult& found = looks.emplace_back(search(request));
+    RoundCosts own;
+    const SolveResult& found =
+        looks.emplace_back(grows ? GrowHorizonBeside(request, of_without, own) : Solve(request));
     if (LedOn(found) && (found.cost < best->cost || !LedOn(*best))) best = &found;
   }
   if (best == &without || (LedOn(without) && without.cost - best->cost < kWorthFollowing)) return;
@@ -206,7 +206,7 @@ void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
   if (glance.of_hops) request.starts = StartsFor(request);
   request.max_iterations = 2 * settings.max_iterations;
   request.give_up_above = model.ok() ? model.cost : settings.give_up_above;
-  SolveResult found = search(request);
+  SolveResult found = grows ? GrowHorizon(request) : Solve(request);
   const double least = kCostTolerance * std::abs(model.cost);  // less is rounding
   if (LedOn(found) && (!model.ok() || model.cost - found.cost > least)) Take(model, found);
 }

@@ -93,7 +93,7 @@ constexpr SearchConstraints kPronk = {.max_legs_apart = 0.1, .min_flight_share =
 
 INSTANTIATE_TEST_SUITE_P(Robot, GaitsFromScratch,
                          ::testing::Values(Search{"InPhase", 2, 0.0, 1500},
-                                           Search{"Pronk", 2, 0.0, 1500, kPronk},
+                                           Search{"Pronk", 2, 0.0, 3000, kPronk},
                                            Search{"Walk", 3, 0.5, 700}),
                          [](const auto& at) { return at.param.name; });
 
