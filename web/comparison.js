@@ -38,7 +38,8 @@ function comparedValueRows(values, names) {
 function comparedCauseText(own) {
   if (!own.found) return own.looked_for ? 'not found' : 'not looked for';
   const parts = list(own.parameters).map((p) => `${p.name} ${quantity(p.value, p.unit, 3)}`);
-  if (isNumber(own.share)) parts.push(`${percent(own.share, 2)} of the misfit`);
+  const share = own.share_of_misfit ?? own.share;
+  if (isNumber(share)) parts.push(`${percent(share, 2)} of the misfit`);
   if (isNumber(own.probability)) parts.push(`probability ${significant(own.probability, 2)}`);
   return parts.join(', ');
 }

@@ -60,6 +60,8 @@ function variesText(v) {
   return `${text}. With these sizes the causes explain ${shareText(w.explained)} of the misfit instead of ${shareText(w.explained_one_size)}${errors.length ? `, held-out ${errors.join(', ')}` : ''} (${significant(w.evidence_nats, 2)} nats).`;
 }
 
+// Of the misfit; runs of before 2026-11-25 have the share of what all causes explain alone.
+const shareOf = (c) => shareText(c.share_of_misfit ?? c.share);
 const chance = (p) => (isNumber(p) ? p.toFixed(2) : notComputed);
 
 // The extension taken apart: what each cause explains, how likely the name is, and the held-out error without it.
@@ -68,11 +70,11 @@ function causesPart(causes, extension) {
   const channels = Object.keys(causes[0].held_out_rmse_without);
   const unit = (c) => splitUnit(c).unit;
   const row = (c) => [causeText({...c, effect: c.name}), c.parameters.map((p) => `${p.name} = ${quantity(p.value, p.unit, 3)}`).join('; '),
-    shareText(c.share), chance(c.probability),
+    shareOf(c), chance(c.probability),
     ...channels.map((ch) => (isNumber(c.held_out_rmse_without[ch]) ? quantity(c.held_out_rmse_without[ch], unit(ch), 3) : notComputed))];
   const heads = ['size', 'explains', 'P', ...channels.map((ch) => `without it, ${splitUnit(ch).name}`)];
   const [main, small] = [causes.filter((c) => c.main), causes.filter((c) => !c.main && !c.stands_in)];
-  const doubted = (cs) => cs.map((c) => `${causeText({...c, effect: c.name})} (${shareText(c.share)}, P ${chance(c.probability_group ?? c.probability)})`).join(', ');
+  const doubted = (cs) => cs.map((c) => `${causeText({...c, effect: c.name})} (${shareOf(c)}, P ${chance(c.probability_group ?? c.probability)})`).join(', ');
   const [needed, leftOut] = [causes.filter((c) => c.stands_in), list(run.set_aside)];
   const align = `llrr${'r'.repeat(channels.length)}`;
   const left = Object.entries(run.left ?? {}).filter(([, l]) => isNumber(l?.amplitude) && l.amplitude > 0);

@@ -118,6 +118,7 @@ Json CausesRecord(const Diagnosis& d) {
                      {"seen", SeenRecord(c.features)},
                      {"varies", VariesRecord(d, c)},
                      {"share", NumberOrNull(c.share)},
+                     {"share_of_misfit", NumberOrNull(d.extension->OfMisfit(c.share))},
                      {"main", c.main},
                      {"stands_in", c.stands_in},
                      {"held_out_rmse_without", ByChannel(d.problem, c.rmse_without)},
@@ -137,7 +138,8 @@ Json SetAsideRecord(const Diagnosis& d) {
                    {"only_in_trial", TextOrNull(s.cause.only_recording)},
                    {"parameters", SizesOfCause(s.cause, s.values)},
                    {"probability", NumberOrNull(s.probability)},
-                   {"share", NumberOrNull(s.share)}});
+                   {"share", NumberOrNull(s.share)},
+                   {"share_of_misfit", NumberOrNull(d.extension->OfMisfit(s.share))}});
   return out;
 }
 

@@ -95,7 +95,7 @@ Json CausesRecord(const std::vector<ComparedSide>& sides) {
       for (const Json& cause : JsonAt(side.record(), "/causes")) {
         if (TextAt(cause, "/name") != name) continue;
         found["found"] = true;
-        for (const char* key : {"probability", "share", "parameters"})
+        for (const char* key : {"probability", "share", "share_of_misfit", "parameters"})
           found[key] = JsonAt(cause, std::string("/") + key);
       }
       runs.push_back(found);

@@ -95,7 +95,7 @@ std::string CausesSentence(const Diagnosis& d, std::size_t most) {
   std::vector<std::string> names;
   for (const CauseReport* c : told) {
     std::string name = GroupText(d, *c, most);
-    if (told.size() > 1 && most > 1) name += fmt::format(" ({})", ShareText(c->share));
+    if (told.size() > 1 && most > 1) name += fmt::format(" ({})", ShareText(e.OfMisfit(c->share)));
     names.push_back(std::move(name));
   }
   const bool sure = e.Probability() >= kSure;

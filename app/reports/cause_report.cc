@@ -78,7 +78,7 @@ void AddCause(TextTable& table, const Diagnosis& d, const CauseReport& cause, bo
       std::string share, chance;
       if (i == 0) {
         share = rival ? fmt::format("or: {:.1f} nats behind", NatsBehind(naming, m, k))
-                      : ShareText(cause.share);
+                      : ShareText(d.extension->OfMisfit(cause.share));
         chance = fmt::format("{:.2f}", rival ? cause.group_probability * naming.group_weights[m][k]
                                              : cause.probability);
       }
@@ -113,7 +113,8 @@ std::string SmallLine(const Diagnosis& d, bool colours) {
   if (!d.extension->MainCauses().empty()) {
     for (const CauseReport& c : d.extension->causes) {
       if (!c.main && !c.stands_in)
-        names.push_back(CauseText(c.cause) + " (" + ShareText(c.share) + ")");
+        names.push_back(CauseText(c.cause) + " (" + ShareText(d.extension->OfMisfit(c.share)) +
+                        ")");
     }
   }
   if (names.empty()) return "";
@@ -128,12 +129,12 @@ std::string DoubtedLines(const Diagnosis& d, bool colours) {
   std::vector<std::string> needed, left_out;
   for (const CauseReport& c : d.extension->causes) {
     if (c.stands_in)
-      needed.push_back(fmt::format("{} ({}, P {:.2f})", CauseText(c.cause), ShareText(c.share),
-                                   c.group_probability));
+      needed.push_back(fmt::format("{} ({}, P {:.2f})", CauseText(c.cause),
+                                   ShareText(d.extension->OfMisfit(c.share)), c.group_probability));
   }
   for (const SetAside& s : d.extension->set_aside)
-    left_out.push_back(
-        fmt::format("{} ({}, P {:.2f})", CauseText(s.cause), ShareText(s.share), s.probability));
+    left_out.push_back(fmt::format("{} ({}, P {:.2f})", CauseText(s.cause),
+                                   ShareText(d.extension->OfMisfit(s.share)), s.probability));
   std::string text;
   if (!needed.empty())
     text += Labelled("stand-in",

@@ -120,6 +120,9 @@ struct ExtensionReport {
   std::vector<CauseReport> causes;   // the members, the largest share first
   std::vector<SetAside> set_aside;   // what the evidence wanted besides
   std::optional<SizesReport> sizes;  // absent where no told cause varies
+  /// A cause's share (CauseReport::share) of the plain model's misfit, of which all of them explain
+  /// `explained`.
+  double OfMisfit(double share) const { return share * explained; }
   /// Whether the told cause's parameter `k` is told to differ between trials: it does to first
   /// order, and the refit, if it came to rest, pays.
   bool TellsSizesOf(const CauseReport& cause, std::size_t k) const;
