@@ -68,6 +68,16 @@ TEST_F(DiagnoseCli, FindsASlipperyFloorThatNoSlopeTellsOf) {
   EXPECT_TRUE(diagnosis.at("set_aside").empty());
   for (const auto& cause : diagnosis.at("causes")) EXPECT_FALSE(cause.at("stands_in").get<bool>());
 
+  // A stand-in alone explains all that is explained, and not all of the misfit.
+  const ProcessResult stand_in = Hoplab({"diagnose", "slippery", "--effects", "touchdown_loss",
+                                         "--json", "--quiet", "--out", "stand-in"});
+  const auto alone = nlohmann::json::parse(stand_in.out);
+  ASSERT_EQ(alone.at("causes").size(), 1u) << stand_in.out;
+  EXPECT_NEAR(alone.at("causes")[0].at("share").get<double>(), 1.0, 0.01);
+  const double of_misfit = alone.at("causes")[0].at("share_of_misfit");
+  EXPECT_LT(of_misfit, 0.9);
+  EXPECT_NEAR(of_misfit, alone.at("extension").at("explained").get<double>(), 0.01);
+
   const ProcessResult fit = Hoplab({"fit", "slippery", "--with", "leg_mass,foot_coulomb_friction",
                                     "--json", "--quiet", "--out", "fit"});
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
