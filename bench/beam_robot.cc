@@ -25,29 +25,6 @@ using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
 // The first degrees of freedom; of a leg the first is its hip.
 enum Dof { kX, kY, kPitch };
 
-std::string RobotText(const Parameters<double>& p) {
-  const RobotParameters<double>& robot = *p.robot;
-  testing::BeamRig leg;
-  leg.radius = p.r;
-  leg.bending_stiffness = p.E * p.I;
-  leg.relaxation = robot.damping;
-  leg.leg_mass = robot.leg_mass;
-  leg.friction = robot.friction;
-  std::string legs, motors;
-  for (int i = 0; i < robot.legs; ++i) {
-    const std::string hip = fmt::format("hip{}", i);
-    legs += fmt::format("<body pos='{} 0 {}'>{}</body>", robot.hip_x[i], robot.hip_y[i],
-                        testing::BeamLegText(leg, hip, robot.rotor_inertia));
-    motors += fmt::format("<motor joint='{}'/>", hip);
-  }
-  const std::string body = fmt::format(
-      "<joint name='x' type='slide' axis='1 0 0'/><joint name='y' type='slide' axis='0 0 1'/>"
-      "<joint name='pitch' type='hinge' axis='0 -1 0'/>"
-      "<inertial pos='{0} 0 {1}' mass='{2}' diaginertia='{3} {3} {3}'/>{4}",
-      robot.com_x, robot.com_y, p.m, robot.pitch_inertia, legs);
-  return testing::BeamWorldText(leg, body, motors);
-}
-
 Model Compile(const std::string& text) {
   testing::MeetEllipsoidsAsArcs();
   const auto file = std::filesystem::temp_directory_path() /
@@ -66,7 +43,7 @@ Model Compile(const std::string& text) {
 BeamSecond RunBeamSecond() {
   const SimulationRequest request = RobotSecond();
   const RobotParameters<double>& robot = *request.parameters.robot;
-  const Model model = Compile(RobotText(request.parameters));
+  const Model model = Compile(testing::BeamRobotText(request.parameters));
   const Data data(mj_makeData(model.get()), mj_deleteData);
   const auto hip = [&](int leg) {
     return model

@@ -44,6 +44,9 @@ std::string FeetText(const BeamRig& rig, int i, const std::array<double, 2>& beg
 std::string BeamLegText(const BeamRig& rig, std::string_view hip, double rotor_inertia) {
   const double length = rig.radius * kTurn;
   const double mass = rig.leg_mass / kArcs, inertia = mass * length * length / 12.0;
+  const double stiffness = rig.bending_stiffness / length;
+  const std::string bend = fmt::format("<joint class='bend' stiffness='{}' damping='{}'/>",
+                                       stiffness, rig.relaxation * stiffness);
   std::string text;
   std::array<double, 2> before = {0.0, 0.0};
   for (int i = 0; i < kArcs; ++i) {
@@ -52,7 +55,7 @@ std::string BeamLegText(const BeamRig& rig, std::string_view hip, double rotor_i
     text += fmt::format("<body pos='{} 0 {}'>", begin[0] - before[0], begin[1] - before[1]);
     text += i == 0 ? fmt::format("<joint name='{}' type='hinge' axis='0 -1 0' armature='{}'/>", hip,
                                  rotor_inertia)
-                   : std::string("<joint class='bend'/>");
+                   : bend;
     text +=
         fmt::format("<inertial pos='{} 0 {}' mass='{}' diaginertia='{} {} {}'/>",
                     middle[0] - begin[0], middle[1] - begin[1], mass, inertia, inertia, inertia);
@@ -64,21 +67,44 @@ std::string BeamLegText(const BeamRig& rig, std::string_view hip, double rotor_i
 }
 
 std::string BeamWorldText(const BeamRig& rig, std::string_view body, std::string_view actuators) {
-  const double stiffness = rig.bending_stiffness / (rig.radius * kTurn);
   return fmt::format(
       "<mujoco><compiler angle='radian'/>"
       "<option timestep='{}' gravity='0 0 {}' integrator='implicit' cone='elliptic' "
       "impratio='20'/>"
       "<size nconmax='500' njmax='2000'/><default>"
-      "<default class='bend'><joint type='hinge' axis='0 -1 0' stiffness='{}' damping='{}' "
-      "armature='{}'/></default>"
+      "<default class='bend'><joint type='hinge' axis='0 -1 0' armature='{}'/></default>"
       "<default class='foot'><geom contype='0' conaffinity='1' "
       "condim='3' friction='{} 0 0' priority='1' solref='{} 1' solimp='0.99 0.99 0.001'/>"
       "</default></default><worldbody>"
       "<geom type='plane' size='9 1 0.1' euler='0 {} 0' contype='1' conaffinity='0'/>"
       "<body>{}</body></worldbody><actuator>{}</actuator></mujoco>",
-      kStep, -kBeamGravity, stiffness, rig.relaxation * stiffness, kBeamHingeInertia, rig.friction,
-      kSoftness, -rig.slope, body, actuators);
+      kStep, -kBeamGravity, kBeamHingeInertia, rig.friction, kSoftness, -rig.slope, body,
+      actuators);
+}
+
+std::string BeamRobotText(const Parameters<double>& p) {
+  const RobotParameters<double>& robot = *p.robot;
+  BeamRig ground;
+  ground.friction = robot.friction;
+  ground.slope = p.slope;
+  std::string legs, motors;
+  for (int i = 0; i < robot.legs; ++i) {
+    BeamRig leg = ground;
+    leg.radius = p.r;
+    leg.bending_stiffness = robot.E_scale[i] * p.E * p.I;
+    leg.relaxation = robot.damping + robot.extra_damping[i];
+    leg.leg_mass = robot.leg_mass;
+    const std::string hip = fmt::format("hip{}", i);
+    legs += fmt::format("<body pos='{} 0 {}'>{}</body>", robot.hip_x[i], robot.hip_y[i],
+                        BeamLegText(leg, hip, robot.rotor_inertia));
+    motors += fmt::format("<motor joint='{}'/>", hip);
+  }
+  const std::string body = fmt::format(
+      "<joint name='x' type='slide' axis='1 0 0'/><joint name='y' type='slide' axis='0 0 1'/>"
+      "<joint name='pitch' type='hinge' axis='0 -1 0'/>"
+      "<inertial pos='{0} 0 {1}' mass='{2}' diaginertia='{3} {3} {3}'/>{4}",
+      robot.com_x, robot.com_y, p.m, robot.pitch_inertia, legs);
+  return BeamWorldText(ground, body, motors);
 }
 
 }  // namespace hoplab::testing
