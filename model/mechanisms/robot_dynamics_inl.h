@@ -26,9 +26,11 @@ struct Robot<T>::LegPlace {
 
 template <class T>
 typename Robot<T>::LegPlace Robot<T>::LegOf(const Frame& frame, int leg, const T* z) const {
-  const Hip hip = HipOf(frame, leg, z);
-  const Vector2<T> centre = leg_[leg].law.Centre(hip.angle);
-  return {hip, centre.x, centre.y};
+  LegPlace at{HipOf(frame, leg, z), T(0.0), T(0.0)};
+  const Vector2<T> centre = leg_[leg].law.Centre(at.hip.angle);
+  at.x = centre.x;
+  at.y = centre.y;
+  return at;
 }
 
 template <class T>

@@ -36,8 +36,8 @@ class RobotLeg {
   double size() const {
     return Ask([](const auto& leg) { return leg.size(); });
   }
-  T length() const {
-    return Ask([](const auto& leg) { return leg.length(); });
+  const T& length() const {
+    return Ask([](const auto& leg) -> const T& { return leg.length(); });
   }
 
   void StartAt(double tip) {
