@@ -23,7 +23,7 @@ class RobotCli : public ::testing::Test {
 
 TEST_F(RobotCli, TheShippedScenariosRun) {
   for (const char* name : {"experiments/robot-drop.yaml", "experiments/robot-straight-drop.yaml",
-                           "experiments/robot-walk.yaml"}) {
+                           "experiments/robot-walk.yaml", "experiments/robot-straight-walk.yaml"}) {
     const ProcessResult run = Hoplab({"simulate", Shipped(name), "--json"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto record = nlohmann::json::parse(run.out);
