@@ -136,6 +136,24 @@ TEST(ClampedRod, DampingTakesWhatTheMaterialDissipates) {
   }
 }
 
+// Mass and inertia are those of points along it, and it reaches as far as it is long.
+TEST(ClampedRod, IsAUniformRod) {
+  const double beta = 0.4, mass = 0.03;
+  const int points = 2000;
+  double x = 0.0, y = 0.0, inertia = 0.0;
+  for (int i = 0; i < points; ++i) {
+    const double at = kLength * (i + 0.5) / points;
+    x += at * std::sin(beta) / points;
+    y -= at * std::cos(beta) / points;
+    inertia += mass * at * at / points;
+  }
+  EXPECT_NEAR(Rod().Centre(beta).x, x, 1e-12);
+  EXPECT_NEAR(Rod().Centre(beta).y, y, 1e-12);
+  EXPECT_NEAR(Rod().Inertia(mass), inertia, 1e-10);
+  EXPECT_DOUBLE_EQ(Rod().Reach(beta), kLength * std::cos(beta));
+  EXPECT_LT(Rod().Reach(2.0), 0.0);  // one that points up does not reach
+}
+
 // A foot that lands sliding goes the way it is told, and is pressed; one that holds is in its cone.
 TEST(ClampedRod, LandsTheWayItGoesOn) {
   RandomRods random(4);
