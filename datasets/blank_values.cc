@@ -65,6 +65,24 @@ const std::vector<NeededValue>& NeededValues(MechanismKind type) {
 
 namespace {
 
+// Those of a robot on straight legs: what half circles have gives way.
+const std::vector<NeededValue>& NeededOfStraightLegs() {
+  static const std::vector<NeededValue> kStraight = [] {
+    std::vector<NeededValue> list = NeededValues(MechanismKind::kRobot);
+    std::erase_if(list, [](const NeededValue& needed) {
+      return needed.key.starts_with("leg.") && needed.key != "leg.material_damping_s" &&
+             needed.key != "leg.mass_kg";
+    });
+    list.insert(
+        list.end(),
+        {{"leg.rest_length_m", "from hip to toe, unloaded: tape measure"},
+         {"leg.stiffness_N_per_m", "along each leg, the start of the fit: press it"},
+         {"leg.lateral_stiffness_N_per_m", "across it, its hip held fast: pull at its toe"}});
+    return list;
+  }();
+  return kStraight;
+}
+
 std::optional<MechanismKind> TypeOf(const YamlNode& mechanism) {
   const YamlNode* type = mechanism.Find("type");
   if (type == nullptr) return std::nullopt;
@@ -82,6 +100,12 @@ const YamlNode* FindDotted(const YamlNode& root, const std::string& key) {
 
 bool IsBlank(const YamlNode* node) {
   return node != nullptr && node->kind == YamlNode::Kind::kNull;
+}
+
+const std::vector<NeededValue>& NeededBy(const YamlNode& mechanism, MechanismKind type) {
+  const YamlNode* kind = FindDotted(mechanism, "leg.type");
+  const bool straight = type == MechanismKind::kRobot && kind && kind->text == "straight";
+  return straight ? NeededOfStraightLegs() : NeededValues(type);
 }
 
 void FindBlanksOfLegs(const YamlNode& mechanism, std::vector<BlankValue>* blanks) {
@@ -111,7 +135,7 @@ std::vector<BlankValue> FindBlankValues(const YamlNode& dataset) {
   const std::optional<MechanismKind> type =
       mechanism == nullptr ? std::nullopt : TypeOf(*mechanism);
   if (!type) return blanks;
-  for (const NeededValue& needed : NeededValues(*type)) {
+  for (const NeededValue& needed : NeededBy(*mechanism, *type)) {
     const YamlNode* node = FindDotted(*mechanism, needed.key);
     if (IsBlank(node)) blanks.push_back({node->place, "mechanism." + needed.key, needed.hint});
   }

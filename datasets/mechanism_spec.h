@@ -59,7 +59,7 @@ struct RobotLegSpec {
   bool operator==(const RobotLegSpec&) const = default;
 };
 
-/// Body, motors and legs of a robot; all legs are cut from one strip.
+/// Body, motors and legs of a robot; all legs are alike: half circles cut from one strip, or rods.
 struct RobotSpec {
   double pitch_inertia_kg_m2 = 0;  // about the centre of mass
   double com_x_m = 0;              // centre of mass in the body frame
@@ -70,7 +70,11 @@ struct RobotSpec {
   double kp_N_m_per_rad = 0;
   double kd_N_m_s_per_rad = 0;
   std::optional<double> torque_limit_N_m;
-  double rest_radius_m = 0;
+  bool straight_legs = false;            // else half circles
+  double rest_length_m = 0;              // of a straight leg, and what follows
+  double stiffness_N_per_m = 0;          // along it
+  double lateral_stiffness_N_per_m = 0;  // across it
+  double rest_radius_m = 0;              // of a half circle, and what follows
   double E_Pa = 0;
   double second_moment_m4 = 0;
   double material_damping_s = 0;  // retardation time

@@ -226,6 +226,10 @@ MechanismSpec ReadTrialMechanism(const YamlCursor& item, const YamlNode& base_no
     own->Required("type", "")
         .Fail("all trials must have the same type of mechanism",
               "Make a dataset of its own for it.");
+  if (mechanism.robot.straight_legs != base.robot.straight_legs)
+    own->Required("leg", "")
+        .Required("type", "")
+        .Fail("all trials must have the same type of legs", "Make a dataset of its own for it.");
   return mechanism;
 }
 

@@ -34,9 +34,38 @@ void ReadMotor(const YamlCursor& motor, RobotSpec& robot) {
   robot.torque_limit_N_m = motor.OptionalNumber("torque_limit_N_m", Positive(1e6, "N m"));
 }
 
+const std::vector<std::string> kOfArc = {"rest_radius_m", "E_Pa",    "width_m",
+                                         "thickness_m",   "clamp_m", "second_moment_m4"};
+const std::vector<std::string> kOfRod = {"rest_length_m", "stiffness_N_per_m",
+                                         "lateral_stiffness_N_per_m"};
+
+// Which keys a leg may have, by its type; those of the other type are told as such.
+void AllowKeysOf(const YamlCursor& leg, bool straight) {
+  for (const std::string& key : straight ? kOfArc : kOfRod)
+    if (const auto other = leg.Optional(key))
+      other->FailAtKey(
+          straight ? "is of a half circle, and these legs are straight"
+                   : "is of a straight leg, and these are half circles",
+          straight ? "Remove it, or write type: arc." : "Write type: straight beside it.");
+  std::vector<std::string> known = straight ? kOfRod : kOfArc;
+  known.insert(known.end(), {"type", "material_damping_s", "mass_kg"});
+  leg.AllowOnly(known);
+}
+
+void ReadStraightLeg(const YamlCursor& leg, RobotSpec& robot) {
+  robot.rest_length_m = leg.RequiredNumber("rest_length_m", Positive(100, "m"));
+  robot.stiffness_N_per_m = leg.RequiredNumber("stiffness_N_per_m", Positive(1e9, "N/m"));
+  robot.lateral_stiffness_N_per_m =
+      leg.RequiredNumber("lateral_stiffness_N_per_m", Positive(1e9, "N/m"));
+  robot.material_damping_s = leg.RequiredNumber("material_damping_s", NonNegative(0.1, "s"));
+  robot.leg_mass_kg = leg.OptionalNumber("mass_kg", NonNegative(1e3, "kg")).value_or(0);
+}
+
 void ReadLeg(const YamlCursor& leg, RobotSpec& robot) {
-  leg.AllowOnly({"rest_radius_m", "E_Pa", "width_m", "thickness_m", "second_moment_m4",
-                 "material_damping_s", "clamp_m", "mass_kg"});
+  const auto type = leg.Optional("type");
+  robot.straight_legs = type && type->Choice({"arc", "straight"}) == 1;
+  AllowKeysOf(leg, robot.straight_legs);
+  if (robot.straight_legs) return ReadStraightLeg(leg, robot);
   robot.rest_radius_m = leg.RequiredNumber("rest_radius_m", Positive(100, "m"));
   robot.E_Pa = leg.RequiredNumber("E_Pa", kModulus);
   robot.material_damping_s = leg.RequiredNumber("material_damping_s", NonNegative(0.1, "s"));
@@ -91,6 +120,9 @@ RobotSpec ReadRobot(const YamlCursor& mechanism) {
     RobotLegSpec leg;
     ReadPlace(item.Required("hip_m", "the hip in the body frame, [x, y]"), leg.hip_x_m,
               leg.hip_y_m);
+    if (const auto modulus = item.Optional("E_Pa"); modulus && robot.straight_legs)
+      modulus->FailAtKey("is of a half circle, and these legs are straight",
+                         "Remove it: straight legs are alike but for the effect leg_stiffness_1.");
     leg.E_Pa = item.OptionalNumber("E_Pa", kModulus);
     robot.legs.push_back(leg);
   }

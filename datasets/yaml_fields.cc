@@ -62,11 +62,18 @@ void AddRobot(const MechanismSpec& m, YamlFields* fields) {
   add("motor", "kp_N_m_per_rad", robot.kp_N_m_per_rad);
   add("motor", "kd_N_m_s_per_rad", robot.kd_N_m_s_per_rad);
   AddOptional(fields, "motor", "torque_limit_N_m", robot.torque_limit_N_m);
-  add("leg", "rest_radius_m", robot.rest_radius_m);
-  add("leg", "E_Pa", robot.E_Pa);
-  add("leg", "second_moment_m4", robot.second_moment_m4);
+  if (robot.straight_legs) {
+    fields->push_back({"leg", "type", "straight"});
+    add("leg", "rest_length_m", robot.rest_length_m);
+    add("leg", "stiffness_N_per_m", robot.stiffness_N_per_m);
+    add("leg", "lateral_stiffness_N_per_m", robot.lateral_stiffness_N_per_m);
+  } else {
+    add("leg", "rest_radius_m", robot.rest_radius_m);
+    add("leg", "E_Pa", robot.E_Pa);
+    add("leg", "second_moment_m4", robot.second_moment_m4);
+  }
   add("leg", "material_damping_s", robot.material_damping_s);
-  add("leg", "clamp_m", robot.clamp_m);
+  if (!robot.straight_legs) add("leg", "clamp_m", robot.clamp_m);
   add("leg", "mass_kg", robot.leg_mass_kg);
   std::string legs = "[";
   for (const RobotLegSpec& leg : robot.legs) {

@@ -31,6 +31,8 @@ RobotParameters<double> RobotOfSpec(const RobotSpec& spec,
   p.damping = spec.material_damping_s;
   p.clamp = spec.clamp_m;
   p.leg_mass = spec.leg_mass_kg;
+  p.straight_legs = spec.straight_legs;
+  if (spec.straight_legs) p.lateral_stiffness = spec.lateral_stiffness_N_per_m;
   for (std::size_t i = 0; i < spec.legs.size(); ++i) {
     p.hip_x[i] = spec.legs[i].hip_x_m;
     p.hip_y[i] = spec.legs[i].hip_y_m;
@@ -96,9 +98,14 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
       p.tangential_loss = mechanism.ball.tangential_loss;
       break;
     case MechanismKind::kRobot:
-      p.r = mechanism.robot.rest_radius_m;
-      p.E = mechanism.robot.E_Pa;
-      p.I = mechanism.robot.second_moment_m4;
+      if (mechanism.robot.straight_legs) {
+        p.l0 = mechanism.robot.rest_length_m;
+        p.k = mechanism.robot.stiffness_N_per_m;
+      } else {
+        p.r = mechanism.robot.rest_radius_m;
+        p.E = mechanism.robot.E_Pa;
+        p.I = mechanism.robot.second_moment_m4;
+      }
       p.robot = RobotOfSpec(mechanism.robot, controller);
       break;
   }
@@ -220,17 +227,22 @@ const Effect& EffectOfFile(const EffectFile& file) {
   }
 }
 
-int RobotLegsOfSpec(const MechanismSpec& mechanism) {
-  return static_cast<int>(mechanism.robot.legs.size());
+RobotLegs RobotLegsOfSpec(const MechanismSpec& mechanism) {
+  return {static_cast<int>(mechanism.robot.legs.size()), mechanism.robot.straight_legs};
 }
 
 void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place,
-                  InputSet inputs, int robot_legs) {
+                  InputSet inputs, RobotLegs robot_legs) {
   if (AppliesTo(effect, law, mass, inputs, robot_legs)) return;
-  if (robot_legs > 0 && effect.info.robot_leg > robot_legs) {
+  if (robot_legs.count > 0 && effect.info.robot_leg > robot_legs.count) {
     throw InputError({place, "effect " + std::string(effect.info.name),
                       "is of a leg this robot does not have",
                       "Legs are counted from the hindmost, 1."});
+  }
+  if (robot_legs.straight && effect.info.arcs_only) {
+    throw InputError({place, "effect " + std::string(effect.info.name),
+                      "is of half circles, and this robot's legs are straight",
+                      "Leave it out; `hoplab effects` says what there is."});
   }
   if (AppliesTo(effect, law, mass, kEveryInput)) {
     throw InputError({place, "effect " + std::string(effect.info.name),
@@ -266,7 +278,7 @@ EffectSetting AtTypical(const Effect& effect) {
 }  // namespace
 
 std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,
-                                          LegMass mass, InputSet inputs, int robot_legs) {
+                                          LegMass mass, InputSet inputs, RobotLegs robot_legs) {
   std::vector<EffectSetting> settings;
   for (const EffectSpec& spec : specs) {
     const Effect& effect =

@@ -38,17 +38,17 @@ const Effect& ResolveEffect(const std::string& name, const std::string& place,
 const Effect& EffectOfFile(const EffectFile& file);
 
 /// Legs of a robot; 0 of any other mechanism.
-int RobotLegsOfSpec(const MechanismSpec& mechanism);
+RobotLegs RobotLegsOfSpec(const MechanismSpec& mechanism);
 
 /// Throws InputError if the effect means nothing under the law, on a leg with that mass, without
 /// an input it changes, or on a robot with that many legs.
 void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place,
-                  InputSet inputs = 0, int robot_legs = kMaxLegs);
+                  InputSet inputs = 0, RobotLegs robot_legs = {});
 
 /// Effects with their values as a scenario gives them; parameters not given stay null. Throws
 /// InputError for unknown names, values out of bounds, an effect that this law or leg cannot have.
 std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,
                                           LegMass mass, InputSet inputs = 0,
-                                          int robot_legs = kMaxLegs);
+                                          RobotLegs robot_legs = {});
 
 }  // namespace hoplab

@@ -174,9 +174,10 @@ ProblemOptions WithLegsAlike(ProblemOptions options) {
   return options;
 }
 
-int FitProblem::robot_legs() const {
-  return trials.empty() || !trials.front().parameters.robot ? 0
-                                                            : trials.front().parameters.robot->legs;
+RobotLegs FitProblem::robot_legs() const {
+  if (trials.empty() || !trials.front().parameters.robot) return 0;
+  const RobotParameters<double>& robot = *trials.front().parameters.robot;
+  return {robot.legs, robot.straight_legs};
 }
 
 InputSet FitProblem::inputs() const {

@@ -128,7 +128,7 @@ struct FitProblem {
   /// What drives any trial.
   InputSet inputs() const;
   /// Legs of a robot; 0 of any other mechanism.
-  int robot_legs() const;
+  RobotLegs robot_legs() const;
   int shared_count() const { return static_cast<int>(shared.size()); }
   std::vector<std::string> shared_names() const;
 };

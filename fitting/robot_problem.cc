@@ -30,7 +30,7 @@ void AddStart(const char* name, int place, double scale, double value,
 }  // namespace
 
 void ChooseModuli(const ProblemOptions& options, FitProblem& problem) {
-  if (problem.robot_legs() == 0) return;
+  if (problem.robot_legs().count == 0 || problem.robot_legs().straight) return;
   const auto is_own = [](const std::string& name) { return name.starts_with("E_"); };
   const bool shared =
       options.legs_alike || RobotOf(problem).legs == 1 ||
@@ -44,7 +44,8 @@ void ChooseModuli(const ProblemOptions& options, FitProblem& problem) {
 }
 
 bool IsOfRobot(ParameterId id, const FitProblem& problem) {
-  if (problem.robot_legs() == 0) return true;
+  if (problem.robot_legs().count == 0) return true;
+  if (!IsOfLegs(id, problem.trials.front().parameters)) return false;
   if (id == ParameterId::kE) return !RobotOf(problem).own_moduli;
   if (id < ParameterId::kE1 || id > ParameterId::kE4) return true;
   return static_cast<int>(id) - static_cast<int>(ParameterId::kE1) < RobotOf(problem).legs;
@@ -52,6 +53,7 @@ bool IsOfRobot(ParameterId id, const FitProblem& problem) {
 
 std::vector<std::string> FreeNames(const FitProblem& problem) {
   std::vector<std::string> names;
+  if (problem.robot_legs().straight) return {"k", "leg_damping"};
   for (ParameterId id : FreeByDefault(MechanismOf(problem.law))) {
     if (id == ParameterId::kE && !IsOfRobot(id, problem)) {
       for (int leg = 1; leg <= RobotOf(problem).legs; ++leg)

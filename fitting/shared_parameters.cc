@@ -101,11 +101,20 @@ class SharedBuilder {
                       "Values are in SI units."});
   }
 
+  InputError OfOtherLegs(const std::string& name, const std::string& place) const {
+    if (problem_.robot_legs().straight)
+      return InputError({place, name, "is of a half circle, and this robot's legs are straight",
+                         "Straight legs have k, k_lateral, l0 and leg_damping."});
+    return InputError({place, name, "is of a straight leg, and this robot's are half circles",
+                       "Half circles have E, r, I, clamp and leg_damping."});
+  }
+
   ParameterId KnownParameter(const std::string& name, const std::string& place) const {
     const std::optional<ParameterId> id = FindParameter(name);
     const std::vector<ParameterId> of = ParametersOf(problem_);
     if (id && std::find(of.begin(), of.end(), *id) != of.end()) {
       if (IsOfRobot(*id, problem_)) return *id;
+      if (!IsOfLegs(*id, problem_.trials.front().parameters)) throw OfOtherLegs(name, place);
       throw InputError({place, name,
                         *id == ParameterId::kE ? "is told of each leg by itself here"
                                                : "is of a leg this robot does not have",
@@ -119,7 +128,8 @@ class SharedBuilder {
                         "Add toe_mass_kg to the mechanism."});
     }
     std::vector<std::string> names;
-    for (ParameterId own : of) names.emplace_back(InfoOf(own).name);
+    for (ParameterId own : of)
+      if (IsOfLegs(own, problem_.trials.front().parameters)) names.emplace_back(InfoOf(own).name);
     throw InputError({place, Printable(name),
                       "is not a parameter of the mechanism " + std::string(NameOf(mechanism_)),
                       DidYouMean(name, names)});

@@ -10,7 +10,7 @@ namespace {
 
 using enum ParameterId;
 
-constexpr std::array<ParameterInfo, 42> kParameters = {{
+constexpr std::array<ParameterInfo, 43> kParameters = {{
     {kE, "E", "Pa", 1e3, 1e13},
     {kG, "G", "Pa", 1e3, 1e13},
     {kD, "d", "N s/m", 0.0, 1e5},
@@ -53,6 +53,7 @@ constexpr std::array<ParameterInfo, 42> kParameters = {{
     {kClockPhase2, "clock_phase_2", "-", -1e3, 1e3},
     {kClockPhase3, "clock_phase_3", "-", -1e3, 1e3},
     {kClockPhase4, "clock_phase_4", "-", -1e3, 1e3},
+    {kLateralStiffness, "k_lateral", "N/m", 1e-3, 1e9},
 }};
 
 constexpr std::array kCLegParameters = {
@@ -62,10 +63,31 @@ constexpr std::array kStraightLegParameters = {kStiffness, kD,  kRestLength, kM,
 constexpr std::array kToeParameters = {kToeMass, kKpPlace, kKdPlace};
 constexpr std::array kBallParameters = {kRestitution, kTangentialLoss, kM, kGravity, kRadius};
 
-constexpr std::array kRobotParameters = {
-    kE,       kLegDamping, kE1,           kE2,           kE3,     kE4,   kM,
-    kGravity, kR,          kSecondMoment, kPitchInertia, kComX,   kComY, kRotorInertia,
-    kMotorKp, kMotorKd,    kFriction,     kClamp,        kLegMass};
+constexpr std::array kRobotParameters = {kE,
+                                         kLegDamping,
+                                         kE1,
+                                         kE2,
+                                         kE3,
+                                         kE4,
+                                         kM,
+                                         kGravity,
+                                         kR,
+                                         kSecondMoment,
+                                         kPitchInertia,
+                                         kComX,
+                                         kComY,
+                                         kRotorInertia,
+                                         kMotorKp,
+                                         kMotorKd,
+                                         kFriction,
+                                         kClamp,
+                                         kLegMass,
+                                         kStiffness,
+                                         kRestLength,
+                                         kLateralStiffness};
+// Of them those that only half circles have, and those that only straight legs have.
+constexpr std::array kOfArcs = {kE, kE1, kE2, kE3, kE4, kR, kSecondMoment, kClamp};
+constexpr std::array kOfRods = {kStiffness, kRestLength, kLateralStiffness};
 
 constexpr std::array kClockParameters = {kClockPeriod, kClockDuty,   kClockSweep,  kClockOffset,
                                          kClockPhase1, kClockPhase2, kClockPhase3, kClockPhase4};
@@ -95,6 +117,14 @@ std::span<const ParameterId> ParametersOf(MechanismKind mechanism) {
       return kRobotParameters;
   }
   return {};
+}
+
+bool IsOfLegs(ParameterId id, const Parameters<double>& p) {
+  if (!p.robot) return true;
+  const auto has = [id](const auto& list) {
+    return std::find(list.begin(), list.end(), id) != list.end();
+  };
+  return p.robot->straight_legs ? !has(kOfArcs) : !has(kOfRods);
 }
 
 std::span<const ParameterId> ClockParameters() { return kClockParameters; }

@@ -77,7 +77,7 @@ struct Parameters {
   T I{1.0};      // second moment of the section [m^4]
   T A{1.0};      // section area [m^2]
   T kappa{1.5};  // shear factor [-]
-  // Straight leg.
+  // Straight legs, also those of a robot.
   T k{1.0};   // stiffness [N/m]
   T l0{1.0};  // rest length [m]
   // Ball.
@@ -149,7 +149,8 @@ enum class ParameterId {
   kClockPhase1,
   kClockPhase2,
   kClockPhase3,
-  kClockPhase4
+  kClockPhase4,
+  kLateralStiffness
 };
 
 /// Name, unit and physical range of a parameter.
@@ -167,6 +168,9 @@ const ParameterInfo& InfoOf(ParameterId id);
 std::optional<ParameterId> FindParameter(std::string_view name);
 /// Parameters that mean something for a mechanism, the ones fitted by default first.
 std::span<const ParameterId> ParametersOf(MechanismKind mechanism);
+/// Whether a parameter means something of the legs a robot has, arcs or straight ones; true of any
+/// other mechanism.
+bool IsOfLegs(ParameterId id, const Parameters<double>& p);
 /// What the clock of a robot's motors has; a fit takes it as it is told.
 std::span<const ParameterId> ClockParameters();
 /// What a leg with a mass at its toe has besides; never free unless asked for.
@@ -219,6 +223,8 @@ T& RobotField(RobotParameters<T>& robot, ParameterId id) {
     case ParameterId::kClockPhase3:
     case ParameterId::kClockPhase4:
       return robot.phase[place(ParameterId::kClockPhase1)];
+    case ParameterId::kLateralStiffness:
+      return robot.lateral_stiffness;
     default:
       return robot.pitch_inertia;  // unreachable: the others are not of a robot
   }

@@ -26,9 +26,10 @@ struct RobotParameters {
   T motor_gain{1.0};         // what a motor gives of what it is told [-]
   T motor_lag{0.0};          // how long what it gives follows what it is told [s]
   T friction{std::numeric_limits<double>::infinity()};  // under the feet [-]
-  T clamp{0.0};     // length of every leg that its hub holds rigid [m]
-  T damping{0.0};   // retardation time of every leg's material [s]
-  T leg_mass{0.0};  // of every leg, beside the body's [kg]
+  T clamp{0.0};              // length of every leg that its hub holds rigid [m]
+  T damping{0.0};            // retardation time of every leg's material [s]
+  T leg_mass{0.0};           // of every leg, beside the body's [kg]
+  T lateral_stiffness{1.0};  // of straight legs, across [N/m]; k and l0 are those of Parameters
   std::array<T, kMaxLegs> E{T(1.0), T(1.0), T(1.0), T(1.0)};      // [Pa]
   std::array<T, kMaxLegs> hip_x{T(0.0), T(0.0), T(0.0), T(0.0)};  // in the body frame [m]
   std::array<T, kMaxLegs> hip_y{T(0.0), T(0.0), T(0.0), T(0.0)};
@@ -51,7 +52,8 @@ struct RobotParameters {
   T offset{0.0};                                                  // [rad]
   std::array<T, kMaxLegs> phase{T(0.0), T(0.0), T(0.0), T(0.0)};  // [-]
   // Settings without derivatives.
-  bool own_moduli = false;  // each leg has its E; else all have that of Parameters
+  bool straight_legs = false;  // M97; else half circles
+  bool own_moduli = false;     // each leg has its E; else all have that of Parameters
   MotorControl control = MotorControl::kHeld;
   bool starts_at_angles = false;  // recorded motors, at `angle`; else on what they follow
   double torque_limit = std::numeric_limits<double>::infinity();  // of a motor [N m]
@@ -62,7 +64,7 @@ struct RobotParameters {
   static void Each(Self& p, const Do& act) {
     for (auto* v : {&p.pitch_inertia, &p.com_x, &p.com_y, &p.rotor_inertia, &p.motor_kp,
                     &p.motor_kd, &p.motor_gain, &p.motor_lag, &p.friction, &p.clamp, &p.damping,
-                    &p.leg_mass, &p.period, &p.duty, &p.sweep, &p.offset})
+                    &p.leg_mass, &p.lateral_stiffness, &p.period, &p.duty, &p.sweep, &p.offset})
       act(*v);
     for (auto* list :
          {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.rate, &p.E_scale, &p.extra_damping, &p.gain_of,
@@ -75,12 +77,13 @@ struct RobotParameters {
 template <class To, class From>
 RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   RobotParameters<To> to;
-  std::array<double, 16 + 13 * kMaxLegs> values{};
+  std::array<double, 17 + 13 * kMaxLegs> values{};
   std::size_t n = 0;
   RobotParameters<From>::Each(from, [&](const From& v) { values[n++] = Value(v); });
   n = 0;
   RobotParameters<To>::Each(to, [&](To& v) { v = To(values[n++]); });
   to.legs = from.legs;
+  to.straight_legs = from.straight_legs;
   to.own_moduli = from.own_moduli;
   to.control = from.control;
   to.starts_at_angles = from.starts_at_angles;

@@ -40,7 +40,9 @@ WorstCase TryAll(const std::vector<Hopper>& hoppers, int jobs) {
 }
 
 std::vector<Hopper> OverStiffness(const Hopper& hopper, const RobustnessOptions& options) {
-  const bool straight = MechanismOf(hopper.request.law) == MechanismKind::kStraightLeg;
+  const auto& robot = hopper.request.parameters.robot;
+  const bool straight =
+      robot ? robot->straight_legs : MechanismOf(hopper.request.law) == MechanismKind::kStraightLeg;
   const ParameterId id = straight ? ParameterId::kStiffness : ParameterId::kE;
   std::vector<Hopper> hoppers(static_cast<std::size_t>(options.stiffness_points), hopper);
   for (int i = 0; i < options.stiffness_points; ++i) {
@@ -48,6 +50,7 @@ std::vector<Hopper> OverStiffness(const Hopper& hopper, const RobustnessOptions&
     const double factor = 1.0 + options.stiffness_range * Spread(i, options.stiffness_points);
     Field(p, id) *= factor;
     if (!p.robot) continue;
+    p.robot->lateral_stiffness *= factor;
     for (double& E : p.robot->E) E *= factor;
   }
   return hoppers;

@@ -174,7 +174,8 @@ Hop StrideMap::Apply(const SectionState& start) {
 }
 
 std::vector<SectionComponent> StrideMap::Components(const SectionState& at) const {
-  const double height = hopper().request.parameters.r;
+  const Parameters<double>& p = hopper().request.parameters;
+  const double height = RobotOf(hopper()).straight_legs ? 0.5 * p.l0 : p.r;
   std::vector<SectionComponent> list = {{"y_m", height},
                                         {"vx_m_per_s", 1.0},
                                         {"vy_m_per_s", 1.0},

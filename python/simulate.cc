@@ -31,9 +31,11 @@ ScenarioDocument DocumentOf(const py::dict& options) {
   return document;
 }
 
-std::vector<ParameterId> IdsOf(MechanismKind mechanism, LegMass mass) {
+std::vector<ParameterId> IdsOf(MechanismKind mechanism, LegMass mass,
+                               const Parameters<double>& parameters) {
   const auto of = ParametersOf(mechanism), toe = ToeParameters();
   std::vector<ParameterId> ids(of.begin(), of.end());
+  std::erase_if(ids, [&](ParameterId id) { return !IsOfLegs(id, parameters); });
   if (mass == LegMass::kAtToe) ids.insert(ids.end(), toe.begin(), toe.end());
   return ids;
 }
@@ -138,7 +140,7 @@ py::dict SimulationOf(const py::dict& options) {
       scenario.effects, law, mass, KindsOf(inputs), RobotLegsOfSpec(scenario.mechanism));
   SimulationRequest request = RequestOfScenario(scenario, effects, inputs);
   request.integrator = IntegratorOf(options);
-  const std::vector<ParameterId> ids = IdsOf(mechanism, mass);
+  const std::vector<ParameterId> ids = IdsOf(mechanism, mass, request.parameters);
   SetParameters(Option<std::map<std::string, double>>(options, "parameters"), ids,
                 request.parameters);
 
@@ -146,7 +148,7 @@ py::dict SimulationOf(const py::dict& options) {
   const std::vector<std::string> names = wanted ? *wanted : AllDirections(ids, effects);
   std::vector<SensitivityDirection> directions;
   for (const std::string& name : names)
-    directions.push_back(ResolveDirection(name, mechanism, mass, effects));
+    directions.push_back(ResolveDirection(name, request, mass, effects));
   const std::vector<Channel> channels = ChannelsOf(options, mechanism);
   std::optional<std::vector<double>> times;
   if (!options["times"].is_none()) times = VectorOf(Option<DoubleArray>(options, "times"));

@@ -252,4 +252,4 @@ function animationOf(runs) {
 
 const figureOf = (mechanism) => (mechanism.type === 'robot' ? RobotFigure : Hopper);
 
-const animationNote = 'Hip, contact point, contact arc and force are the simulation\'s; between hip and contact the arc is drawn as a circular one of its own length over the simulated chord.';
+const animationNote = 'Hip, contact point, contact arc and force are the simulation\'s; between hip and contact an arc is drawn as a circular one of its own length over the simulated chord, a straight leg of a robot as a spring.';

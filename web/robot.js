@@ -18,7 +18,12 @@ function robotMotionOf(trajectory, rows) {
   return motion;
 }
 
-const robotStands = (motion, row) => [1, 2, 3, 4].some((leg) => isNumber(motion[`arc${leg}`]?.[row]));
+const robotStands = (motion, row) => [1, 2, 3, 4].some((leg) => isNumber(motion[`contactX${leg}`]?.[row]));
+
+// Rest length of a robot's straight legs [m]; of half circles nothing.
+const straightLength = (mechanism) => mechanism.parameters.l0;
+// Half of an unloaded leg [m].
+const legSize = (mechanism) => (straightLength(mechanism) ?? 2 * mechanism.parameters.r) / 2;
 
 // A place of the body frame in the world.
 function ofBody(state, [x, y]) {
@@ -30,16 +35,27 @@ function ofBody(state, [x, y]) {
 function robotLegState(mechanism, state, leg) {
   const arc = state[`arc${leg}`];
   const bends = Math.PI - (mechanism.parameters.clamp ?? 0) / mechanism.parameters.r;
+  const onToe = straightLength(mechanism) !== undefined || arc > bends - 1e-9;
   return {
     hip: ofBody(state, mechanism.hips_m[leg - 1]), angle: state.pitch + state[`angle${leg}`], arc,
     contactX: state[`contactX${leg}`], contactY: state[`contactY${leg}`],
     forceX: state[`forceX${leg}`], forceY: state[`forceY${leg}`],
-    mode: !isNumber(arc) ? 'flight' : arc > bends - 1e-9 ? 'toe' : 'rolling',
+    mode: !isNumber(state[`contactX${leg}`]) ? 'flight' : onToe ? 'toe' : 'rolling',
   };
+}
+
+// A straight leg: a coil spring from its hip to its foot, or in the air to its toe.
+function straightLegShape([x, y], leg, length) {
+  const [toX, toY] = leg.mode === 'flight' ? [x + length * Math.sin(leg.angle), y - length * Math.cos(leg.angle)] : [leg.contactX, leg.contactY];
+  const [dx, dy] = [toX - x, toY - y];
+  const across = 0.05 * length / Math.hypot(dx, dy);
+  const turns = [...Array(12).keys()].map((i) => [0.3 + 0.04 * (i + 0.5), i % 2 ? -across : across]);
+  return [[0, 0], [0.3, 0], ...turns, [0.78, 0], [1, 0]].map(([along, aside]) => [x + along * dx - aside * dy, y + along * dy + aside * dx]);
 }
 
 // The shape of that leg: of its own length between hip and contact, as leg.js draws a hopper's.
 function robotLegShape(mechanism, leg) {
+  if (straightLength(mechanism) !== undefined) return straightLegShape(leg.hip, leg, straightLength(mechanism));
   const {r, clamp} = mechanism.parameters;
   if (leg.mode === 'flight') return restingLeg(leg.hip, leg.angle, r);
   return loadedLeg(leg.hip, [leg.contactX, leg.contactY], Math.min(Math.PI, leg.arc + (clamp ?? 0) / r), r);
@@ -48,7 +64,7 @@ function robotLegShape(mechanism, leg) {
 // The outline of the body: around its hips.
 function bodyOutline(mechanism, state) {
   const hips = mechanism.hips_m;
-  const half = 0.28 * mechanism.parameters.r;
+  const half = 0.28 * legSize(mechanism);
   const [back, front] = [Math.min(...hips.map((h) => h[0])) - 1.6 * half, Math.max(...hips.map((h) => h[0])) + 1.6 * half];
   const [low, high] = [Math.min(...hips.map((h) => h[1])) - half, Math.max(...hips.map((h) => h[1])) + half];
   return [[back, low], [front, low], [front + 0.8 * half, (low + high) / 2], [front, high], [back, high]].map((p) => ofBody(state, p));
@@ -98,11 +114,11 @@ function describeRobot(mechanism, state) {
 function contactsOf(motion, legs) {
   const contacts = [];
   for (const leg of legs) {
-    const arcs = motion[`arc${leg}`];
+    const feet = motion[`contactX${leg}`];
     let from;
-    arcs.forEach((arc, row) => {
-      if (isNumber(arc) && from === undefined) from = motion.time[row];
-      if (from === undefined || (isNumber(arc) && row + 1 < arcs.length)) return;
+    feet.forEach((foot, row) => {
+      if (isNumber(foot) && from === undefined) from = motion.time[row];
+      if (from === undefined || (isNumber(foot) && row + 1 < feet.length)) return;
       contacts.push({leg, from, to: motion.time[row]});
       from = undefined;
     });

@@ -127,7 +127,8 @@ Json MechanismRecord(const SimulationRequest& request) {
   const MechanismKind mechanism = MechanismOf(request.law);
   Json parameters = Json::object();
   for (const ParameterId id : ParametersOf(mechanism))
-    parameters[std::string(InfoOf(id).name)] = NumberOrNull(Field(request.parameters, id));
+    if (IsOfLegs(id, request.parameters))
+      parameters[std::string(InfoOf(id).name)] = NumberOrNull(Field(request.parameters, id));
   if (mechanism == MechanismKind::kBall)
     parameters["radius"] = NumberOrNull(request.parameters.radius);
   if (request.parameters.m_toe > 0.0) {

@@ -31,7 +31,8 @@ std::string LawListText(bool colours) {
       text += "  " + name + std::string(SentenceOf(law)) + "\n";
     }
     text += "  parameters:       " + ParameterList(ParametersOf(mechanism)) +
-            "; the first two are fitted by default\n";
+            "; the first two are fitted by default" +
+            (mechanism == MechanismKind::kRobot ? ", of straight legs k and leg_damping\n" : "\n");
     if (mechanism == MechanismKind::kBall || mechanism == MechanismKind::kRobot) continue;
     text += "  with toe_mass_kg: " + ParameterList(ToeParameters()) + "\n";
   }

@@ -16,7 +16,9 @@ namespace {
 std::vector<std::string> RobotParameterNames(const RobotParameters<double>& robot) {
   std::vector<std::string> names = {"clock_period", "clock_duty", "clock_sweep", "clock_offset"};
   for (int leg = 2; leg <= robot.legs; ++leg) names.push_back("clock_phase_" + std::to_string(leg));
-  if (robot.own_moduli) {
+  if (robot.straight_legs) {
+    names.insert(names.end(), {"k", "k_lateral"});
+  } else if (robot.own_moduli) {
     for (int leg = 1; leg <= robot.legs; ++leg) names.push_back("E_" + std::to_string(leg));
   } else {
     names.emplace_back("E");
@@ -64,7 +66,7 @@ SensitivityDirection GaitDirection(const Hopper& hopper, const std::string& name
       throw InputError({"--along", name, "is not followed: the section turns with the ground",
                         "Give the slope in the scenario."});
   }
-  return ResolveDirection(name, MechanismOf(hopper.request.law), LegMass::kNone, hopper.effects);
+  return ResolveDirection(name, hopper.request, LegMass::kNone, hopper.effects);
 }
 
 AlongRange ParseAlong(const std::string& text) {

@@ -10,15 +10,16 @@ namespace {
 constexpr std::array<const char*, 4> kStartNames = {"x0", "y0", "vx0", "vy0"};
 }  // namespace
 
-SensitivityDirection ResolveDirection(const std::string& name, MechanismKind mechanism,
+SensitivityDirection ResolveDirection(const std::string& name, const SimulationRequest& of,
                                       LegMass mass, const std::vector<EffectSetting>& effects) {
   std::vector<std::string> known;
   for (std::size_t i = 0; i < kStartNames.size(); ++i) {
     if (name == kStartNames[i]) return SensitivityDirection::InitialState(static_cast<int>(i));
     known.emplace_back(kStartNames[i]);
   }
-  const auto of = ParametersOf(mechanism), toe = ToeParameters();
-  std::vector<ParameterId> ids(of.begin(), of.end());
+  const auto own = ParametersOf(MechanismOf(of.law)), toe = ToeParameters();
+  std::vector<ParameterId> ids(own.begin(), own.end());
+  std::erase_if(ids, [&](ParameterId id) { return !IsOfLegs(id, of.parameters); });
   if (mass == LegMass::kAtToe) ids.insert(ids.end(), toe.begin(), toe.end());
   for (const ParameterId id : ids) {
     if (name == InfoOf(id).name) return SensitivityDirection::Parameter(id);

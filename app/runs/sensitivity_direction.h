@@ -7,9 +7,9 @@
 
 namespace hoplab {
 
-/// A direction `--sensitivities` names: x0, y0, vx0, vy0, a parameter of the mechanism or
+/// A direction `--sensitivities` names: x0, y0, vx0, vy0, a parameter of the mechanism of a run or
 /// effect.parameter of an effect that acts. Throws InputError with the nearest known name.
-SensitivityDirection ResolveDirection(const std::string& name, MechanismKind mechanism,
+SensitivityDirection ResolveDirection(const std::string& name, const SimulationRequest& of,
                                       LegMass mass, const std::vector<EffectSetting>& effects);
 
 }  // namespace hoplab

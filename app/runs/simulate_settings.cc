@@ -27,7 +27,7 @@ ScenarioRequest::ScenarioRequest(const SimulateSettings& settings, const Scenari
   request = RequestOfScenario(scenario, effects, inputs);
   request.integrator = IntegratorOptionsOf(settings.solver);
   for (const std::string& name : settings.sensitivities)
-    directions.push_back(ResolveDirection(name, mechanism, mass, effects));
+    directions.push_back(ResolveDirection(name, request, mass, effects));
   request.directions = directions;
 }
 

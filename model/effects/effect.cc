@@ -40,12 +40,13 @@ bool BringsLawTerms(const Effect& effect) {
 
 }  // namespace
 
-bool AppliesTo(const Effect& effect, Law law, LegMass mass, InputSet inputs, int robot_legs) {
+bool AppliesTo(const Effect& effect, Law law, LegMass mass, InputSet inputs, RobotLegs robot_legs) {
   const EffectInfo& info = effect.info;
   if (info.needs_inputs != 0 && (info.needs_inputs & inputs) == 0) return false;
   if (mass == LegMass::kAtToe && info.massless_leg_only) return false;
   if (MechanismOf(law) == MechanismKind::kRobot)
-    return info.for_robot && info.robot_leg <= robot_legs;
+    return info.for_robot && info.robot_leg <= robot_legs.count &&
+           !(info.arcs_only && robot_legs.straight);
   if (!(MechanismOf(law) == MechanismKind::kBall ? info.for_ball : info.for_legs)) return false;
   if (MechanismOf(law) != MechanismKind::kBall && !InfoOf(law).takes_terms &&
       BringsLawTerms(effect))

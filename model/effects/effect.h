@@ -49,6 +49,7 @@ struct EffectInfo {
   std::span<const Law> only_laws = {};  // of those mechanisms' laws; empty: all of them
   InputSet needs_inputs = 0;  // means nothing unless one of these drives the run; 0: always does
   bool for_robot = false;     // applies to a robot, too
+  bool arcs_only = false;     // of a robot whose legs are half circles
   int robot_leg = 0;  // it is of this leg of a robot alone, 1 the hindmost; 0: of no one leg
 };
 
@@ -170,9 +171,17 @@ struct Effect {
 /// Whether a leg has a mass at its toe.
 enum class LegMass { kNone, kAtToe };
 
-/// Whether an effect means anything under a law, on such a leg, on a robot with that many legs.
+/// How many legs a robot has, none of a hopper, and of which kind.
+struct RobotLegs {
+  RobotLegs(int legs = kMaxLegs, bool are_straight = false)  // NOLINT: a number says it
+      : count(legs), straight(are_straight) {}
+  int count;
+  bool straight;
+};
+
+/// Whether an effect means anything under a law, on such a leg, on a robot with those legs.
 bool AppliesTo(const Effect& effect, Law law, LegMass mass = LegMass::kNone, InputSet inputs = 0,
-               int robot_legs = kMaxLegs);
+               RobotLegs robot_legs = {});
 
 /// Every effect there is, by name. One entry per file in model/effects (cmake writes the list).
 std::span<const Effect* const> AllEffects();

@@ -21,7 +21,8 @@ struct RestRadiusScale {
       .dissipative = false,
       .parameters = kParameters,
       .only_laws = kLaws,
-      .for_robot = true};
+      .for_robot = true,
+      .arcs_only = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

@@ -26,11 +26,12 @@ constexpr LawInfo kRobot = {
     MechanismKind::kRobot,
     0,
     "robot",
-    "robot: a body with pitch on up to four legs, each an exact elastic arc clamped to "
-    "its motor.",
+    "robot: a body with pitch on up to four legs, each an exact elastic arc or a straight spring, "
+    "clamped to its motor.",
     "Each leg is an elastic arc clamped to its motor: kappa^2 = 1 + 2 f_x (cos psi_0 - "
     "cos psi) + 2 f_y (sin psi - sin psi_0) along it, kappa in 1/r, f = F r^2/(E I) "
-    "(M80); body, motors and feet as M69 to M76.",
+    "(M80), or a rod that gives way along itself and across (M97); body, motors and feet as M69 to "
+    "M76.",
     "For machines with several legs and a body that pitches, as RHex. Free E_1, E_2 to "
     "ask which leg is soft; fix leg_damping if the traces are short.",
     false};

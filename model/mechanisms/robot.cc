@@ -33,24 +33,24 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
   const Inertia<T> weight(p_);
   gravity_x_ = weight.gravity_x;
   gravity_y_ = weight.gravity_y;
-  follows_feet_ = Value(robot_.leg_mass) >= robot_detail::kLightestLeg * Value(p_.m);
+  // A straight leg's mass is its hub's (M97).
+  follows_feet_ =
+      !robot_.straight_legs && Value(robot_.leg_mass) >= robot_detail::kLightestLeg * Value(p_.m);
   foot_has_inertia_ = follows_feet_ && HasCone();
-  fall_height_ =
-      p_.fall_height == p_.fall_height ? p_.fall_height : robot_detail::kLowestHip * Value(p_.r);
   using std::cos;
   using std::sin;
   clamp_ = robot_.clamp / p_.r;
   cos_clamp_ = cos(clamp_);
   sin_clamp_ = sin(clamp_);
   for (int i = 0; i < legs_; ++i) {
-    const T& E = robot_.own_moduli ? robot_.E[i] : p_.E;
-    leg_[i].arc =
-        ClampedArc<T>(p_.r, robot_.E_scale[i] * E * p_.I, robot_.damping + robot_.extra_damping[i],
-                      robot_.friction, robot_.clamp);
+    leg_[i].law = RobotLeg<T>(p_, static_cast<std::size_t>(i));
     leg_[i].clock = MotorClock<T>(robot_, i, p_.time_origin);
     gain_[i] = robot_.motor_gain * robot_.gain_of[i];
     SetUpMotor(i);
   }
+  size_ = leg_[0].law.size();
+  fall_height_ =
+      p_.fall_height == p_.fall_height ? p_.fall_height : robot_detail::kLowestHip * size_;
   ListGuards(Mode::kFlight);
 }
 
@@ -102,9 +102,7 @@ int Robot<T>::TurnsOf(double angle) {
 // M74: how far below its hip the unloaded leg reaches [m].
 template <class T>
 T Robot<T>::Reach(const T& angle) const {
-  using std::cos;
-  const T b = angle - 2.0 * kPi * TurnsOf(Value(angle));
-  return Value(b) > 0.0 ? T(p_.r * (1.0 + cos(b))) : T(2.0 * p_.r * cos(b));
+  return leg_[0].law.Reach(T(angle - 2.0 * kPi * TurnsOf(Value(angle))));
 }
 
 // ---- start, discrete state ------------------------------------------------------------
@@ -144,7 +142,7 @@ Mode Robot<T>::Resume(std::span<const Foot> feet, const T* z) {
     const double angle = Value(z[Pitch()] - p_.slope + z[Angle(i)]);
     leg.turns = TurnsOf(angle);
     const double tip = std::max(0.0, 2.0 * kPi * leg.turns - angle);
-    if (IsDown(leg)) leg.arc.StartAt(leg.stance == Stance::kToe ? tip : 0.0);
+    if (IsDown(leg)) leg.law.StartAt(leg.stance == Stance::kToe ? tip : 0.0);
   }
   FindTeeth(z);
   FindLimits(0.0, z);
@@ -167,7 +165,7 @@ void Robot<T>::SaveDiscreteState(DiscreteState& to) const {
     for (int value : {static_cast<int>(leg.stance), leg.turns, leg.limit, leg.piece, leg.teeth})
       to.Put(value);
     to.Put(leg.slides);
-    leg.arc.Save(to);
+    leg.law.Save(to);
   }
   inputs_.Save(to);
 }
@@ -179,7 +177,7 @@ void Robot<T>::LoadDiscreteState(DiscreteState& from) {
     for (int* value : {&leg.turns, &leg.limit, &leg.piece, &leg.teeth})
       *value = static_cast<int>(from.Take());
     leg.slides = from.Take();
-    leg.arc.Load(from);
+    leg.law.Load(from);
   }
   inputs_.Load(from);
   ListGuards(ModeNow());
@@ -196,8 +194,8 @@ void Robot<T>::StartSearch(Mode mode, const double* z) {
     leg.teeth = leg.geared() ? TeethAt(leg, z[Twist(leg)]) : 0;
     if (mode == Mode::kFlight || z[Contact(i)] == 0.0) continue;
     leg.turns = TurnsOf(z[Pitch()] + z[Angle(i)]);
-    leg.stance = Stance::kRolling;
-    leg.arc.StartAt(0.0);
+    leg.stance = leg.law.rolls() ? Stance::kRolling : Stance::kToe;
+    leg.law.StartAt(0.0);
   }
 }
 
@@ -233,7 +231,7 @@ Observation<T> Robot<T>::Observe(Mode mode, const T& t, const T* z) const {
     seen[OfLeg(Channel::kContact1, i)] = T(down ? 1.0 : 0.0);
     if (!down) continue;
     const Hip hip = HipOf(frame, i, z);
-    const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z));
+    const ClampedLoad<T> load = leg.law.At(FootOf(leg), PlaceOf(leg, i, hip, z));
     const T fx = load.fx + load.damped_x, fy = load.fy + load.damped_y;
     force_x += fx;
     force_y += fy;

@@ -3,10 +3,10 @@
 #include <array>
 
 #include "model/hybrid/hybrid_system.h"
-#include "model/laws/clamped/clamped_arc.h"
 #include "model/mechanisms/gear.h"
 #include "model/mechanisms/mechanism_setup.h"
 #include "model/mechanisms/motor_clock.h"
+#include "model/mechanisms/robot_leg.h"
 #include "model/mechanisms/robot_leg_shape.h"
 
 namespace hoplab {
@@ -15,12 +15,12 @@ namespace hoplab {
 template <class T>
 using LegMotion = std::array<T, 4>;
 
-/// A rigid body with pitch on up to four clamped arcs, each turned by a motor at its hip (section 8
-/// of the equation sheet). State: x, y, vx, vy of the body's reference point, pitch and its rate,
-/// the legs' angles, their rates, of each leg the contact coordinate (X0 while it rolls, x_c
-/// on its toe), of each motor whose gear has play its twist and the rotor's rate, where motors lag
-/// what each is giving, and where its feet have inertia their speed over the ground. Flight is when
-/// no leg is on the ground; which ones are and how is a discrete state.
+/// A rigid body with pitch on up to four legs, arcs or straight ones, each clamped to a motor at
+/// its hip (section 8 of the equation sheet). State: x, y, vx, vy of the body's reference point,
+/// pitch and its rate, the legs' angles, their rates, of each leg the contact coordinate (X0 while
+/// it rolls, x_c on its toe), of each motor whose gear has play its twist and the rotor's rate,
+/// where motors lag what each is giving, and where its feet have inertia their speed over the
+/// ground. Flight is when no leg is on the ground; which ones are and how is a discrete state.
 template <class T>
 class Robot final : public HybridSystem<T> {
  public:
@@ -62,7 +62,7 @@ class Robot final : public HybridSystem<T> {
     int gear_place = -1;   // of its gear among those with play; -1: it has none
     bool is_told = false;  // its motor, a torque that was recorded
     Gear<T> gear = {};
-    ClampedArc<T> arc = {};
+    RobotLeg<T> law = {};
     MotorClock<T> clock = {};
     bool geared() const { return gear_place >= 0; }
   };
@@ -185,6 +185,7 @@ class Robot final : public HybridSystem<T> {
   bool lags_, lags_shortly_;  // motors: with a state of their own, or to first order (M86)
   bool follows_feet_;         // legs have enough mass for their shape on the ground to matter (M89)
   bool foot_has_inertia_;     // and feet that may slide
+  double size_;               // of the legs, half of one unloaded [m]
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;
   std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]

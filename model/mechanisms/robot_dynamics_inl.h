@@ -1,7 +1,5 @@
 #pragma once
 
-#include <numbers>
-
 #include "model/mechanisms/inertia.h"
 #include "model/mechanisms/robot_events_inl.h"
 
@@ -19,7 +17,7 @@ struct Robot<T>::Push {
   std::array<ClampedLoad<T>, kMaxLegs> load;  // of each leg that is down
 };
 
-// M82: the leg as a rigid half ring that turns with its motor.
+// M82: the leg as a rigid body that turns with its motor.
 template <class T>
 struct Robot<T>::LegPlace {
   Hip hip;
@@ -28,12 +26,11 @@ struct Robot<T>::LegPlace {
 
 template <class T>
 typename Robot<T>::LegPlace Robot<T>::LegOf(const Frame& frame, int leg, const T* z) const {
-  using std::cos;
-  using std::sin;
-  const Hip hip = HipOf(frame, leg, z);
-  const T c = p_.r * cos(hip.angle), s = p_.r * sin(hip.angle);
-  constexpr double kBehind = 2.0 / std::numbers::pi;
-  return {hip, s - kBehind * c, -c - kBehind * s};
+  LegPlace at{HipOf(frame, leg, z), T(0.0), T(0.0)};
+  const Vector2<T> centre = leg_[leg].law.Centre(at.hip.angle);
+  at.x = centre.x;
+  at.y = centre.y;
+  return at;
 }
 
 template <class T>
@@ -46,7 +43,7 @@ typename Robot<T>::Push Robot<T>::PushOf(const Frame& frame, const T& t, const T
     if (IsDown(leg)) {
       const Hip hip = HipOf(frame, i, z);
       const Hip end = ClampOf(hip);
-      const ClampedLoad<T>& load = push.load[i] = leg.arc.At(FootOf(leg), PlaceAt(leg, i, end, z));
+      const ClampedLoad<T>& load = push.load[i] = leg.law.At(FootOf(leg), PlaceAt(leg, i, end, z));
       const T fx = load.fx + load.damped_x, fy = load.fy + load.damped_y;
       on_hip = load.moment + load.damped_moment + (end.x - hip.x) * fy - (end.y - hip.y) * fx;
       push.force_x += fx;

@@ -15,13 +15,13 @@ namespace hoplab {
 namespace robot_detail {
 // A leg that has rolled up to this arc has fallen [rad].
 inline constexpr double kLeastArc = 0.2;
-// A leg that begins deeper below the ground than this cannot stand on it [rest radii].
+// A leg that begins deeper below the ground than this cannot stand on it, over its size.
 inline constexpr double kDeepest = 0.4;
 // A shorter lag of the motors is taken to its first order [s].
 inline constexpr double kShortestLag = 1e-5;
 // Lighter legs than this, over the body, are rigid on the ground, too.
 inline constexpr double kLightestLeg = 1e-4;
-// Lowest hip, in rest radii, where nothing else is said.
+// Lowest hip over the legs' size, where nothing else is said.
 inline constexpr double kLowestHip = 0.3;
 }  // namespace robot_detail
 
@@ -44,9 +44,9 @@ template <class T>
 void Robot<T>::ListGuards(Mode mode) {
   guard_count_ = 0;
   const auto add = [this](const GuardRef& guard) { guards_[guard_count_++] = guard; };
-  const double weight = Value(p_.m) * std::abs(Value(gravity_y_)), r = Value(p_.r);
+  const double weight = Value(p_.m) * std::abs(Value(gravity_y_));
   for (int i = 0; i < legs_; ++i)
-    if (!IsDown(leg_[i])) add({EventKind::kTouchdown, i, r});
+    if (!IsDown(leg_[i])) add({EventKind::kTouchdown, i, size_});
   for (int i = 0; i < legs_; ++i) {
     const Leg& leg = leg_[i];
     if (!IsDown(leg)) continue;
@@ -66,11 +66,11 @@ void Robot<T>::ListGuards(Mode mode) {
     if (leg.stance == Stance::kRolling) {
       add({EventKind::kRollingToToe, i, 1.0});
       add({EventKind::kFallArc, i, 1.0});
-    } else {
+    } else if (leg.law.rolls()) {
       add({EventKind::kToeToRolling, i, 1.0});
     }
   }
-  for (int i = 0; i < legs_; ++i) add({EventKind::kFallHeight, i, r});
+  for (int i = 0; i < legs_; ++i) add({EventKind::kFallHeight, i, size_});
   if (robot_.control != MotorControl::kLocked && std::isfinite(robot_.torque_limit))
     for (int i = 0; i < legs_; ++i)
       if (!leg_[i].is_told) add({EventKind::kTorqueLimit, i, robot_.torque_limit});
@@ -114,7 +114,7 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
     const Leg& leg = leg_[i];
     hips[i] = HipOf(frame, i, z);
     if (!IsDown(leg) || with_inertia) continue;
-    loads[i] = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hips[i], z), false,
+    loads[i] = leg.law.At(FootOf(leg), PlaceOf(leg, i, hips[i], z), false,
                           /*with_slip=*/leg.slides != 0.0);
     ground[i] = {loads[i].fx, loads[i].fy};
   }
@@ -137,7 +137,7 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
         g[k] = leg_[i].slides * (foot_has_inertia_ ? z[FootSpeed(i)] : load.slip);
         break;
       case EventKind::kRollingToToe:
-        g[k] = leg_[i].arc.length() - load.arc;
+        g[k] = leg_[i].law.length() - load.arc;
         break;
       case EventKind::kToeToRolling:
         g[k] = load.tip;
@@ -163,23 +163,18 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
   }
 }
 
-// M74: the leg lands with the part of its arc that is lowest, or on its toe.
+// M74: the leg lands with the part of it that is lowest.
 template <class T>
 std::optional<Outcome> Robot<T>::Land(int i, const T& t, T* z, bool comes_down) {
-  using std::cos;
-  using std::sin;
   const Frame frame(z[Pitch()] - p_.slope);
   Leg& leg = leg_[i];
   const Hip hip = HipOf(frame, i, z);
   leg.turns = TurnsOf(Value(hip.angle));
-  const T angle = hip.angle - 2.0 * kPi * leg.turns;
-  const bool rolling = Value(angle) > 0.0;
-  const T lead = (rolling ? 1.0 : 2.0) * p_.r * sin(angle);
-  z[Contact(i)] = z[kX] + hip.x + lead;
-  if (rolling) z[Contact(i)] -= p_.r * (leg.arc.length() - angle);
-  leg.stance = rolling ? Stance::kRolling : Stance::kToe;
-  const double tip = rolling ? 0.0 : -Value(angle);
-  leg.arc.StartAt(tip);
+  const ClampedLanding<T> as = leg.law.LandsAs(T(hip.angle - 2.0 * kPi * leg.turns));
+  z[Contact(i)] = z[kX] + hip.x + as.lead;
+  z[Contact(i)] -= as.laid;
+  leg.stance = as.rolling ? Stance::kRolling : Stance::kToe;
+  leg.law.StartAt(as.tip);
   leg.slides = 0.0;
   if (comes_down && follows_feet_) Blow(i, z);
   if (foot_has_inertia_) {
@@ -188,11 +183,11 @@ std::optional<Outcome> Robot<T>::Land(int i, const T& t, T* z, bool comes_down) 
   }
   // The point of contact moves with the leg, that bends only from here on.
   const Hip after = HipOf(frame, i, z);
-  const double u = Value(lead), height = Value(Reach(hip.angle)), spin = Value(after.rate);
+  const double u = Value(as.lead), height = Value(Reach(hip.angle)), spin = Value(after.rate);
   const double vx = Value(after.vx) + spin * height, vy = Value(after.vy) + spin * u;
-  const double base = Value(leg.arc.length() - angle);
-  leg.slides = leg.arc.SlidesAtLanding(tip, base, vx, vy);
-  if (leg.slides == 0.0 && !leg.arc.PressesAtLanding(tip, base, vx, vy)) return Outcome::kNoSupport;
+  leg.slides = leg.law.SlidesAtLanding(as.tip, as.base, vx, vy);
+  if (leg.slides == 0.0 && !leg.law.PressesAtLanding(as.tip, as.base, vx, vy))
+    return Outcome::kNoSupport;
   return std::nullopt;
 }
 
@@ -203,16 +198,15 @@ void Robot<T>::BeginOnFoot(int i, T* z) {
   Leg& leg = leg_[i];
   const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), i, z);
   const double depth = Value(Reach(hip.angle)) - Value(z[kY] + hip.y);
-  const double r = Value(p_.r);
-  if (!(depth > kAtZero * r) || depth > robot_detail::kDeepest * r) return;
+  if (!(depth > kAtZero * size_) || depth > robot_detail::kDeepest * size_) return;
   Land(i, T(0.0), z, /*comes_down=*/false);
   leg.slides = 0.0;
   const double mu = Value(robot_.friction);
-  ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
+  ClampedLoad<T> load = leg.law.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
   if (!(std::abs(Value(load.fx)) <= mu * Value(load.fy))) {
     leg.slides = Value(load.fx) > 0.0 ? -1.0 : 1.0;
-    leg.arc.Restart();
-    load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
+    leg.law.Restart();
+    load = leg.law.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
   }
   if (!(Value(load.fy) > 0.0)) LiftOff(i, z);
 }

@@ -48,7 +48,7 @@ typename Robot<T>::LegInertia Robot<T>::RigidLeg(const LegPlace& at) const {
   const T &m = robot_.leg_mass, zero(0.0);
   const T x = m * at.x, y = m * at.y;
   LegInertia leg;
-  leg.mass = {m, zero, -y, zero, m, x, zero, 2.0 * m * p_.r * p_.r, zero, zero};
+  leg.mass = {m, zero, -y, zero, m, x, zero, leg_[0].law.Inertia(m), zero, zero};
   leg.slope = {zero, zero, -x, zero, zero, -y, zero, zero, zero, zero};
   leg.along = {m, zero, -y, zero};
   leg.up = {zero, m, x, zero};
@@ -162,7 +162,7 @@ Vector2<T> Robot<T>::PressOf(int i, const LegPlace& at, const T* z) const {
   const T c = p_.r * cos(angle), s = p_.r * sin(angle);
   T lead = 2.0 * s, height = 2.0 * c;
   if (leg.stance == Stance::kRolling) {
-    lead = s - p_.r * (leg.arc.length() - angle);
+    lead = s - p_.r * (leg.law.length() - angle);
     height = p_.r + c;
   }
   return {z[kX] + at.hip.x + lead - z[Contact(i)], z[kY] + at.hip.y - height};
@@ -207,7 +207,7 @@ T Robot<T>::Energy(Mode, const T* z) const {
   for (int i = 0; i < legs_; ++i) {
     const Leg& leg = leg_[i];
     if (IsDown(leg))
-      energy += leg.arc.StrainEnergy(FootOf(leg), PlaceOf(leg, i, HipOf(frame, i, z), z));
+      energy += leg.law.StrainEnergy(FootOf(leg), PlaceOf(leg, i, HipOf(frame, i, z), z));
     if (has_leg_mass_) {
       const LegPlace at = LegOf(frame, i, z);
       const LegInertia inertia = InertiaOf(i, at);

@@ -14,26 +14,26 @@ void Robot<T>::RollOnto(int i, Stance to, T* z) {
   if (follows_feet_) ChangeStance(i, to, z);
   leg.stance = to;
   if (foot_has_inertia_ || leg.slides == 0.0) {
-    const T along = p_.r * leg.arc.length();
+    const T along = p_.r * leg.law.length();
     if (to == Stance::kToe)
       z[Contact(i)] += along;
     else
       z[Contact(i)] -= along;
   }
-  leg.arc.Restart();
+  leg.law.Restart();
 }
 
 template <class T>
 void Robot<T>::SlideAway(const GuardRef& guard, T* z) {
   Leg& leg = leg_[guard.leg];
   const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), guard.leg, z);
-  if (guard.side > 0 && !foot_has_inertia_ &&
-      !leg.arc.CanSlideForward(FootOf(leg), PlaceOf(leg, guard.leg, hip, z))) {
+  if (!foot_has_inertia_ &&
+      !leg.law.CanSlide(guard.side, FootOf(leg), PlaceOf(leg, guard.leg, hip, z))) {
     LiftOff(guard.leg, z);
     return;
   }
   leg.slides = guard.side;
-  if (!foot_has_inertia_) leg.arc.Restart();
+  if (!foot_has_inertia_) leg.law.Restart();
 }
 
 template <class T>
@@ -44,10 +44,10 @@ void Robot<T>::HoldFoot(int i, const T& t, T* z) {
   }
   Leg& leg = leg_[i];
   const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), i, z);
-  const ClampedLoad<T> load = leg.arc.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
+  const ClampedLoad<T> load = leg.law.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);
   z[Contact(i)] = z[kX] + ClampOf(hip).x + load.lead;
   leg.slides = 0.0;
-  leg.arc.Restart();
+  leg.law.Restart();
 }
 
 }  // namespace hoplab

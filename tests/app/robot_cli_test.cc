@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/app/hoplab_process.h"
+#include "tests/support/csv_rows.h"
 
 namespace hoplab::testing {
 namespace {
@@ -21,7 +22,8 @@ class RobotCli : public ::testing::Test {
 };
 
 TEST_F(RobotCli, TheShippedScenariosRun) {
-  for (const char* name : {"experiments/robot-drop.yaml", "experiments/robot-walk.yaml"}) {
+  for (const char* name : {"experiments/robot-drop.yaml", "experiments/robot-straight-drop.yaml",
+                           "experiments/robot-walk.yaml", "experiments/robot-straight-walk.yaml"}) {
     const ProcessResult run = Hoplab({"simulate", Shipped(name), "--json"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto record = nlohmann::json::parse(run.out);
@@ -48,6 +50,54 @@ TEST_F(RobotCli, WhatItGeneratesItFits) {
       EXPECT_NEAR(p.at("value").get<double>(), 18e9, 0.15e9);
     }
   }
+}
+
+// Straight legs: k comes out of a fit within its interval, and what is of half circles is refused.
+TEST_F(RobotCli, FitsStraightLegs) {
+  ASSERT_EQ(Hoplab({"generate", Shipped("experiments/robot-straight-drop.yaml"), "--out", "made"})
+                .exit_code,
+            0);
+  const ProcessResult check = Hoplab({"check", "made"});
+  EXPECT_EQ(check.exit_code, 0) << check.err << check.out;
+  const ProcessResult fit = Hoplab({"fit", "made", "--json", "--quiet"});
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  const auto record = nlohmann::json::parse(fit.out);
+  const auto& found = record.at("parameters");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[1].at("name"), "leg_damping");
+  const auto& k = found[0];
+  EXPECT_EQ(k.at("name"), "k");
+  EXPECT_LT(k.at("ci95")[0].get<double>(), 4000.0);
+  EXPECT_GT(k.at("ci95")[1].get<double>(), 4000.0);
+  EXPECT_LT(k.at("ci95")[1].get<double>() - k.at("ci95")[0].get<double>(), 40.0);
+  const auto refused = [&](const char* dataset, const char* name, const char* why) {
+    const ProcessResult run = Hoplab({"fit", dataset, "--free", name});
+    EXPECT_EQ(run.exit_code, 65) << name;
+    EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+  };
+  for (const char* name : {"E", "E_1", "r", "clamp", "I"})
+    refused("made", name, "is of a half circle, and this robot's legs are straight");
+  refused("made", "rest_radius_scale.rho_r", "is of half circles");
+  const std::string arcs = Shipped("datasets/robot-drops");
+  for (const char* name : {"k", "l0", "k_lateral"})
+    refused(arcs.c_str(), name, "is of a straight leg, and this robot's are half circles");
+}
+
+TEST_F(RobotCli, TheTrajectoryOfStraightLegsHasNoArc) {
+  ASSERT_EQ(Hoplab({"simulate", Shipped("experiments/robot-straight-drop.yaml"), "--out", "run"})
+                .exit_code,
+            0);
+  int down = 0;
+  for (const auto& row :
+       CsvRows(temp_.path() / "run" / "trajectory.csv",
+               {"contact_1", "leg_contact_x_1_m", "leg_force_y_1_N", "leg_arc_1_rad"})) {
+    const bool stands = row[0] == "1";
+    EXPECT_EQ(row[1].empty(), !stands);
+    EXPECT_EQ(row[2].empty(), !stands);
+    EXPECT_TRUE(row[3].empty()) << row[3];
+    down += stands;
+  }
+  EXPECT_GT(down, 20);
 }
 
 // Robots of a physics engine, E I of their legs known: E with the datasets' section.
@@ -145,6 +195,9 @@ TEST_F(RobotCli, RefusesWhatDoesNotGoTogether) {
   refused("mechanism.motor.kp_N_m_per_rad=-1", "kp_N_m_per_rad");
   refused("initial.mode=stance", "contact_x_m");
   refused("mechanism.leg.mass_kg=-0.01", "mass_kg");
+  refused("mechanism.leg.type=bent", "type");
+  refused("mechanism.leg.type=straight", "is of a half circle, and these legs are straight");
+  refused("mechanism.leg.rest_length_m=0.18", "is of a straight leg, and these are half circles");
   const ProcessResult gait = Hoplab({"gait", Shipped("experiments/robot-drop.yaml")});
   EXPECT_EQ(gait.exit_code, 65);
   EXPECT_NE(gait.err.find("makes no strides"), std::string::npos) << gait.err;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <string>
 
 #include "optimize/continuation.h"
 #include "optimize/stride_measures.h"
@@ -72,13 +73,15 @@ struct GaitCase {
   const char* name;
   Hopper hopper;
   bool stands;  // a foot holds at the section
+  ParameterId stiffness = ParameterId::kE;
 };
 
 class SteadyStrides : public ::testing::TestWithParam<int> {
  protected:
   static GaitCase Case() {
     if (GetParam() == 0) return {"pronk", PronkingRobot(), false};
-    return {"walk", WalkingRobot(), true};
+    if (GetParam() == 1) return {"walk", WalkingRobot(), true};
+    return {"walk on straight legs", WalkingOnRods(), true, ParameterId::kStiffness};
   }
 };
 
@@ -126,7 +129,7 @@ TEST_P(SteadyStrides, AnswersTheClockAsDifferencesDo) {
   const std::vector<D> directions = {
       D::Parameter(ParameterId::kClockPeriod), D::Parameter(ParameterId::kClockDuty),
       D::Parameter(ParameterId::kClockSweep),  D::Parameter(ParameterId::kClockOffset),
-      D::Parameter(ParameterId::kClockPhase2), D::Parameter(ParameterId::kE),
+      D::Parameter(ParameterId::kClockPhase2), D::Parameter(gait.stiffness),
       D::Parameter(ParameterId::kMotorKp)};
   const Hop hop = map.Differentiate(steady.point.state, directions);
   ASSERT_TRUE(hop.ok());
@@ -148,11 +151,14 @@ TEST_P(SteadyStrides, AnswersTheClockAsDifferencesDo) {
         << gait.name << " " << InfoOf(directions[i].parameter).name;
     worst = std::max(worst, (oracle - exact).norm() / exact.norm());
   }
-  std::printf("  %s: derivatives by the clock, E and kp %.1e from differences\n", gait.name, worst);
+  std::printf("  %s: derivatives by the clock, stiffness and kp %.1e from differences\n", gait.name,
+              worst);
 }
 
-INSTANTIATE_TEST_SUITE_P(Gaits, SteadyStrides, ::testing::Values(0, 1),
-                         [](const auto& at) { return at.param == 0 ? "pronk" : "walk"; });
+std::string NameOfGait(const ::testing::TestParamInfo<int>& at) {
+  return at.param == 0 ? "pronk" : at.param == 1 ? "walk" : "walk_on_rods";
+}
+INSTANTIATE_TEST_SUITE_P(Gaits, SteadyStrides, ::testing::Values(0, 1, 2), NameOfGait);
 
 TEST(StrideMap, ARobotThatFallsSoonHasNoSection) {
   Hopper hopper = PronkingRobot();

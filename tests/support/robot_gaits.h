@@ -36,6 +36,19 @@ inline Hopper WalkingRobot() {
   return hopper;
 }
 
+/// The same on straight legs: experiments/robot-straight-walk.yaml. Its steady stride is stable.
+inline Hopper WalkingOnRods() {
+  Hopper hopper = ClockedRobot(3, 0.445, 0.9, 0.8, 0.13);
+  Parameters<double>& p = hopper.request.parameters;
+  p.l0 = 0.18;
+  p.k = 4000.0;
+  p.robot->straight_legs = true;
+  p.robot->lateral_stiffness = 2e4;
+  p.robot->phase[1] = 0.5;
+  hopper.request.initial = {0.0, 0.2, 0.8, 0.0, 0.0, 0.0};
+  return hopper;
+}
+
 /// Two legs in phase: experiments/pronking.yaml. It falls after some ten strides; the steady stride
 /// near them is unstable.
 inline Hopper PronkingRobot() {

@@ -5,45 +5,19 @@
 #include <numbers>
 
 #include "model/hybrid/discrete_state.h"
+#include "model/laws/clamped/clamped_leg.h"
 #include "model/laws/clamped/equilibrium.h"
 #include "model/laws/clamped/integrals.h"
 
 namespace hoplab {
-
-/// A sliding foot that yields to a press less than this, over what it would without friction, snaps
-/// away: at 0 its load would turn back at an infinite rate (M70).
-inline constexpr double kLeastYield = 0.02;
-
-/// Where a clamped leg is and how it moves. Ground frame: x forward along it, y up.
-template <class T>
-struct ClampedPlace {
-  T lead;       // X0 - x of the hip while rolling, x_c - x on the toe [m]; unused while sliding
-  T height;     // of the hip [m]
-  T base;       // Psi = pi - beta, beta the hip's angle [rad]
-  T vx, vy;     // of the hip [m/s]
-  T base_rate;  // dPsi/dt [rad/s]
-};
-
-/// What a clamped leg does; all NaN beyond its domain.
-template <class T>
-struct ClampedLoad {
-  T fx, fy;  // of the ground on the leg and of the leg on the hip, elastic part [N]
-  T moment;  // of the leg on the hip, elastic part, positive turns it nose up [N m]
-  T arc;     // phi between hip and contact [rad]
-  T tip;     // psi_0, angle of the tangent at the contact below the ground; 0 while rolling [rad]
-  T lead;    // as of the place, but while sliding, too [m]
-  T damped_x{0.0}, damped_y{0.0};  // force on the hip of the material's damping (M71) [N]
-  T damped_moment{0.0};            // [N m]
-  // Of a sliding foot, where it is asked for: its velocity [m/s], and how much it yields to a press
-  // over how much it would without friction (M70); at 0 it snaps away.
-  T slip{0.0}, yield{1.0};
-};
 
 /// A leg clamped at its hip (M68 to M71, M80, M81): the exact inextensible elastic arc from hip to
 /// contact under a force of any direction. Rolling, on its toe, or sliding on either.
 template <class T>
 class ClampedArc {
  public:
+  static constexpr bool kRolls = true;
+
   ClampedArc() = default;
   /// `r` the rest radius [m], `EI` the bending stiffness [N m^2], `tau` the retardation time of the
   /// material [s], `mu` the friction under the foot.
@@ -56,8 +30,34 @@ class ClampedArc {
         length_(std::numbers::pi - clamp / r),
         damped_(!IsZero(tau)) {}
 
+  /// Half of the unloaded leg [m].
+  double size() const { return Value(r_); }
   /// What bends, in r.
   const T& length() const { return length_; }
+
+  /// How far below its hip the unloaded leg reaches [m] (M74), its angle within (-pi, pi].
+  T Reach(const T& angle) const {
+    using std::cos;
+    return Value(angle) > 0.0 ? T(r_ * (1.0 + cos(angle))) : T(2.0 * r_ * cos(angle));
+  }
+  /// With the part of its arc that is lowest, or on its toe.
+  ClampedLanding<T> LandsAs(const T& angle) const {
+    using std::sin;
+    const bool rolling = Value(angle) > 0.0;
+    return {rolling, rolling ? 0.0 : -Value(angle), Value(length_ - angle),
+            T((rolling ? 1.0 : 2.0) * r_ * sin(angle)),
+            rolling ? T(r_ * (length_ - angle)) : T(0.0)};
+  }
+  /// The leg's centre of mass from its hip [m], unloaded, and its inertia about the hip [kg m^2] by
+  /// its mass (M82).
+  Vector2<T> Centre(const T& angle) const {
+    using std::cos;
+    using std::sin;
+    const T c = r_ * cos(angle), s = r_ * sin(angle);
+    constexpr double kBehind = 2.0 / std::numbers::pi;
+    return {s - kBehind * c, -c - kBehind * s};
+  }
+  T Inertia(const T& mass) const { return 2.0 * mass * r_ * r_; }
 
   /// Where the search for a load starts: the leg as it lands, unloaded.
   void StartAt(double tip) {
@@ -143,9 +143,10 @@ class ClampedArc {
     return r_ * unit_ * bent;
   }
 
-  /// Whether a foot that holds at the edge of its cone goes on sliding forward, its load growing
+  /// Whether a foot that holds at the edge of its cone goes on sliding that way, its load growing
   /// with the press; else it snaps away (M70).
-  bool CanSlideForward(const Footing& foot, const ClampedPlace<T>& place) const {
+  bool CanSlide(double way, const Footing& foot, const ClampedPlace<T>& place) const {
+    if (way < 0.0) return true;
     const clamped::Solution e =
         Solve(foot, Value(place.lead / r_), Value(place.height / r_), Value(place.base));
     return e.c22 - Value(mu_) * e.c12 > kLeastYield * e.c22;

@@ -2,16 +2,10 @@
 
 #include <limits>
 
+#include "model/laws/clamped/clamped_leg.h"
 #include "model/laws/clamped/integrals.h"
 
 namespace hoplab {
-
-/// How a foot stands on the ground: on its arc, which rolls, or on its toe; held, or sliding in the
-/// direction `slides` (1 forward, -1 backward).
-struct Footing {
-  bool rolling = true;
-  double slides = 0.0;
-};
 
 namespace clamped {
 

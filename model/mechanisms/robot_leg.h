@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <variant>
+
+#include "model/laws/clamped/clamped_arc.h"
+#include "model/laws/clamped/clamped_rod.h"
+#include "model/parameters.h"
+
+namespace hoplab {
+
+/// A leg of a robot, of the kind its parameters say: each function is that of ClampedArc or of
+/// ClampedRod.
+template <class T>
+class RobotLeg {
+ public:
+  RobotLeg() = default;
+  /// The leg at place `i` of a robot, effects on it included (M78).
+  RobotLeg(const Parameters<T>& p, std::size_t i) {
+    const RobotParameters<T>& robot = *p.robot;
+    const T tau = robot.damping + robot.extra_damping[i];
+    if (robot.straight_legs) {
+      law_ = ClampedRod<T>(p.l0, robot.E_scale[i] * p.k, robot.E_scale[i] * robot.lateral_stiffness,
+                           tau, robot.friction);
+    } else {
+      const T& E = robot.own_moduli ? robot.E[i] : p.E;
+      law_ = ClampedArc<T>(p.r, robot.E_scale[i] * E * p.I, tau, robot.friction, robot.clamp);
+    }
+  }
+
+  /// Whether it stands on its side, too, and rolls there.
+  bool rolls() const {
+    return Ask([](const auto& leg) { return leg.kRolls; });
+  }
+  double size() const {
+    return Ask([](const auto& leg) { return leg.size(); });
+  }
+  const T& length() const {
+    return Ask([](const auto& leg) -> const T& { return leg.length(); });
+  }
+
+  void StartAt(double tip) {
+    Ask([&](auto& leg) { leg.StartAt(tip); });
+  }
+  void Restart() {
+    Ask([](auto& leg) { leg.Restart(); });
+  }
+  void Save(DiscreteState& to) const {
+    Ask([&](const auto& leg) { leg.Save(to); });
+  }
+  void Load(DiscreteState& from) {
+    Ask([&](auto& leg) { leg.Load(from); });
+  }
+
+  T Reach(const T& angle) const {
+    return Ask([&](const auto& leg) { return leg.Reach(angle); });
+  }
+  ClampedLanding<T> LandsAs(const T& angle) const {
+    return Ask([&](const auto& leg) { return leg.LandsAs(angle); });
+  }
+  Vector2<T> Centre(const T& angle) const {
+    return Ask([&](const auto& leg) { return leg.Centre(angle); });
+  }
+  T Inertia(const T& mass) const {
+    return Ask([&](const auto& leg) { return leg.Inertia(mass); });
+  }
+
+  ClampedLoad<T> At(const Footing& foot, const ClampedPlace<T>& place, bool damping = true,
+                    bool with_slip = false) const {
+    return Ask([&](const auto& leg) { return leg.At(foot, place, damping, with_slip); });
+  }
+  T StrainEnergy(const Footing& foot, const ClampedPlace<T>& place) const {
+    return Ask([&](const auto& leg) { return leg.StrainEnergy(foot, place); });
+  }
+
+  bool CanSlide(double way, const Footing& foot, const ClampedPlace<T>& place) const {
+    return Ask([&](const auto& leg) { return leg.CanSlide(way, foot, place); });
+  }
+  double SlidesAtLanding(double tip, double base, double vx, double vy) const {
+    return Ask([&](const auto& leg) { return leg.SlidesAtLanding(tip, base, vx, vy); });
+  }
+  bool PressesAtLanding(double tip, double base, double vx, double vy) const {
+    return Ask([&](const auto& leg) { return leg.PressesAtLanding(tip, base, vx, vy); });
+  }
+
+ private:
+  template <class Do>
+  decltype(auto) Ask(const Do& what) const {
+    if (const auto* rod = std::get_if<ClampedRod<T>>(&law_)) return what(*rod);
+    return what(*std::get_if<ClampedArc<T>>(&law_));
+  }
+  template <class Do>
+  decltype(auto) Ask(const Do& what) {
+    if (auto* rod = std::get_if<ClampedRod<T>>(&law_)) return what(*rod);
+    return what(*std::get_if<ClampedArc<T>>(&law_));
+  }
+
+  std::variant<ClampedArc<T>, ClampedRod<T>> law_;
+};
+
+}  // namespace hoplab
