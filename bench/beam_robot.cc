@@ -14,7 +14,7 @@
 #include "bench/robot_second.h"
 #include "model/mechanisms/motor_clock.h"
 #include "tests/support/arc_contact.h"
-#include "tests/support/beam_text.h"
+#include "tests/support/beam_robot_text.h"
 
 namespace hoplab::bench {
 namespace {

@@ -12,6 +12,7 @@
 
 #include "base/random.h"
 #include "tests/support/arc_contact.h"
+#include "tests/support/beam_robot_text.h"
 #include "tests/support/beam_text.h"
 
 namespace hoplab::testing {

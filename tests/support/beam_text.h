@@ -3,7 +3,6 @@
 #include <string>
 #include <string_view>
 
-#include "model/parameters.h"
 #include "tests/support/beam_rig.h"
 
 namespace hoplab::testing {
@@ -18,9 +17,5 @@ std::string BeamLegText(const BeamRig& rig, std::string_view hip, double rotor_i
 /// A model with the floor of `rig` and one body on it: `body` its joints, inertia and legs,
 /// `actuators` its motors.
 std::string BeamWorldText(const BeamRig& rig, std::string_view body, std::string_view actuators);
-
-/// A robot with the parameters `p`, each of its legs a chain of arcs; its joints are x, y, pitch
-/// and hip0, hip1, ..., the motors those of the hips.
-std::string BeamRobotText(const Parameters<double>& p);
 
 }  // namespace hoplab::testing
