@@ -56,7 +56,7 @@ SearchVariable VariableOf(const OverOption& option, const ScenarioDocument& docu
 // The constraints by their names in a scenario.
 struct ConstraintName {
   const char* name;
-  std::optional<double> SearchConstraints::* field;
+  std::optional<double> SearchConstraints::*field;
   bool of_strides, of_hops;
 };
 constexpr ConstraintName kConstraints[] = {
@@ -117,8 +117,8 @@ SearchProblem SearchProblemOfScenario(const ScenarioDocument& document, const Sc
   }
   SearchProblem problem;
   problem.objective = scenario.search->objective;
-  problem.constraints = ConstraintsOf(scenario.search->constraints,
-                                      scenario.mechanism.type == MechanismKind::kRobot);
+  problem.constraints =
+      ConstraintsOf(scenario.search->constraints, scenario.mechanism.type == MechanismKind::kRobot);
   CheckProblem(problem, scenario);
   std::vector<OverOption> wanted = over;
   if (wanted.empty()) {

@@ -19,6 +19,7 @@ class VerdictSentenceTest : public ::testing::Test {
     d_.detection.p_value = 1e-6;
     d_.before.test.rmse = {8.85e-3, 2e-3};
     d_.extension.emplace();
+    d_.extension->explained = 1.0;
     d_.extension->after.test = {{1.2e-3, 1e-3}, 0.0, 100, 1, 0};
     d_.extension->gain.nats_per_sample = 2.0;
     d_.extension->gain.ci95 = {{1.0, 3.0}};
@@ -57,6 +58,16 @@ TEST_F(VerdictSentenceTest, NamesTheCauseAndWhatItTakesTheErrorTo) {
   EXPECT_EQ(VerdictSentence(d_),
             "The simulation lacks air_drag; it takes the test error of body_x from 8.85 to 1.20 "
             "mm.");
+}
+
+// Shares are of the misfit, where causes explain half of it, too.
+TEST_F(VerdictSentenceTest, SharesAreOfTheMisfit) {
+  Accept({Add("leg_material_damping")}, 0.99, 0.912);
+  Accept({Add("touchdown_loss")}, 0.97, 0.0512);
+  d_.verdict = Verdict::kNamed;
+  d_.extension->explained = 0.5;
+  const std::string text = VerdictSentence(d_);
+  EXPECT_NE(text.find("leg_material_damping (46 %) and touchdown_loss (2.6 %)"), text.npos) << text;
 }
 
 TEST_F(VerdictSentenceTest, NamesMainCausesWithTheirSharesAndNoOthers) {
