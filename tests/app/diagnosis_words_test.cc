@@ -62,7 +62,7 @@ TEST_F(VerdictSentenceTest, NamesTheCauseAndWhatItTakesTheErrorTo) {
 
 // Shares are of the misfit, where causes explain half of it, too.
 TEST_F(VerdictSentenceTest, SharesAreOfTheMisfit) {
-  Accept({Add("leg_material_damping")}, 0.99, 0.912);
+  Accept({Add("leg_material_damping")}, 0.99, 0.92);
   Accept({Add("touchdown_loss")}, 0.97, 0.0512);
   d_.verdict = Verdict::kNamed;
   d_.extension->explained = 0.5;
