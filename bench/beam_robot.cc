@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -15,36 +12,23 @@
 #include "model/mechanisms/motor_clock.h"
 #include "tests/support/arc_contact.h"
 #include "tests/support/beam_robot_text.h"
+#include "tests/support/mujoco_model.h"
 
 namespace hoplab::bench {
 namespace {
 
-using Model = std::unique_ptr<mjModel, void (*)(mjModel*)>;
-using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
-
 // The first degrees of freedom; of a leg the first is its hip.
 enum Dof { kX, kY, kPitch };
-
-Model Compile(const std::string& text) {
-  testing::MeetEllipsoidsAsArcs();
-  const auto file = std::filesystem::temp_directory_path() /
-                    fmt::format("hoplab-beam-robot-{}.xml",
-                                std::chrono::steady_clock::now().time_since_epoch().count());
-  std::ofstream(file) << text;
-  char message[1000] = "";
-  Model model(mj_loadXML(file.c_str(), nullptr, message, sizeof message), mj_deleteModel);
-  std::filesystem::remove(file);
-  if (!model) throw std::runtime_error(fmt::format("MuJoCo does not take the robot: {}", message));
-  return model;
-}
 
 }  // namespace
 
 BeamSecond RunBeamSecond() {
   const SimulationRequest request = RobotSecond();
   const RobotParameters<double>& robot = *request.parameters.robot;
-  const Model model = Compile(testing::BeamRobotText(request.parameters));
-  const Data data(mj_makeData(model.get()), mj_deleteData);
+  testing::MeetEllipsoidsAsArcs();
+  const testing::MujocoModel model =
+      testing::CompileMujoco(testing::BeamRobotText(request.parameters));
+  const testing::MujocoData data = testing::NewData(*model);
   const auto hip = [&](int leg) {
     return model
         ->jnt_dofadr[mj_name2id(model.get(), mjOBJ_JOINT, fmt::format("hip{}", leg).c_str())];

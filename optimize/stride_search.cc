@@ -48,7 +48,7 @@ double ChangeAt(StrideStart& start) {
                   : std::numeric_limits<double>::quiet_NaN();
 }
 
-// What shares of a stride are broken by counts over a whole one.
+// Constraints on shares of a stride are measured by a whole one.
 constexpr double kStride = 1.0;
 
 // By how much the constraints are broken, relative to their size; names the worst.

@@ -118,9 +118,12 @@ void SweepHeadline(const Json& record, Headline& out) {
 }
 
 void SimulationHeadline(const Json& record, Headline& out) {
+  const std::string end = Significant(NumberAt(record, "/end_time_s"), 4);
   out.sentence =
-      fmt::format("The hopper {}: {} hops in {} s.", TextAt(record, "/outcome_sentence"),
-                  JsonAt(record, "/hops").dump(), Significant(NumberAt(record, "/end_time_s"), 4));
+      TextAt(record, "/law") == NameOf(Law::kRobot)
+          ? fmt::format("The robot {}, {} s.", TextAt(record, "/outcome_sentence"), end)
+          : fmt::format("The hopper {}: {} hops in {} s.", TextAt(record, "/outcome_sentence"),
+                        JsonAt(record, "/hops").dump(), end);
   out.figures.push_back(Figure(record, "hops", "/hops", ""));
   out.figures.push_back(Figure(record, "ended at", "/end_time_s", "s"));
   const std::size_t apexes = SizeAt(record, "/apex_energies");

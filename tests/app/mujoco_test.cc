@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/hoplab_process.h"
 #include "tests/support/beam_rig.h"
 #include "tests/support/csv_rows.h"
+#include "tests/support/mujoco_model.h"
 
 namespace hoplab::testing {
 namespace {
@@ -41,21 +41,9 @@ std::map<std::string, Motion> MotionsOf(const std::filesystem::path& run) {
   return motions;
 }
 
-struct ModelDeleter {
-  void operator()(mjModel* m) const { mj_deleteModel(m); }
-};
-using Model = std::unique_ptr<mjModel, ModelDeleter>;
-
-Model Load(const std::filesystem::path& file) {
-  char message[1000] = "";
-  Model model(mj_loadXML(file.c_str(), nullptr, message, sizeof message));
-  EXPECT_TRUE(model) << message;
-  return model;
-}
-
 // Distance of the two bodies over the first hop, up to its apex: root of the mean square [m].
 double FirstHopRms(const mjModel& model, const std::string& trial, const Motion& motion) {
-  const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(&model), mj_deleteData);
+  const MujocoData data = NewData(model);
   const int key = mj_name2id(&model, mjOBJ_KEY, trial.c_str());
   EXPECT_GE(key, 0) << trial;
   mj_resetDataKeyframe(&model, data.get(), key);
@@ -81,12 +69,12 @@ class Mujoco : public ::testing::Test {
     const ProcessResult run = RunHoplab(words, temp_.path());
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
-  Model Export(const std::vector<std::string>& more) {
+  MujocoModel Export(const std::vector<std::string>& more) {
     std::vector<std::string> words = {"export", "run", "--mujoco", "leg.xml", "--force"};
     words.insert(words.end(), more.begin(), more.end());
     const ProcessResult run = RunHoplab(words, temp_.path());
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    return Load(temp_.path() / "leg.xml");
+    return LoadMujoco(temp_.path() / "leg.xml");
   }
   // Over all trials.
   double Rms(const mjModel& model) {
@@ -111,7 +99,7 @@ TEST_F(Mujoco, TheExportedLegHopsAsHoplabSays) {
   Fit({"--with", "leg_material_damping,leg_mass", "--fix", "d=0"});
   std::vector<double> rms;
   for (const char* arcs : {"6", "12", "24"}) {
-    const Model model = Export({"--arcs", arcs});
+    const MujocoModel model = Export({"--arcs", arcs});
     ASSERT_TRUE(model);
     std::printf("  %s arcs:", arcs);
     rms.push_back(Rms(*model));
@@ -125,7 +113,7 @@ TEST_F(Mujoco, TheExportedLegHopsAsHoplabSays) {
 // comes as near as the fit does to what it was fitted to.
 TEST_F(Mujoco, ADamperAlongTheChordIsToldAndReplaced) {
   Fit({});
-  const Model model = Export({"--arcs", "12", "--leg-mass", "0.01"});
+  const MujocoModel model = Export({"--arcs", "12", "--leg-mass", "0.01"});
   ASSERT_TRUE(model);
   EXPECT_NE(ReadText(temp_.path() / "leg.xml").find("which loses at touch-down"),
             std::string::npos);
@@ -142,7 +130,7 @@ TEST_F(Mujoco, AnExportedLegOf20gIsFittedFromItsHops) {
     return std::nan("");
   };
   const double modulus = value(Json::parse(ReadText(temp_.path() / "run/run.json")), "E");
-  const Model model = Export({"--leg-mass", "0.02"});
+  const MujocoModel model = Export({"--leg-mass", "0.02"});
   ASSERT_TRUE(model);
   RecordHops({.hold_stiffness = 10.0, .hold_damping = 0.08, .release = 0.0, .seed = 7}, *model,
              temp_.path() / "drops");
@@ -170,7 +158,7 @@ TEST_F(Mujoco, TheRigIsTheOneOfTheRun) {
                  "--with", "leg_mass:m_leg=0.05", "--out", "run"},
                 temp_.path());
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const Model model = Export({"--arcs", "16"});
+  const MujocoModel model = Export({"--arcs", "16"});
   ASSERT_TRUE(model);
   EXPECT_EQ(model->nq, 17);  // up, the hip and 15 hinges
   EXPECT_EQ(mj_name2id(model.get(), mjOBJ_JOINT, "body_x"), -1);

@@ -169,6 +169,14 @@ TEST(ReportHeadline, OfAFailedRunIsItsMessage) {
   EXPECT_EQ(HeadlineOf(record).sentence, "no fixed point was found near the start.");
 }
 
+TEST(ReportHeadline, ASimulatedRobotIsNoHopper) {
+  Json record = {{"command", "simulate"}, {"law", "robot"}, {"hops", 17}, {"end_time_s", 5.0}};
+  record["outcome_sentence"] = "ran to the end";
+  EXPECT_EQ(HeadlineOf(record).sentence, "The robot ran to the end, 5.000 s.");
+  record["law"] = "elastica";
+  EXPECT_EQ(HeadlineOf(record).sentence, "The hopper ran to the end: 17 hops in 5.000 s.");
+}
+
 TEST(ReportHeadline, ADiagnosisSpeaksItsVerdict) {
   Json record = {{"command", "diagnose"}, {"dataset", "drops"}, {"verdict", "named"}};
   record["sentence"] = "The simulation lacks air_drag.";

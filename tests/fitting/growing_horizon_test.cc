@@ -10,26 +10,10 @@
 namespace hoplab {
 namespace {
 
-using testing::NominalStarts;
-using testing::SmallDataset;
-
-class GrowingHorizon : public ::testing::Test {
- protected:
-  SolveRequest Request() const {
-    SolveRequest r;
-    r.problem = &problem_;
-    r.trials = &trials_;
-    r.shared = Eigen::Vector2d(21e9, 2.0);
-    r.starts = NominalStarts(trials_);
-    return r;
-  }
-  FitProblem problem_ = MakeProblem(SmallDataset(), {});
-  std::vector<TrialProblem> trials_ = TrialsOf(problem_, TrialRole::kTrain);
-};
-
-TEST_F(GrowingHorizon, EndsWhereASearchOverAllRowsEnds) {
+TEST(GrowingHorizon, EndsWhereASearchOverAllRowsEnds) {
+  const testing::SmallFit fit;
   RoundCosts costs;
-  const SolveResult grown = GrowHorizonBeside(Request(), {}, costs), all = Solve(Request());
+  const SolveResult grown = GrowHorizonBeside(fit.Request(), {}, costs), all = Solve(fit.Request());
   EXPECT_NEAR(grown.cost, all.cost, 1e-6 * all.cost);
   ASSERT_FALSE(costs.empty());
   // More rows, more noise to miss.
@@ -37,19 +21,21 @@ TEST_F(GrowingHorizon, EndsWhereASearchOverAllRowsEnds) {
   EXPECT_GT(grown.cost, costs.back());
 }
 
-TEST_F(GrowingHorizon, GoesOnBesideOneThatFitsAsWell) {
+TEST(GrowingHorizon, GoesOnBesideOneThatFitsAsWell) {
+  const testing::SmallFit fit;
   RoundCosts costs, again;
-  const SolveResult first = GrowHorizonBeside(Request(), {}, costs);
-  const SolveResult second = GrowHorizonBeside(Request(), costs, again);
+  const SolveResult first = GrowHorizonBeside(fit.Request(), {}, costs);
+  const SolveResult second = GrowHorizonBeside(fit.Request(), costs, again);
   EXPECT_EQ(second.cost, first.cost);
   EXPECT_EQ(again, costs);
 }
 
 // Values held far off fit every round worse than values that are free.
-TEST_F(GrowingHorizon, GivesUpBesideOneThatFitsClearlyBetter) {
+TEST(GrowingHorizon, GivesUpBesideOneThatFitsClearlyBetter) {
+  const testing::SmallFit fit;
   RoundCosts costs, own;
-  GrowHorizonBeside(Request(), {}, costs);
-  SolveRequest held = Request();
+  GrowHorizonBeside(fit.Request(), {}, costs);
+  SolveRequest held = fit.Request();
   held.held = {0, 1};
   const SolveResult worse = GrowHorizonBeside(held, costs, own);
   EXPECT_EQ(worse.status, SolveStatus::kGaveUp);

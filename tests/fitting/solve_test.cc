@@ -14,18 +14,7 @@ namespace {
 using testing::NominalStarts;
 using testing::SmallDataset;
 
-struct Case {
-  FitProblem problem = MakeProblem(SmallDataset(), {});
-  std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
-  SolveRequest Request() const {
-    SolveRequest r;
-    r.problem = &problem;
-    r.trials = &trials;
-    r.shared = Eigen::Vector2d(21e9, 2.0);
-    r.starts = NominalStarts(trials);
-    return r;
-  }
-};
+using Case = testing::SmallFit;
 
 TEST(Solve, FindsTheTruthWithinItsNoise) {
   const Case c;

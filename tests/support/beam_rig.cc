@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <memory>
 #include <numeric>
 
 #include "base/random.h"
 #include "base/units.h"
 #include "tests/support/arc_contact.h"
 #include "tests/support/beam_text.h"
+#include "tests/support/mujoco_model.h"
 
 namespace hoplab::testing {
 namespace {
@@ -35,9 +35,6 @@ constexpr std::array<Drop, 9> kDrops = {{{22, 0.30, 1.0},
                                          {38, 0.31, 1.4}}};
 constexpr std::size_t kTrain = 6;
 
-using CompiledModel = std::unique_ptr<mjModel, void (*)(mjModel*)>;
-using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
-
 // Of the body the first two joints, then the hip: the order of Dof.
 std::string ModelText(const BeamRig& rig) {
   return BeamWorldText(rig,
@@ -47,17 +44,6 @@ std::string ModelText(const BeamRig& rig) {
                                    "0.001'/>{}",
                                    rig.body_mass, BeamLegText(rig, "hip", kBeamHingeInertia)),
                        "<motor joint='hip' gear='-1'/>");
-}
-
-CompiledModel Compile(const BeamRig& rig, const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "rig.xml";
-  std::ofstream(file) << ModelText(rig);
-  MeetEllipsoidsAsArcs();
-  char message[1000] = "";
-  CompiledModel model(mj_loadXML(file.c_str(), nullptr, message, sizeof message), mj_deleteModel);
-  EXPECT_TRUE(model) << message;
-  std::filesystem::remove(file);
-  return model;
 }
 
 // The body and the hip of a model: the first three degrees of freedom.
@@ -90,7 +76,7 @@ void Push(const BeamRig& rig, double angle, bool stands, mjModel& model, mjData&
 
 void RecordDrop(const BeamRig& rig, mjModel& model, const Drop& drop, RandomStream& noise,
                 const std::filesystem::path& file) {
-  const Data data(mj_makeData(&model), mj_deleteData);
+  const MujocoData data = NewData(model);
   const double angle = drop.angle_deg * kPi / 180.0;
   data->qpos[kY] = drop.height;
   data->qpos[kHip] = angle;
@@ -155,9 +141,8 @@ void RecordHops(const BeamRig& rig, mjModel& model, const std::filesystem::path&
 
 void RecordRig(const BeamRig& rig, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  const CompiledModel model = Compile(rig, folder);
-  ASSERT_TRUE(model);
-  RecordHops(rig, *model, folder);
+  MeetEllipsoidsAsArcs();
+  RecordHops(rig, *CompileMujoco(ModelText(rig)), folder);
 }
 
 }  // namespace hoplab::testing

@@ -8,18 +8,15 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <memory>
 
 #include "base/random.h"
 #include "tests/support/arc_contact.h"
 #include "tests/support/beam_robot_text.h"
 #include "tests/support/beam_text.h"
+#include "tests/support/mujoco_model.h"
 
 namespace hoplab::testing {
 namespace {
-
-using CompiledModel = std::unique_ptr<mjModel, void (*)(mjModel*)>;
-using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
 
 constexpr double kRow = 2e-3, kLongest = 0.8;  // s
 constexpr int kTrials = 9, kTrain = 6;
@@ -53,7 +50,7 @@ bool Tips(const Parameters<double>& p, const mjData& data) {
 void RecordDrop(const Parameters<double>& p, mjModel& model, const Drop& drop, RandomStream& noise,
                 const std::filesystem::path& file) {
   const RobotParameters<double>& robot = *p.robot;
-  const Data data(mj_makeData(&model), mj_deleteData);
+  const MujocoData data = NewData(model);
   std::array<int, kMaxLegs> hip = {};
   for (int i = 0; i < robot.legs; ++i)
     hip[i] = model.jnt_dofadr[mj_name2id(&model, mjOBJ_JOINT, fmt::format("hip{}", i).c_str())];
@@ -126,14 +123,8 @@ void DescribeRobot(const Parameters<double>& p, std::ostream& yaml) {
 void RecordRobotDrops(const Parameters<double>& p, const Parameters<double>& told, int seed,
                       const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  const std::filesystem::path file = folder / "robot.xml";
-  std::ofstream(file) << BeamRobotText(p);
   MeetEllipsoidsAsArcs();
-  char message[1000] = "";
-  const CompiledModel model(mj_loadXML(file.c_str(), nullptr, message, sizeof message),
-                            mj_deleteModel);
-  ASSERT_TRUE(model) << message;
-  std::filesystem::remove(file);
+  const MujocoModel model = CompileMujoco(BeamRobotText(p));
   std::ofstream yaml(folder / "dataset.yaml");
   DescribeRobot(told, yaml);
   RandomStream random(static_cast<std::uint64_t>(seed), 1);

@@ -31,4 +31,18 @@ inline std::vector<OwnValues> NominalStarts(const std::vector<TrialProblem>& tri
   return starts;
 }
 
+/// A fit of SmallDataset, from off the truth (22 GPa, 3 N s/m).
+struct SmallFit {
+  FitProblem problem = MakeProblem(SmallDataset(), {});
+  std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
+  SolveRequest Request() const {
+    SolveRequest r;
+    r.problem = &problem;
+    r.trials = &trials;
+    r.shared = Eigen::Vector2d(21e9, 2.0);
+    r.starts = NominalStarts(trials);
+    return r;
+  }
+};
+
 }  // namespace hoplab::testing
