@@ -10,7 +10,7 @@ FitResult FitRigDrops() {
   options.law = "large_deflection";
   options.free = {"E", "d"};
   FitOptions fit;
-  fit.starts = 1;
+  fit.restarts = 1;
   fit.jobs = 2;
   return Fit(MakeProblem(dataset, options), fit);
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/mechanism_kind.h"
-#include "base/thesis_variant.h"
+#include "base/thesis_reading.h"
 
 namespace hoplab {
 
@@ -95,7 +95,7 @@ struct MechanismSpec {
   std::optional<double> toe_mass_kg;    // absent: massless leg
   std::optional<PlacementSpec> placement;
   bool on_guide = false;  // a vertical guide holds it along the ground
-  ThesisVariant variant;  // under `leg` in the file; a straight leg has its torque_sign only
+  ThesisReading reading;  // under `leg` in the file; a straight leg has its torque_sign only
   CLegSpec c_leg;
   StraightLegSpec straight_leg;
   BallSpec ball;

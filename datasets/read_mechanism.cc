@@ -108,22 +108,22 @@ BallSpec ReadBall(const YamlCursor& cursor) {
 }
 
 // The readings of the published law under `variant` of a leg's block.
-ThesisVariant ReadVariant(const YamlCursor& leg, MechanismKind type) {
-  ThesisVariant variant;
+ThesisReading ReadThesisReading(const YamlCursor& leg, MechanismKind type) {
+  ThesisReading reading;
   const std::optional<YamlCursor> block = leg.Optional("variant");
-  if (!block) return variant;
+  if (!block) return reading;
   Names known;
-  for (const VariantKey& key : VariantKeys()) known.emplace_back(key.key);
+  for (const ReadingKey& key : ReadingKeys()) known.emplace_back(key.key);
   block->AllowOnly(known);
-  for (const VariantKey& key : VariantKeys()) {
+  for (const ReadingKey& key : ReadingKeys()) {
     const std::optional<YamlCursor> value = block->Optional(key.key);
     if (!value) continue;
     if (type == MechanismKind::kStraightLeg && key.key != "torque_sign")
       value->FailAtKey("a straight leg neither rolls nor bends: it has no such variant",
                        "Remove it; a straight leg knows torque_sign alone.");
-    key.set(variant, static_cast<int>(value->Choice({key.words.begin(), key.words.end()})));
+    key.set(reading, static_cast<int>(value->Choice({key.words.begin(), key.words.end()})));
   }
-  return variant;
+  return reading;
 }
 
 void ReadLegOptions(const YamlCursor& cursor, MechanismSpec* mechanism) {
@@ -210,7 +210,7 @@ MechanismSpec ReadMechanism(const YamlCursor& cursor) {
       break;  // read above
   }
   if (!is_ball) {
-    mechanism.variant = ReadVariant(block, mechanism.type);
+    mechanism.reading = ReadThesisReading(block, mechanism.type);
     ReadLegOptions(cursor, &mechanism);
   }
   return mechanism;

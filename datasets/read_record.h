@@ -10,7 +10,7 @@
 namespace hoplab {
 
 // What a log of a real machine brings along, read and held together: angles hop by hop, columns
-// that drive the simulation, clocks of sensors, starts in stance.
+// that drive the simulation, clocks of sensors, initial states in stance.
 
 /// `touchdown_angle_deg` and `touchdown_angle_sigma_deg` of a trial: an angle, a list of them, or
 /// {from: leg_angle}. Inputs and mechanism of `trial` are read already. Throws InputError where it

@@ -27,19 +27,19 @@ void AddCLeg(const CLegSpec& leg, YamlFields* fields) {
   add("damping_N_s_per_m", leg.damping_N_s_per_m);
 }
 
-// All keys of a variant, {rolling: implicit, ...}: written over another one it replaces all of it.
-std::string VariantText(const ThesisVariant& variant) {
+// All keys of a reading, {rolling: implicit, ...}: written over another one it replaces all of it.
+std::string ReadingText(const ThesisReading& reading) {
   std::string text = "{";
-  for (const VariantKey& key : VariantKeys()) {
+  for (const ReadingKey& key : ReadingKeys()) {
     if (text.size() > 1) text += ", ";
-    text += std::string(key.key) + ": " + std::string(key.words[key.get(variant)]);
+    text += std::string(key.key) + ": " + std::string(key.words[key.get(reading)]);
   }
   return text + "}";
 }
 // A straight leg takes one of them only.
-std::string TorqueSignText(const ThesisVariant& variant) {
-  const VariantKey& key = VariantKeys().back();
-  return "{" + std::string(key.key) + ": " + std::string(key.words[key.get(variant)]) + "}";
+std::string TorqueSignText(const ThesisReading& reading) {
+  const ReadingKey& key = ReadingKeys().back();
+  return "{" + std::string(key.key) + ": " + std::string(key.words[key.get(reading)]) + "}";
 }
 
 std::string ListText(const std::vector<double>& values) {
@@ -145,10 +145,10 @@ YamlFields MechanismFields(const MechanismSpec& m) {
     fields.push_back({"leg", "stiffness_N_per_m", FormatDouble(leg.stiffness_N_per_m)});
     fields.push_back({"leg", "damping_N_s_per_m", FormatDouble(leg.damping_N_s_per_m)});
   }
-  if (m.variant != ThesisVariant()) {
+  if (m.reading != ThesisReading()) {
     const bool is_c_leg = m.type == MechanismKind::kCLeg;
     fields.push_back(
-        {"leg", "variant", is_c_leg ? VariantText(m.variant) : TorqueSignText(m.variant)});
+        {"leg", "variant", is_c_leg ? ReadingText(m.reading) : TorqueSignText(m.reading)});
   }
   if (m.placement) {
     fields.push_back({"placement", "kp_N_m_per_rad", FormatDouble(m.placement->kp_N_m_per_rad)});

@@ -18,8 +18,8 @@ int main(int argc, char** argv) {
       return 1;
     }
     const auto trials = hoplab::TrialsOf(fit.problem, hoplab::TrialRole::kTrain);
-    const hoplab::Uncertainty known =
-        hoplab::AssessUncertainty(fit.problem, trials, fit.result.shared, fit.result.starts, {}, 1);
+    const hoplab::Uncertainty known = hoplab::AssessUncertainty(
+        fit.problem, trials, fit.result.shared, fit.result.initial_states, {}, 1);
     const char* const names[] = {"E [GPa]  ", "d [N s/m]"};
     const double units[] = {1e9, 1.0};
     for (int i = 0; i < 2; ++i) {

@@ -12,9 +12,9 @@ namespace {
 // Of `thesis` and `no_slip`.
 double ChordStiffness(const Parameters<double>& p, double leg_angle, double length) {
   const double alpha = 0.5 * std::max(leg_angle, 0.0);  // below 0 the toe carries: phi stays pi
-  const bool at_rest = p.variant.stiffness_radius == ThesisVariant::StiffnessRadius::kRest;
+  const bool at_rest = p.reading.stiffness_radius == ThesisReading::StiffnessRadius::kRest;
   const double radius = at_rest ? p.r : length / (2.0 * std::cos(alpha));
-  const bool of_theta = p.variant.stiffness_angle == ThesisVariant::StiffnessAngle::kTheta;
+  const bool of_theta = p.reading.stiffness_angle == ThesisReading::StiffnessAngle::kTheta;
   const double angle = of_theta ? 2.0 * alpha : alpha;
   return 1.0 / LegCompliance<double>(p, radius).Chord(std::numbers::pi - angle);
 }

@@ -50,7 +50,7 @@ SweepPlan::SweepPlan(const ScenarioDocument& document, const IntegratorOptions& 
     throw InputError({scenario.sweep->origin.place, std::string((*gait)->name),
                       "does not exist for a ball", "Remove it from sweep.outputs."});
   law_ = HopperOfScenario(scenario, integrator).request.law;
-  variant_ = scenario.mechanism.variant;
+  reading_ = scenario.mechanism.reading;
   Layout(*scenario.sweep, seed);
   Fingerprint(integrator);
 }

@@ -23,7 +23,7 @@ class SweepPlan {
   const std::vector<std::string>& keys() const { return keys_; }
   const std::vector<const SweepOutput*>& outputs() const { return outputs_; }
   Law law() const { return law_; }
-  const ThesisVariant& variant() const { return variant_; }
+  const ThesisReading& reading() const { return reading_; }
   /// Values of the keys in row `i`.
   std::vector<double> Point(int i) const;
   /// Computes row `i`; a scenario that cannot be run at that point is a row with the reason. May be
@@ -41,7 +41,7 @@ class SweepPlan {
   IntegratorOptions integrator_;
   std::string name_;
   Law law_ = Law::kElastica;
-  ThesisVariant variant_;
+  ThesisReading reading_;
   std::vector<std::string> keys_;
   std::vector<std::vector<double>> columns_;  // grid: values per key; else: one value per row
   bool grid_ = false;

@@ -41,7 +41,7 @@ CheckReport CheckDataset(const Dataset& dataset, const FitProblem& problem, int 
   report.notes = problem.notes;
   const Eigen::VectorXd shared = InitialShared(problem);
   std::vector<TrialProblem> simulated;
-  std::vector<OwnValues> starts;
+  std::vector<OwnValues> initial_states;
   bool any_touches = false;
   for (const TrialProblem& trial : problem.trials) {
     bool simulates = false;
@@ -69,14 +69,14 @@ CheckReport CheckDataset(const Dataset& dataset, const FitProblem& problem, int 
       }
       if (simulates) {
         simulated.push_back(trial);
-        starts.push_back(trial.start);
+        initial_states.push_back(trial.start);
       }
     }
     report.trials.push_back(check);
   }
   if (!simulated.empty()) {
-    report.uncertainty = AssessUncertainty(problem, simulated, shared, starts, {}, jobs);
-    report.certificate = CertifyGradients(problem, simulated, shared, starts, jobs);
+    report.uncertainty = AssessUncertainty(problem, simulated, shared, initial_states, {}, jobs);
+    report.certificate = CertifyGradients(problem, simulated, shared, initial_states, jobs);
   }
   return report;
 }

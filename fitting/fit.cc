@@ -17,10 +17,10 @@ namespace {
 // Relative change of the cost that ends a search for where another begins.
 constexpr double kBeginning = 1e-6;
 
-std::vector<OwnValues> StartsOf(const std::vector<TrialProblem>& trials) {
-  std::vector<OwnValues> starts;
-  for (const TrialProblem& t : trials) starts.push_back(t.start);
-  return starts;
+std::vector<OwnValues> InitialStatesOf(const std::vector<TrialProblem>& trials) {
+  std::vector<OwnValues> initial_states;
+  for (const TrialProblem& t : trials) initial_states.push_back(t.start);
+  return initial_states;
 }
 
 bool Stopped(const FitOptions& options) { return options.stop && *options.stop; }
@@ -30,7 +30,7 @@ SolveRequest RequestFor(const FitProblem& problem, const std::vector<TrialProble
   SolveRequest request;
   request.problem = &problem;
   request.trials = &trials;
-  request.starts = StartsOf(trials);
+  request.initial_states = InitialStatesOf(trials);
   request.loss = options.loss;
   request.max_iterations = options.max_iterations;
   request.jobs = options.jobs;
@@ -43,8 +43,8 @@ SolveRequest RequestFor(const FitProblem& problem, const std::vector<TrialProble
   return request;
 }
 
-// Costs of all trials at given shared values, starts as they are; NaN where a simulation ends
-// before its data.
+// Costs of all trials at given shared values, initial states as they are; NaN where a simulation
+// ends before its data.
 std::vector<double> CostsAt(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                             const Eigen::VectorXd& shared, int jobs) {
   std::vector<double> costs(trials.size());
@@ -122,7 +122,7 @@ Eigen::VectorXd ShootApexes(const FitProblem& problem, const std::vector<TrialPr
     if (usable.empty()) return shared;
     SolveRequest request = RequestFor(problem, usable, options, start_number, "single hops");
     request.shared = values;
-    request.hold_starts = true;
+    request.hold_initial_states = true;
     request.max_iterations = 40;
     request.function_tolerance = kBeginning;
     const SolveResult result = Solve(request);
@@ -191,7 +191,7 @@ std::vector<TrialProblem> TrialsOf(const FitProblem& problem, TrialRole role) {
 
 StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                     const Eigen::VectorXd& shared, const FitOptions& options, int start_number,
-                    std::vector<OwnValues>* starts) {
+                    std::vector<OwnValues>* initial_states) {
   StartRecord record;
   record.from = shared;
   SolveResult result;
@@ -229,7 +229,7 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
   record.message = result.message;
   record.iterations = result.iterations;
   record.rejected = result.rejected;
-  if (starts) *starts = result.starts;
+  if (initial_states) *initial_states = result.initial_states;
   return record;
 }
 
@@ -250,20 +250,20 @@ FitResult Fit(const FitProblem& problem, const FitOptions& options) {
   const Eigen::VectorXd nominal = InitialShared(problem);
   FitResult fit;
   const auto search = [&](const Eigen::VectorXd& from, int i) {
-    std::vector<OwnValues> starts;
-    StartRecord record = FitFrom(problem, trials, from, options, i, &starts);
+    std::vector<OwnValues> initial_states;
+    StartRecord record = FitFrom(problem, trials, from, options, i, &initial_states);
     const bool interrupted = record.status == SolveStatus::kInterrupted;
     const bool better = !std::isnan(record.cost) && (fit.best_start < 0 || IsBetter(record, fit));
     if (better) {
       fit.best_start = i;
       fit.cost = record.cost;
       fit.shared = record.shared;
-      fit.starts = starts;
+      fit.initial_states = initial_states;
     }
     fit.interrupted = fit.interrupted || interrupted;
     fit.records.push_back(std::move(record));
   };
-  const int searches = std::max(options.starts, 1);
+  const int searches = std::max(options.restarts, 1);
   for (int i = 0; i < searches; ++i) {
     if (i > 0 && Stopped(options)) break;
     search(i == 0 ? nominal : ScatteredStart(problem, nominal, options.seed, i), i);
@@ -280,7 +280,8 @@ FitResult Fit(const FitProblem& problem, const FitOptions& options) {
   if (!fit.ok) {
     fit.message = fit.records.front().message;
   } else {
-    fit.stop = CheckStop(problem, trials, fit.shared, fit.starts, options.loss, options.jobs);
+    fit.stop =
+        CheckStop(problem, trials, fit.shared, fit.initial_states, options.loss, options.jobs);
     if (!fit.stop.complete) fit.message = fit.stop.faults.front();
   }
   return fit;

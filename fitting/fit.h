@@ -29,7 +29,7 @@ std::optional<Discrepancy> FindDiscrepancy(std::string_view name);
 
 struct FitOptions {
   FitStrategy strategy = FitStrategy::kApexShooting;
-  int starts = 1;  // the nominal one, then scattered ones; thresholds add theirs
+  int restarts = 1;  // the nominal one, then scattered ones; thresholds add theirs
   std::uint64_t seed = 1;
   Loss loss;
   int jobs = 1;
@@ -60,9 +60,9 @@ struct FitResult {
   bool ok = false;
   bool interrupted = false;
   std::string message;
-  Eigen::VectorXd shared;         // own units
-  std::vector<OwnValues> starts;  // of the train trials, in their order
-  double cost = 0.0;              // half the sum of squared residuals, prior included
+  Eigen::VectorXd shared;                 // own units
+  std::vector<OwnValues> initial_states;  // of the train trials, in their order
+  double cost = 0.0;                      // half the sum of squared residuals, prior included
   std::vector<StartRecord> records;
   int best_start = -1;
   /// Discrepancy found beside the values; absent: not looked for.
@@ -80,6 +80,6 @@ FitResult Fit(const FitProblem& problem, const FitOptions& options);
 /// Fits from given shared values instead of the nominal ones.
 StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                     const Eigen::VectorXd& shared, const FitOptions& options, int start_number,
-                    std::vector<OwnValues>* starts);
+                    std::vector<OwnValues>* initial_states);
 
 }  // namespace hoplab

@@ -75,7 +75,7 @@ FitResult FitWhatCanBeSimulated(FitProblem& problem, const FitOptions& options,
       bool carried = true;
       if (trial.role == TrialRole::kTrain) {
         TrialEvaluation e;
-        TrialEvaluator(problem, trial).Evaluate({fit.shared, fit.starts[train++]}, e);
+        TrialEvaluator(problem, trial).Evaluate({fit.shared, fit.initial_states[train++]}, e);
         carried = e.complete;
       }
       if (carried)
@@ -116,7 +116,7 @@ void AddDiscrepancy(DatasetFit& fit, const FitOptions& options) {
       !result.stop.complete)
     return;
   const RestrictedLikelihood likelihood(fit.problem, TrialsOf(fit.problem, TrialRole::kTrain),
-                                        result.shared, result.starts, options.jobs,
+                                        result.shared, result.initial_states, options.jobs,
                                         LikelihoodDetail::Coarse());
   result.discrepancy = EstimateDiscrepancy(likelihood);
   fit.problem.noise = result.discrepancy->noise;

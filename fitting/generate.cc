@@ -142,7 +142,7 @@ SimulationRequest RequestOfScenario(const Scenario& scenario,
   SimulationRequest request;
   const MechanismKind mechanism = scenario.mechanism.type;
   request.law = ResolveLaw(scenario.law.value_or(""), mechanism, scenario.law_origin.place);
-  CheckVariant(scenario.mechanism.variant, request.law, scenario.origin.place);
+  CheckReading(scenario.mechanism.reading, request.law, scenario.origin.place);
   request.liftoff = scenario.mechanism.liftoff;
   request.parameters =
       ParametersOfSpec(scenario.mechanism, scenario.controller, scenario.touchdown_angle_rad);
@@ -221,7 +221,7 @@ Dataset HeadOf(const Recording& r) {
 Trajectory RunOf(const Recording& r, const GenerateTrial& plan, const StateSpec& truth) {
   SimulationRequest request;
   request.law = r.law;
-  CheckVariant(plan.mechanism.variant, r.law, r.scenario.origin.place);
+  CheckReading(plan.mechanism.reading, r.law, r.scenario.origin.place);
   request.liftoff = plan.mechanism.liftoff;
   request.parameters = ParametersOfSpec(plan.mechanism, plan.controller, plan.touchdown_angle_rad);
   request.effects = r.effects;

@@ -28,10 +28,11 @@ struct GeneratedDataset {
   std::vector<std::string> notes;
 };
 
-/// Simulates the scenario's trials with its effects and adds noise. True starts are drawn about
-/// nothing: the scenario's `initial` is the truth, and what the dataset states as nominal start is
-/// off by a draw from `initial_sigma` where that is given. The dataset says neither effects nor
-/// their size. Throws InputError if a run has no rows at all or the scenario lacks what it needs.
+/// Simulates the scenario's trials with its effects and adds noise. True initial states are drawn
+/// about nothing: the scenario's `initial` is the truth, and what the dataset states as nominal
+/// start is off by a draw from `initial_sigma` where that is given. The dataset says neither
+/// effects nor their size. Throws InputError if a run has no rows at all or the scenario lacks what
+/// it needs.
 GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions& options);
 
 /// What drives a scenario's run, for its request to point into.

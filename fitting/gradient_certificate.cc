@@ -240,11 +240,11 @@ class TrialCheck {
 GradientCertificate CertifyGradients(const FitProblem& problem,
                                      const std::vector<TrialProblem>& trials,
                                      const Eigen::VectorXd& shared,
-                                     const std::vector<OwnValues>& starts, int jobs,
+                                     const std::vector<OwnValues>& initial_states, int jobs,
                                      const JacobianSource& source) {
   std::vector<TrialReport> reports(trials.size());
   ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
-    reports[i] = TrialCheck(problem, trials[i], shared, starts[i]).Report(source);
+    reports[i] = TrialCheck(problem, trials[i], shared, initial_states[i]).Report(source);
   });
   GradientCertificate out;
   out.max_relative_error = std::numeric_limits<double>::quiet_NaN();

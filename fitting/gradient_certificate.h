@@ -35,14 +35,14 @@ using JacobianSource =
     std::function<void(const TrialEvaluator&, const EvaluationRequest&, Trajectory&)>;
 
 /// Checks every shared value in every train trial and every start component, at `shared` and
-/// `starts`. Rows within reach of an event that jumps are left out of the comparison (a finite
-/// difference cannot straddle a jump). Where a shifted run has its events in another order the step
-/// is cut; where the other order begins right beside the values, differences are those of one side,
-/// and a flag says so.
+/// `initial_states`. Rows within reach of an event that jumps are left out of the comparison (a
+/// finite difference cannot straddle a jump). Where a shifted run has its events in another order
+/// the step is cut; where the other order begins right beside the values, differences are those of
+/// one side, and a flag says so.
 GradientCertificate CertifyGradients(const FitProblem& problem,
                                      const std::vector<TrialProblem>& trials,
                                      const Eigen::VectorXd& shared,
-                                     const std::vector<OwnValues>& starts, int jobs,
+                                     const std::vector<OwnValues>& initial_states, int jobs,
                                      const JacobianSource& source = nullptr);
 
 }  // namespace hoplab

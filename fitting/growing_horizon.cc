@@ -66,7 +66,7 @@ SolveResult GrowHorizonBeside(SolveRequest request, const RoundCosts& other, Rou
     }
     if (!IsUsable(next.status)) continue;
     request.shared = std::move(next.shared);
-    request.starts = std::move(next.starts);
+    request.initial_states = std::move(next.initial_states);
   }
   request.trials = &whole;
   request.max_iterations = most;

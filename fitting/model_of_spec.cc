@@ -71,7 +71,7 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
   }
   if (mechanism.fall_height_m) p.fall_height = *mechanism.fall_height_m;
   p.on_guide = mechanism.on_guide;
-  p.variant = mechanism.variant;
+  p.reading = mechanism.reading;
   p.m_toe = mechanism.toe_mass_kg.value_or(0.0);
   if (mechanism.placement) {
     p.kp_place = mechanism.placement->kp_N_m_per_rad;
@@ -155,12 +155,12 @@ Law ResolveLaw(const std::string& name, MechanismKind mechanism, const std::stri
                         : DidYouMean(name, LawNames(mechanism))});
 }
 
-void CheckVariant(const ThesisVariant& variant, Law law, const std::string& place) {
+void CheckReading(const ThesisReading& reading, Law law, const std::string& place) {
   if (law == Law::kThesis) return;
-  ThesisVariant allowed;
-  allowed.torque_sign = variant.torque_sign;  // of every leg
-  for (const VariantKey& key : VariantKeys()) {
-    const int word = key.get(variant);
+  ThesisReading allowed;
+  allowed.torque_sign = reading.torque_sign;  // of every leg
+  for (const ReadingKey& key : ReadingKeys()) {
+    const int word = key.get(reading);
     if (word == key.get(allowed)) continue;
     throw InputError(
         {place,

@@ -26,8 +26,8 @@ std::vector<double> InitialOf(const StateSpec& state);
 /// law that does not exist or belongs to another mechanism.
 Law ResolveLaw(const std::string& name, MechanismKind mechanism, const std::string& place);
 
-/// Throws InputError, place `place`, for a variant of another law than `law`.
-void CheckVariant(const ThesisVariant& variant, Law law, const std::string& place);
+/// Throws InputError, place `place`, for a reading of another law than `law`.
+void CheckReading(const ThesisReading& reading, Law law, const std::string& place);
 
 /// The effect named `name`: one of `formulas`, one of the catalogue, or the formula in the file of
 /// that name (IsEffectFile). Throws InputError with the nearest known name, or for a bad file.

@@ -5,12 +5,13 @@
 namespace hoplab {
 
 Objective EvaluateObjective(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                            const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
-                            const Loss& loss, int jobs, bool matrices) {
+                            const Eigen::VectorXd& shared,
+                            const std::vector<OwnValues>& initial_states, const Loss& loss,
+                            int jobs, bool matrices) {
   std::vector<TrialEvaluation> evaluations(trials.size());
   ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
     const TrialEvaluator evaluator(problem, trials[i]);
-    evaluator.Evaluate({shared, starts[i], true, loss, /*fly_on=*/false, /*whiten=*/false},
+    evaluator.Evaluate({shared, initial_states[i], true, loss, /*fly_on=*/false, /*whiten=*/false},
                        evaluations[i]);
   });
 

@@ -28,7 +28,8 @@ struct Objective {
 /// result does not depend on `jobs`. Residuals and Jacobian, which grow with the square of the
 /// number of trials, are left empty unless `matrices` asks for them.
 Objective EvaluateObjective(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                            const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
-                            const Loss& loss = {}, int jobs = 1, bool matrices = true);
+                            const Eigen::VectorXd& shared,
+                            const std::vector<OwnValues>& initial_states, const Loss& loss = {},
+                            int jobs = 1, bool matrices = true);
 
 }  // namespace hoplab

@@ -46,7 +46,7 @@ class Builder {
       t.file = t.recording = trial.file;
       t.role = trial.role;
       t.parameters = ParametersOfSpec(trial.mechanism, trial.controller, trial.touchdown_angle_rad);
-      CheckVariant(trial.mechanism.variant, problem_.law, dataset_.origin.place);
+      CheckReading(trial.mechanism.reading, problem_.law, dataset_.origin.place);
       t.liftoff = trial.mechanism.liftoff;
       const std::vector<double>& time = trial.trace.time_s;
       t.begin_s = time.front();

@@ -18,13 +18,13 @@ struct Walker {
 
   // Refits everything but `parameter`, held at `value`, starting from `from`.
   SolveResult At(double value, const Eigen::VectorXd& shared,
-                 const std::vector<OwnValues>& starts) const {
+                 const std::vector<OwnValues>& initial_states) const {
     SolveRequest request;
     request.problem = &problem;
     request.trials = &trials;
     request.shared = shared;
     request.shared[parameter] = value;
-    request.starts = starts;
+    request.initial_states = initial_states;
     request.held = {parameter};
     request.loss = options.loss;
     request.max_iterations = 50;
@@ -53,13 +53,13 @@ Profile ComputeProfile(const FitProblem& problem, const FitResult& fit, const Fi
   for (const double side : {-1.0, 1.0}) {
     std::vector<ProfilePoint> points;
     Eigen::VectorXd shared = fit.shared;
-    std::vector<OwnValues> starts = fit.starts;
+    std::vector<OwnValues> initial_states = fit.initial_states;
     double step = first_step;
     ProfilePoint last = middle;
     for (int i = 0; i < max_points; ++i) {
       const double value = std::clamp(last.value + side * step, s.lower, s.upper);
       if (value == last.value) break;
-      SolveResult result = walker.At(value, shared, starts);
+      SolveResult result = walker.At(value, shared, initial_states);
       if (!IsUsable(result.status)) break;
       const ProfilePoint point{value, 2.0 * (result.cost - fit.cost) / inflation, result.shared};
       if (last.delta_chi2 < kChi2Level && point.delta_chi2 >= kChi2Level)
@@ -70,7 +70,7 @@ Profile ComputeProfile(const FitProblem& problem, const FitResult& fit, const Fi
       if (rise > 3.0) step *= 0.5;
       last = point;
       shared = result.shared;
-      starts = result.starts;
+      initial_states = result.initial_states;
       if (point.delta_chi2 > 2.0 * kChi2Level) break;
     }
     if (side < 0.0) {

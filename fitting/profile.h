@@ -23,10 +23,10 @@ struct Profile {
   std::optional<double> lower95, upper95;
 };
 
-/// Walks away from the optimum in both directions, the other values and the starts refitted at each
-/// point, until delta_chi2 exceeds 2 x 3.84, a bound is met or `max_points` are used on a side.
-/// `first_step` [own unit] is adapted on the way. `inflation` (ParameterUncertainty) is what a
-/// discrepancy makes of the variance of white noise: squares of least squares divided by it are
+/// Walks away from the optimum in both directions, the other values and the initial states refitted
+/// at each point, until delta_chi2 exceeds 2 x 3.84, a bound is met or `max_points` are used on a
+/// side. `first_step` [own unit] is adapted on the way. `inflation` (ParameterUncertainty) is what
+/// a discrepancy makes of the variance of white noise: squares of least squares divided by it are
 /// spread as a chi-square (Chandler and Bate 2007).
 Profile ComputeProfile(const FitProblem& problem, const FitResult& fit, const FitOptions& options,
                        int parameter, double first_step, double inflation = 1.0,

@@ -159,9 +159,9 @@ void Take(const SolveRequest& request, TrialEvaluations& evaluations, SolveResul
   evaluations.PrepareForEvaluation(false, false);
   result.complete = evaluations.IsComplete();
   result.shared = evaluations.SharedValues();
-  result.starts.clear();
+  result.initial_states.clear();
   for (std::size_t i = 0; i < request.trials->size(); ++i)
-    result.starts.push_back(evaluations.OwnValuesOf(static_cast<int>(i)));
+    result.initial_states.push_back(evaluations.OwnValuesOf(static_cast<int>(i)));
 }
 
 // Whether a search can begin where the evaluations are; where not, `result` says why.
@@ -186,7 +186,7 @@ bool CanBegin(const SolveRequest& request, TrialEvaluations& evaluations, SolveR
 void BoundDeviations(const SolveRequest& request, TrialEvaluations& evaluations, int index,
                      ceres::Problem& to) {
   const TrialProblem& trial = (*request.trials)[static_cast<std::size_t>(index)];
-  const OwnValues& start = request.starts[static_cast<std::size_t>(index)];
+  const OwnValues& start = request.initial_states[static_cast<std::size_t>(index)];
   double* own = evaluations.own(index);
   for (int k = 0; k < trial.own_count(); ++k) {
     const OwnParameter& o = trial.own[static_cast<std::size_t>(k)];
@@ -215,7 +215,7 @@ void Describe(const SolveRequest& request, const Places& held, TrialEvaluations&
     ordering.AddElementToGroup(evaluations.own(index), 0);
     std::vector<int> held_own;
     for (int k = 0; k < own_count; ++k) {
-      if (request.hold_starts || !trials[i].own[static_cast<std::size_t>(k)].free)
+      if (request.hold_initial_states || !trials[i].own[static_cast<std::size_t>(k)].free)
         held_own.push_back(k);
     }
     HoldComponents(to, evaluations.own(index), own_count, held_own);
@@ -245,7 +245,7 @@ Run RunCeres(const SolveRequest& request, const RunSettings& settings,
   Describe(request, settings.held, evaluations, problem, *ordering);
 
   ceres::Solver::Options options;
-  const bool eliminates = !request.hold_shared && !request.hold_starts;
+  const bool eliminates = !request.hold_shared && !request.hold_initial_states;
   options.linear_solver_type = eliminates ? ceres::DENSE_SCHUR : ceres::DENSE_QR;
   options.linear_solver_ordering.reset(ordering);
   options.max_num_iterations = settings.max_iterations;
@@ -293,7 +293,7 @@ SolveResult Solve(const SolveRequest& request) {
   SolveResult best;
   if (!CanBegin(request, evaluations, best)) {
     best.shared = request.shared;
-    best.starts = request.starts;
+    best.initial_states = request.initial_states;
     return best;
   }
   // A trust region cut by a bound crawls: the step it would take is projected, and what is left of
@@ -315,7 +315,7 @@ SolveResult Solve(const SolveRequest& request) {
       settings.not_to_bound.insert(settings.not_to_bound.end(), put.begin(), put.end());
       std::erase_if(settings.held, [&](int k) { return Contains(put, k); });
       put.clear();
-      evaluations.MoveTo(best.shared, best.starts);
+      evaluations.MoveTo(best.shared, best.initial_states);
       continue;
     }
     const bool gained = round == 0 || next.cost < best.cost * (1.0 - kSame);

@@ -18,9 +18,9 @@ struct SolveRequest {
   const FitProblem* problem = nullptr;
   const std::vector<TrialProblem>* trials = nullptr;  // one residual block each
   Eigen::VectorXd shared;                             // where to begin, own units
-  std::vector<OwnValues> starts;                      // own values, one a trial
-  bool hold_shared = false;                           // only the starts move
-  bool hold_starts = false;                           // only the shared values move
+  std::vector<OwnValues> initial_states;              // own values, one a trial
+  bool hold_shared = false;                           // only the initial states move
+  bool hold_initial_states = false;                   // only the shared values move
   std::vector<int> held;                              // shared values held one by one
   Loss loss;
   int max_iterations = 100;
@@ -50,9 +50,9 @@ struct SolveResult {
   SolveStatus status = SolveStatus::kFailed;
   std::string message;  // for kNoStart and kFailed: which trial, what happened, when
   Eigen::VectorXd shared;
-  std::vector<OwnValues> starts;  // own values of the trials
-  bool complete = false;          // every simulation reaches the end of its data
-  double cost = 0.0;              // half the sum of squared residuals
+  std::vector<OwnValues> initial_states;  // own values of the trials
+  bool complete = false;                  // every simulation reaches the end of its data
+  double cost = 0.0;                      // half the sum of squared residuals
   int iterations = 0;
   /// Points at which a simulation ended before its data: reason -> how often.
   std::map<std::string, int> rejected;

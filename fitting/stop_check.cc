@@ -54,7 +54,7 @@ std::string Text(const char* format, double value) {
 }  // namespace
 
 StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                    const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
+                    const Eigen::VectorXd& shared, const std::vector<OwnValues>& initial_states,
                     const Loss& loss, int jobs) {
   std::vector<KeptColumn> columns;
   for (int k = 0; k < problem.shared_count(); ++k)
@@ -64,7 +64,8 @@ StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& 
   ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
     const TrialEvaluator evaluator(problem, trials[i]);
     TrialEvaluation e;
-    evaluator.Evaluate({shared, starts[i], true, loss, /*fly_on=*/true, /*whiten=*/false}, e);
+    evaluator.Evaluate({shared, initial_states[i], true, loss, /*fly_on=*/true, /*whiten=*/false},
+                       e);
     if (!e.complete) {
       broken[i] = trials[i].file +
                   (IsComplete(e.trajectory.outcome)

@@ -29,7 +29,7 @@ inline constexpr double kMinimumNats = 0.1;
 
 /// Linearises `trials` (of `problem`) at the values where a search has ended.
 StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                    const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
+                    const Eigen::VectorXd& shared, const std::vector<OwnValues>& initial_states,
                     const Loss& loss, int jobs);
 
 }  // namespace hoplab

@@ -17,7 +17,7 @@ namespace {
 // Half a squared residual a sample beyond which a refitted start is tried from elsewhere, too, and
 // how often.
 constexpr double kPoorCost = 1.0;
-constexpr int kMoreStarts = 8;
+constexpr int kMoreRestarts = 8;
 
 // A start drawn from what is known of it.
 OwnValues DrawnStart(const TrialProblem& trial, RandomStream& random) {
@@ -39,7 +39,7 @@ OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
   request.problem = &problem;
   request.trials = &one;
   request.shared = shared;
-  request.starts = {trial.start};
+  request.initial_states = {trial.start};
   request.hold_shared = true;
   request.function_tolerance = 1e-10;  // of thousands: far below one standard error
   request.loss = options.loss;
@@ -50,15 +50,15 @@ OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
     return !r.complete || r.cost > kPoorCost * static_cast<double>(trial.sample_count);
   };
   RandomStream random(options.seed, 0);
-  for (int k = 0; k < kMoreStarts && grows && is_poor(best); ++k) {
-    request.starts = {DrawnStart(trial, random)};
+  for (int k = 0; k < kMoreRestarts && grows && is_poor(best); ++k) {
+    request.initial_states = {DrawnStart(trial, random)};
     SolveResult other = GrowHorizon(request);
-    if (other.starts.empty()) continue;
+    if (other.initial_states.empty()) continue;
     if ((other.complete && !best.complete) ||
         (other.complete == best.complete && other.cost < best.cost))
       best = std::move(other);
   }
-  return best.starts.front();
+  return best.initial_states.front();
 }
 
 // Per-channel root mean square over the rows [first, last).
@@ -123,10 +123,11 @@ void AddSampleLikelihoods(const FitProblem& problem, const TrialEvaluator& evalu
 
 std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult& fit,
                                       const FitOptions& options, bool test_only) {
-  std::vector<OwnValues> starts(problem.trials.size());
+  std::vector<OwnValues> initial_states(problem.trials.size());
   std::size_t train = 0;
   for (std::size_t i = 0; i < problem.trials.size(); ++i) {
-    if (problem.trials[i].role == TrialRole::kTrain) starts[i] = fit.starts[train++];
+    if (problem.trials[i].role == TrialRole::kTrain)
+      initial_states[i] = fit.initial_states[train++];
   }
   std::vector<TrialErrors> errors(problem.trials.size());
   ParallelFor(static_cast<int>(errors.size()), options.jobs, [&](int i) {
@@ -135,15 +136,16 @@ std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult
     out.file = trial.file;
     out.role = trial.role;
     if (test_only && trial.role == TrialRole::kTrain) return;
-    if (trial.role == TrialRole::kTest) starts[i] = RefitStart(problem, trial, fit.shared, options);
+    if (trial.role == TrialRole::kTest)
+      initial_states[i] = RefitStart(problem, trial, fit.shared, options);
     const TrialEvaluator evaluator(problem, trial);
     TrialEvaluation e;
-    evaluator.Evaluate({fit.shared, starts[i], false}, e);
+    evaluator.Evaluate({fit.shared, initial_states[i], false}, e);
     out.outcome = e.trajectory.outcome;
     out.end_time = e.trajectory.end_time;
     out.complete = e.complete;
     out.samples = trial.sample_count;
-    out.start = starts[i];
+    out.start = initial_states[i];
     out.max_deflection_ratio = e.trajectory.max_deflection_ratio;
     out.nll_per_sample = kNaN;
     const std::size_t channels = problem.channels.size();
@@ -152,7 +154,7 @@ std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult
       out.rmse = Rmse(trial, e.trajectory, channels, 0, trial.row_times.size());
       out.hops = PerHop(trial, e.trajectory, channels);
       out.chi2 = e.white_square;
-      AddSampleLikelihoods(problem, evaluator, fit.shared, starts[i], out);
+      AddSampleLikelihoods(problem, evaluator, fit.shared, initial_states[i], out);
       out.prior_nll = 0.5 * e.residuals.tail(e.residuals.size() - e.data_residuals).squaredNorm();
       double nll = 0.5 * out.chi2;
       for (std::size_t cell = 0; cell < trial.data.size(); ++cell) {

@@ -44,8 +44,8 @@ struct RoleErrors {
   int trials, incomplete;
 };
 
-/// Errors at the fitted values. Train trials keep their fitted starts; a test trial's start is
-/// refitted under its prior with the shared values held (a nominal start may be off by more than
+/// Errors at the fitted values. Train trials keep their fitted initial states; a test trial's start
+/// is refitted under its prior with the shared values held (a nominal start may be off by more than
 /// the model is).
 /// With `test_only` nothing but the role and the file of a train trial is filled in.
 std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult& fit,

@@ -15,7 +15,7 @@ TrialEvaluations::TrialEvaluations(const SolveRequest& request)
       trials_(*request.trials),
       evaluations_(trials_.size()),
       shared_(problem_.shared_count()) {
-  HOPLAB_CHECK(request.starts.size() == trials_.size());
+  HOPLAB_CHECK(request.initial_states.size() == trials_.size());
   HOPLAB_CHECK(request.shared.size() == problem_.shared_count());
   for (const TrialProblem& trial : trials_) {
     evaluators_.emplace_back(problem_, trial);
@@ -97,7 +97,7 @@ void TrialEvaluations::TakeTried(const std::vector<int>& places) {
 
 OwnValues TrialEvaluations::OwnValuesOf(int trial) const {
   const auto i = static_cast<std::size_t>(trial);
-  OwnValues values = request_.starts[i];
+  OwnValues values = request_.initial_states[i];
   for (int k = 0; k < values.size(); ++k)
     values[k] += own_[own_begin_[i] + k] * trials_[i].own[static_cast<std::size_t>(k)].scale;
   return values;
@@ -108,8 +108,8 @@ void TrialEvaluations::MoveTo(const Eigen::VectorXd& shared, const std::vector<O
     shared_[i] = shared[i] / problem_.shared[static_cast<std::size_t>(i)].scale;
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     for (int k = 0; k < trials_[i].own_count(); ++k)
-      own_[own_begin_[i] + k] =
-          (own[i][k] - request_.starts[i][k]) / trials_[i].own[static_cast<std::size_t>(k)].scale;
+      own_[own_begin_[i] + k] = (own[i][k] - request_.initial_states[i][k]) /
+                                trials_[i].own[static_cast<std::size_t>(k)].scale;
   }
 }
 

@@ -81,8 +81,8 @@ struct Known {
 };
 
 Known Gather(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-             const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts, const Loss& loss,
-             int jobs) {
+             const Eigen::VectorXd& shared, const std::vector<OwnValues>& initial_states,
+             const Loss& loss, int jobs) {
   Known known;
   std::vector<KeptColumn> columns;
   for (int k = 0; k < problem.shared_count(); ++k) {
@@ -93,7 +93,7 @@ Known Gather(const FitProblem& problem, const std::vector<TrialProblem>& trials,
   std::vector<Reduced>& reduced = known.reduced;
   reduced.resize(trials.size());
   ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
-    reduced[i] = ReduceTrial(problem, trials[i], shared, starts[i], loss, columns);
+    reduced[i] = ReduceTrial(problem, trials[i], shared, initial_states[i], loss, columns);
   });
   for (std::size_t i = 0; i < trials.size(); ++i) {
     known.samples += reduced[i].samples;
@@ -204,15 +204,16 @@ void FillIn(const FitProblem& problem, const Eigen::VectorXd& shared, const Know
 }  // namespace
 
 Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                              const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
-                              const Loss& loss, int jobs) {
+                              const Eigen::VectorXd& shared,
+                              const std::vector<OwnValues>& initial_states, const Loss& loss,
+                              int jobs) {
   const int n = problem.shared_count();
   Uncertainty out;
   out.parameters.resize(n);
   // Values on a bound are taken as given; what the rest would do if they moved is a question for
   // the profile.
   for (int k = 0; k < n; ++k) out.parameters[k].at_bound = AtBound(shared[k], problem.shared[k]);
-  const Known known = Gather(problem, trials, shared, starts, loss, jobs);
+  const Known known = Gather(problem, trials, shared, initial_states, loss, jobs);
   const int m = static_cast<int>(known.active.size());
   const double dof =
       std::max<double>(static_cast<double>(known.samples + known.priors - known.free_own - m), 1.0);

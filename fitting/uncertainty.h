@@ -30,13 +30,14 @@ struct ParameterUncertainty {
 /// A combination of shared values the data say little about: moving along it by its loadings
 /// (in units of each value's scale, length 1) changes the fit by `eigenvalue` per square.
 struct WeakDirection {
-  double eigenvalue;  // of the information matrix, starts marginalised; 0: not seen at all
+  double eigenvalue;  // of the information matrix, initial states marginalised; 0: not seen at all
   std::vector<double> loadings;  // one a shared value
 };
 
 struct Identifiability {
   /// Of the shared values' information, in units of their scales: largest over smallest singular
-  /// value of the whitened sensitivities, starts projected out. Infinite when rank-deficient.
+  /// value of the whitened sensitivities, initial states projected out. Infinite when
+  /// rank-deficient.
   double condition_number = 1.0;
   int rank = 0;                                // of the shared values' sensitivities
   std::vector<WeakDirection> weak_directions;  // weakest first
@@ -60,7 +61,8 @@ inline constexpr double kWeakStdError = 0.3;
 /// Linearises `trials` (of `problem`) at given values. Trials whose simulation ends before their
 /// data are left out.
 Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                              const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
-                              const Loss& loss, int jobs);
+                              const Eigen::VectorXd& shared,
+                              const std::vector<OwnValues>& initial_states, const Loss& loss,
+                              int jobs);
 
 }  // namespace hoplab

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/mechanism_kind.h"
-#include "base/thesis_variant.h"
+#include "base/thesis_reading.h"
 #include "model/inputs.h"
 #include "model/robot_parameters.h"
 
@@ -96,7 +96,7 @@ struct Parameters {
   LawTerms<T> law_terms;
   MaybeRobot<T> robot;  // of a robot alone
   // Settings without derivatives.
-  ThesisVariant variant;  // of the law `thesis`; its torque_sign of every leg
+  ThesisReading reading;  // of the law `thesis`; its torque_sign of every leg
   double torque_limit = std::numeric_limits<double>::infinity();  // T_max [N m]
   double fall_height = std::numeric_limits<double>::quiet_NaN();  // y_min [m]; NaN: the default
   bool on_guide = false;                                          // a vertical guide holds x

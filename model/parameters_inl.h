@@ -46,7 +46,7 @@ Parameters<To> ConvertParameters(const Parameters<From>& from) {
     to.input_scale[k] = To(Value(from.input_scale[k]));
   }
   to.on_guide = from.on_guide;
-  to.variant = from.variant;
+  to.reading = from.reading;
   to.time_origin = from.time_origin;
   to.torque_limit = from.torque_limit;
   to.fall_height = from.fall_height;

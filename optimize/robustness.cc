@@ -56,7 +56,7 @@ std::vector<Hopper> OverStiffness(const Hopper& hopper, const RobustnessOptions&
   return hoppers;
 }
 
-std::vector<Hopper> OverStarts(const Hopper& hopper, const RobustnessOptions& options) {
+std::vector<Hopper> OverInitialStates(const Hopper& hopper, const RobustnessOptions& options) {
   const double height_range =
       HasStrides(hopper) ? options.robot_height_range : options.height_range;
   std::vector<Hopper> hoppers;
@@ -120,7 +120,7 @@ NoisyHops WithNoise(const Hopper& hopper, const RobustnessOptions& options) {
 
 Robustness AssessRobustness(const Hopper& hopper, const RobustnessOptions& options) {
   return {TryAll(OverStiffness(hopper, options), options.jobs),
-          TryAll(OverStarts(hopper, options), options.jobs), WithNoise(hopper, options)};
+          TryAll(OverInitialStates(hopper, options), options.jobs), WithNoise(hopper, options)};
 }
 
 }  // namespace hoplab

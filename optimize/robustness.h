@@ -39,12 +39,12 @@ struct NoisyHops {
 };
 
 struct Robustness {
-  WorstCase stiffness, starts;
+  WorstCase stiffness, initial_states;
   NoisyHops noise;
 };
 
-/// Tries `hopper` out: stiffness and starts one after the other, in runs as long as its own; the
-/// noise hop by hop.
+/// Tries `hopper` out: stiffness and initial states one after the other, in runs as long as its
+/// own; the noise hop by hop.
 Robustness AssessRobustness(const Hopper& hopper, const RobustnessOptions& options = {});
 
 }  // namespace hoplab

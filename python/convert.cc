@@ -127,9 +127,9 @@ FitOptions FitOptionsOf(const py::dict& options) {
   FitOptions out;
   out.strategy =
       Word(options, "strategy", FindStrategy, {"apex_shooting", "growing_horizon", "raw"});
-  out.starts = Option<int>(options, "starts");
-  if (out.starts < 1)
-    throw InputError({"starts", std::to_string(out.starts), "must be at least 1", ""});
+  out.restarts = Option<int>(options, "starts");
+  if (out.restarts < 1)
+    throw InputError({"starts", std::to_string(out.restarts), "must be at least 1", ""});
   out.seed = Option<std::uint64_t>(options, "seed");
   const auto find_loss = [](const std::string& word) -> std::optional<LossKind> {
     if (word == "squared") return LossKind::kSquared;

@@ -30,7 +30,7 @@ TrainProblem MakeTrainProblem(const DatasetSource& source, const py::dict& optio
 }
 
 // One row a trial: x, y, vx, vy.
-py::array_t<double> StartsOf(const TrainProblem& p) {
+py::array_t<double> InitialStatesOf(const TrainProblem& p) {
   std::vector<double> out;
   for (const TrialProblem& trial : p.trials)
     out.insert(out.end(), trial.start.begin(), trial.start.end());
@@ -69,20 +69,23 @@ Eigen::VectorXd CheckedValues(const TrainProblem& p, const DoubleArray& values) 
   return Eigen::Map<const Eigen::VectorXd>(given.data(), count);
 }
 
-std::vector<OwnValues> CheckedStarts(const TrainProblem& p, const DoubleArray& starts) {
+std::vector<OwnValues> CheckedInitialStates(const TrainProblem& p,
+                                            const DoubleArray& initial_states) {
   const auto trials = static_cast<py::ssize_t>(p.trials.size());
-  if (starts.ndim() != 2 || starts.shape(0) != trials || starts.shape(1) != 4)
+  if (initial_states.ndim() != 2 || initial_states.shape(0) != trials ||
+      initial_states.shape(1) != 4)
     throw InputError({"starts", "an array of another shape",
                       "must be of shape (" + std::to_string(trials) + ", 4)", ""});
   std::vector<OwnValues> rows;
   for (std::size_t i = 0; i < p.trials.size(); ++i)
-    rows.push_back(Eigen::Map<const Eigen::Vector4d>(starts.data() + 4 * i));
+    rows.push_back(Eigen::Map<const Eigen::Vector4d>(initial_states.data() + 4 * i));
   return rows;
 }
 
-py::dict Evaluate(const TrainProblem& p, const DoubleArray& values, const DoubleArray& starts) {
+py::dict Evaluate(const TrainProblem& p, const DoubleArray& values,
+                  const DoubleArray& initial_states) {
   const Eigen::VectorXd shared = CheckedValues(p, values);
-  const std::vector<OwnValues> rows = CheckedStarts(p, starts);
+  const std::vector<OwnValues> rows = CheckedInitialStates(p, initial_states);
   const Objective o = [&] {
     const py::gil_scoped_release unlocked;
     return EvaluateObjective(p.problem, p.trials, shared, rows, {}, p.jobs);
@@ -108,7 +111,7 @@ void BindProblem(py::module_& m) {
   py::class_<TrainProblem>(m, "TrainProblem")
       .def(py::init(&MakeTrainProblem))
       .def_property_readonly("parameters", &ParametersOfProblem)
-      .def_property_readonly("starts", &StartsOf)
+      .def_property_readonly("starts", &InitialStatesOf)
       .def_property_readonly("files", &FilesOf)
       .def("evaluate", &Evaluate);
 }

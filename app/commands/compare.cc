@@ -17,14 +17,13 @@ ExitCode RunCompare(const CompareSettings& settings, Console& console) {
   fit.jobs = JobsOf(settings.problem.jobs);
   Progress progress(console, settings.quiet);
   progress.Stage("fitting each model");
-  const std::vector<Variant> variants = VariantsOf(settings, dataset);
-  const LawComparison comparison =
-      CompareLaws(dataset, variants, ProblemOptionsOf(settings.problem), fit, Segmentation::kAuto,
-                  [&](int done) {
-                    progress.Step("fitting each model: " + std::to_string(done) + " of " +
-                                      std::to_string(variants.size()),
-                                  done, static_cast<long>(variants.size()));
-                  });
+  const std::vector<ComparedModel> models = ComparedModels(settings, dataset);
+  const LawComparison comparison = CompareLaws(
+      dataset, models, ProblemOptionsOf(settings.problem), fit, Segmentation::kAuto, [&](int done) {
+        progress.Step(
+            "fitting each model: " + std::to_string(done) + " of " + std::to_string(models.size()),
+            done, static_cast<long>(models.size()));
+      });
   progress.Clear();
   if (!settings.json) {
     console.out << LawComparisonReport(comparison, truth);

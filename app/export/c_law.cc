@@ -197,20 +197,20 @@ class CWriter {
     add("KP", p_.kp, "gain of the speed controller, N s");
     add("V_DES", p_.v_des, "speed it wants, m/s");
     add("MOST_TORQUE", p_.torque_limit, "N m");
-    const ThesisVariant& v = p_.variant;
-    add("TORQUE_SIGN", v.torque_sign == ThesisVariant::TorqueSign::kPrinted ? -1.0 : 1.0,
+    const ThesisReading& v = p_.reading;
+    add("TORQUE_SIGN", v.torque_sign == ThesisReading::TorqueSign::kPrinted ? -1.0 : 1.0,
         "of the torque's vertical force");
     add("HARDENING", p_.law_terms.hardening, "beta");
     add("SECOND_ORDER", SecondOrderShare(), "share of the next term of the elastica");
     add("TAU", p_.law_terms.material_damping, "of the strip's material, s");
     add("LANDING_LOSS", model_.Of("touchdown_loss"), "share of the speed along the chord");
-    if (half_circle_) text += VariantDefines();
+    if (half_circle_) text += ReadingDefines();
     return text;
   }
 
-  std::string VariantDefines() const {
-    using V = ThesisVariant;
-    const V v = model_.law == Law::kThesis ? p_.variant : V();
+  std::string ReadingDefines() const {
+    using V = ThesisReading;
+    const V v = model_.law == Law::kThesis ? p_.reading : V();
     std::string text;
     const auto add = [&](const char* name, bool value) {
       text += fmt::format("#define LEG_{} {}\n", name, value ? 1 : 0);
@@ -226,7 +226,7 @@ class CWriter {
 
   std::string RollingRadius() const {
     if (model_.law == Law::kNoSlip) return "LEG_R";
-    const bool at_rest = p_.variant.rolling_radius == ThesisVariant::RollingRadius::kRest;
+    const bool at_rest = p_.reading.rolling_radius == ThesisReading::RollingRadius::kRest;
     return at_rest ? "2.0 * LEG_R * u * y / (l * l)" : "u";
   }
 

@@ -29,7 +29,7 @@ Json ExportRecord(const ExportSettings& settings, const StoredRun& run,
   const Json dataset = run.record.value("dataset", Json());
   if (dataset.is_string()) header.dataset = dataset.get<std::string>();
   header.law = std::string(NameOf(model.law));
-  header.variant = model.parameters.variant;
+  header.reading = model.parameters.reading;
   header.options = {{"run", settings.folder},
                     {"arcs", settings.mjcf.arcs},
                     {"step_s", settings.mjcf.step},

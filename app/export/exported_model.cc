@@ -50,18 +50,18 @@ class RecordReader {
   const Json& record_;
 };
 
-ThesisVariant VariantOf(const RecordReader& record) {
-  ThesisVariant variant;
-  for (const VariantKey& key : VariantKeys()) {
+ThesisReading ReadingOf(const RecordReader& record) {
+  ThesisReading reading;
+  for (const ReadingKey& key : ReadingKeys()) {
     const std::string word = record.Text(std::string(key.key));
     int index = -1;
     for (std::size_t i = 0; i < key.words.size(); ++i) {
       if (key.words[i] == word) index = static_cast<int>(i);
     }
     if (index < 0) record.Refuse(std::string(key.key), word, "is none of its words");
-    key.set(variant, index);
+    key.set(reading, index);
   }
-  return variant;
+  return reading;
 }
 
 EffectSetting EffectOf(const RecordReader& record) {
@@ -83,25 +83,25 @@ Parameters<double> ParametersOf(const RecordReader& mechanism, MechanismKind kin
     for (const ParameterId id : ToeParameters())
       Field(p, id) = values.Number(std::string(InfoOf(id).name));
   }
-  p.variant = VariantOf(mechanism.Part("variant"));
+  p.reading = ReadingOf(mechanism.Part("variant"));
   if (!mechanism.At("torque_limit_N_m").is_null())
     p.torque_limit = mechanism.Number("torque_limit_N_m");
   p.on_guide = mechanism.At("on_guide") == Json(true);
   return p;
 }
 
-std::vector<ExportedStart> StartsOf(const RecordReader& record) {
-  std::vector<ExportedStart> starts;
-  if (!record.json().contains("trials")) return starts;
+std::vector<ExportedStart> InitialStatesOf(const RecordReader& record) {
+  std::vector<ExportedStart> initial_states;
+  if (!record.json().contains("trials")) return initial_states;
   for (const Json& entry : record.At("trials")) {
     const RecordReader trial(record.place() + ": trials", entry);
     const RecordReader start = trial.Part("start");
-    starts.push_back({trial.Text("file"),
-                      trial.Number("touchdown_angle_rad"),
-                      {start.Number("x_m"), start.Number("y_m"), start.Number("vx_m_per_s"),
-                       start.Number("vy_m_per_s")}});
+    initial_states.push_back({trial.Text("file"),
+                              trial.Number("touchdown_angle_rad"),
+                              {start.Number("x_m"), start.Number("y_m"), start.Number("vx_m_per_s"),
+                               start.Number("vy_m_per_s")}});
   }
-  return starts;
+  return initial_states;
 }
 
 // Whether the templates of export/c say this law.
@@ -195,7 +195,7 @@ ExportedModel ModelOfRun(const std::filesystem::path& folder, const StoredRun& r
   for (const Json& kind_of_input : mechanism.At("driven_by"))
     model.driven_by.push_back(kind_of_input.get<std::string>());
   const Json& trials = command == "diagnose" && !extended ? json.at("null") : source;
-  model.starts = StartsOf({place, trials});
+  model.initial_states = InitialStatesOf({place, trials});
   return model;
 }
 

@@ -27,7 +27,7 @@ struct ExportedModel {
   Parameters<double> parameters;       // as stated and fitted, before effects change them
   std::vector<EffectSetting> effects;  // off their null
   std::vector<std::string> driven_by;  // columns of a log that drove it
-  std::vector<ExportedStart> starts;
+  std::vector<ExportedStart> initial_states;
 
   /// The parameters as the effects leave them.
   Parameters<double> Effective() const;

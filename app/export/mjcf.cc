@@ -70,7 +70,8 @@ struct Beam {
     from_chord = tau == 0.0 && p.d > 0.0;
     // M12 against tau k w: the same loss at the arc of touch-down.
     if (from_chord) {
-      const double theta = model.starts.empty() ? p.theta_td : model.starts[0].touchdown_angle;
+      const double theta =
+          model.initial_states.empty() ? p.theta_td : model.initial_states[0].touchdown_angle;
       tau = p.d * LegCompliance<double>(p).Chord(kPi - std::fmax(theta, 0.0));
     }
     damping = tau * stiffness;
@@ -169,10 +170,10 @@ std::string SlideJoint(const char* name, const char* axis, double damping, doubl
 }
 
 std::string KeysOf(const ExportedModel& model, const Beam& beam) {
-  if (model.starts.empty()) return "";
+  if (model.initial_states.empty()) return "";
   std::string text = "  <keyframe>\n", zeros;
   for (int i = 1; i < beam.arcs; ++i) zeros += " 0";
-  for (const ExportedStart& start : model.starts) {
+  for (const ExportedStart& start : model.initial_states) {
     const auto& s = start.state;
     const std::string along = beam.p.on_guide ? "" : N(s[0]) + " ";
     const std::string speed = beam.p.on_guide ? "" : N(s[2]) + " ";
@@ -197,7 +198,7 @@ std::string MjcfOf(const ExportedModel& given, const MjcfOptions& options,
   Check(given, place);
   ExportedModel model = given;
   model.origin = XmlText(model.origin);
-  for (ExportedStart& start : model.starts) start.trial = XmlText(start.trial);
+  for (ExportedStart& start : model.initial_states) start.trial = XmlText(start.trial);
   const Beam beam(model, options);
   if (!(beam.body_mass > 0.0)) {
     throw InputError({place, "leg mass = " + N(beam.leg_mass) + " kg",

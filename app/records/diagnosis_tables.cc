@@ -119,7 +119,7 @@ std::string EvidenceTable(const FittedModel& null, std::span<const Candidate> me
     Eigen::VectorXd shared(problem.shared_count());
     shared << null.shared, NullValues(one);
     const Linearisation at =
-        Linearise(problem, null.problem.shared_count(), train, shared, null.starts, 1);
+        Linearise(problem, null.problem.shared_count(), train, shared, null.initial_states, 1);
     for (int k = 0; k < member.parameter_count(); ++k) {
       const Eigen::VectorXd evidence = RunningEvidence(at, k);
       double running = 0.0;

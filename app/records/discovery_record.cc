@@ -135,7 +135,7 @@ Json DiscoveryRecord(const Dataset& dataset, const std::string& dataset_argument
   header.command = "discover";
   header.dataset = dataset.name;
   header.law = std::string(NameOf(d.base.problem.law));
-  header.variant = dataset.mechanism.variant;
+  header.reading = dataset.mechanism.reading;
   header.seed = options.fit.seed;
   header.options = OptionsRecord(d.base.problem,
                                  {dataset_argument, &options.problem, &options.fit, options.span});

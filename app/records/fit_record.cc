@@ -7,7 +7,7 @@
 namespace hoplab {
 namespace {
 
-Json StartsRecord(const FitRun& run) {
+Json RestartsRecord(const FitRun& run) {
   Json out = Json::array();
   for (const StartRecord& start : run.fit.records) {
     Json rejected = Json::object();
@@ -41,7 +41,7 @@ Json ProfilesRecord(const FitRun& run) {
   return out;
 }
 
-// The cost of the train trials and its derivative by the shared values, starts held.
+// The cost of the train trials and its derivative by the shared values, initial states held.
 Json ObjectiveRecord(const FitProblem& problem, const std::optional<Objective>& objective) {
   const bool known = objective && objective->complete;
   return {{"cost", known ? NumberOrNull(objective->cost) : Json(nullptr)},
@@ -89,7 +89,7 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
   header.command = "fit";
   header.dataset = dataset.name;
   header.law = std::string(NameOf(run.problem.law));
-  header.variant = dataset.mechanism.variant;
+  header.reading = dataset.mechanism.reading;
   header.seed = options.fit.seed;
   header.options =
       OptionsRecord(run.problem, {dataset_argument, &options.problem, &options.fit, options.span});
@@ -110,7 +110,7 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
   record["objective"] = {{"at_nominal", ObjectiveRecord(run.problem, run.at_nominal)},
                          {"at_optimum", ObjectiveRecord(run.problem, run.at_optimum)}};
   record["gradient_check"] = CertificateRecord(run.certificate);
-  record["starts"] = StartsRecord(run);
+  record["starts"] = RestartsRecord(run);
   record["best_start"] = run.has_result ? Json(run.fit.best_start) : Json(nullptr);
   record["cost"] = run.has_result ? NumberOrNull(run.fit.cost) : Json(nullptr);
   record["interrupted"] = run.interrupted;

@@ -116,7 +116,7 @@ Json NewGaitRecord(const GaitSettings& settings, const Scenario& scenario, Law l
   RecordHeader header;
   header.command = "gait";
   header.law = std::string(NameOf(law));
-  header.variant = scenario.mechanism.variant;
+  header.reading = scenario.mechanism.reading;
   header.options = {{"scenario", settings.scenario.scenario},
                     {"set", settings.scenario.set},
                     {"with", settings.scenario.with},

@@ -8,7 +8,7 @@ Json GenerateRecord(const GenerateSettings& settings, const Scenario& scenario,
   header.command = "generate";
   header.dataset = made.dataset.name;
   if (scenario.law) header.law = *scenario.law;
-  header.variant = scenario.mechanism.variant;
+  header.reading = scenario.mechanism.reading;
   header.seed = settings.seed;
   header.options = {{"scenario", settings.scenario.scenario},
                     {"set", settings.scenario.set},

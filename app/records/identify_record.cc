@@ -10,7 +10,7 @@ namespace hoplab {
 namespace {
 
 Json ReadingRecord(const StudyReading& reading) {
-  return {{"variant", VariantRecord(reading.variant)}, {"liftoff", NameOf(reading.liftoff)}};
+  return {{"variant", ThesisReadingRecord(reading.law)}, {"liftoff", NameOf(reading.liftoff)}};
 }
 
 Json ConstantsRecord(const StudyConstants& constants) {

@@ -28,7 +28,7 @@ void AddParts(const StudyFit& fit, CsvText& table) {
 // Every fit: its reading, its constants, what it was fitted to and how well it does there.
 std::string ReadingsTable(const IdentificationResult& result) {
   std::vector<std::string> header = {"tables"};
-  for (const VariantKey& key : VariantKeys()) header.emplace_back(key.key);
+  for (const ReadingKey& key : ReadingKeys()) header.emplace_back(key.key);
   header.emplace_back("liftoff");
   AddConstantNames(header);
   AddPartNames(header);
@@ -36,8 +36,8 @@ std::string ReadingsTable(const IdentificationResult& result) {
   CsvText table(header);
   const auto add = [&](const char* tables, const StudyFit& fit) {
     table.Cell(tables);
-    for (const VariantKey& key : VariantKeys())
-      table.Cell(key.words[static_cast<std::size_t>(key.get(fit.reading.variant))]);
+    for (const ReadingKey& key : ReadingKeys())
+      table.Cell(key.words[static_cast<std::size_t>(key.get(fit.reading.law))]);
     table.Cell(NameOf(fit.reading.liftoff));
     for (const double constant : fit.constants) table.Cell(constant);
     AddParts(fit, table);
@@ -79,9 +79,9 @@ std::string TimesTable(const IdentificationResult& result) {
     table.Cell(NameOf(t.reading))
         .Cell(t.damped_misfit)
         .Cell(t.undamped_misfit)
-        .Cell(t.damped_starts.converged)
-        .Cell(t.damped_starts.rms_s)
-        .Cell(t.damped_starts.rank_correlation)
+        .Cell(t.damped_initial_states.converged)
+        .Cell(t.damped_initial_states.rms_s)
+        .Cell(t.damped_initial_states.rank_correlation)
         .EndRow();
   return table.text();
 }
@@ -137,11 +137,11 @@ std::string ScenarioText(const StudyFit& fit, const std::string& name, const std
   constexpr double kControlledAngle = 40.0;  // deg, of the captions
   const StudyConstants& constants = fit.constants;
   const StudySection section = SectionOf(At(constants, C::kBendingStiffness));
-  std::string variant;
-  for (const VariantKey& key : VariantKeys()) {
-    variant += variant.empty() ? "" : ", ";
-    variant += fmt::format("{}: {}", key.key,
-                           key.words[static_cast<std::size_t>(key.get(fit.reading.variant))]);
+  std::string reading;
+  for (const ReadingKey& key : ReadingKeys()) {
+    reading += reading.empty() ? "" : ", ";
+    reading += fmt::format("{}: {}", key.key,
+                           key.words[static_cast<std::size_t>(key.get(fit.reading.law))]);
   }
   return fmt::format(
       "# The hopper of the published study: law thesis, in the reading and with the constants "
@@ -178,7 +178,7 @@ std::string ScenarioText(const StudyFit& fit, const std::string& name, const std
       "stop: {{time_s: 15}}\n{}",
       origin, DampingLines(constants), name, Number(At(constants, C::kMass)),
       NameOf(fit.reading.liftoff), ToeLines(constants), Number(At(constants, C::kRadius)),
-      Number(section.width_m), Number(section.thickness_m), variant,
+      Number(section.width_m), Number(section.thickness_m), reading,
       Number(At(constants, C::kGain)), Number(At(constants, C::kDesiredSpeed)),
       Number(kControlledAngle), Number(kControlledAngle * At(constants, C::kPlacedShare)),
       Number(At(constants, C::kStartSpeed)), EffectLines(constants));

@@ -3,7 +3,7 @@
 namespace hoplab {
 namespace {
 
-Json RowRecord(const VariantResult& row) {
+Json RowRecord(const ModelResult& row) {
   const bool ok = row.fit.result.ok;
   Json parameters = Json::object(), test = Json::object();
   for (int k = 0; k < row.fit.problem.shared_count(); ++k)
@@ -12,8 +12,8 @@ Json RowRecord(const VariantResult& row) {
   for (std::size_t c = 0; c < row.fit.problem.channels.size(); ++c)
     test[std::string(NameOf(row.fit.problem.channels[c].channel))] =
         ok ? NumberOrNull(row.test.rmse[c]) : Json(nullptr);
-  return {{"law", row.variant.law},
-          {"with", row.variant.with_effects},
+  return {{"law", row.model.law},
+          {"with", row.model.with_effects},
           {"parameters", parameters},
           {"test_rmse", test},
           {"test_nll_per_sample", ok ? NumberOrNull(row.test.nll_per_sample) : Json(nullptr)},
@@ -31,7 +31,7 @@ Json LawComparisonRecord(const std::string& dataset, const LawComparison& compar
   header.dataset = dataset;
   Json record = NewRecord(header);
   record["rows"] = Json::array();
-  for (const VariantResult& row : comparison.rows) record["rows"].push_back(RowRecord(row));
+  for (const ModelResult& row : comparison.rows) record["rows"].push_back(RowRecord(row));
   return record;
 }
 

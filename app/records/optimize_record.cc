@@ -45,7 +45,7 @@ Json WorstRecord(const WorstCase& worst) {
 
 Json RobustnessRecord(const Robustness& r) {
   return {{"stiffness_5_percent", WorstRecord(r.stiffness)},
-          {"starts", WorstRecord(r.starts)},
+          {"starts", WorstRecord(r.initial_states)},
           {"touchdown_noise_half_deg",
            {{"runs", r.noise.runs},
             {"fell", r.noise.fell},
@@ -77,7 +77,7 @@ Json NewOptimizeRecord(const OptimizeSettings& settings, const Scenario& scenari
   RecordHeader header;
   header.command = "optimize";
   header.law = std::string(NameOf(run.problem.hopper_at(run.scenario_x).request.law));
-  header.variant = scenario.mechanism.variant;
+  header.reading = scenario.mechanism.reading;
   header.seed = settings.seed;
   Json over = Json::object();
   for (const SearchVariable& v : run.problem.variables) over[v.name] = {v.low, v.high};

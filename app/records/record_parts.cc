@@ -216,7 +216,7 @@ Json OptionsRecord(const FitProblem& problem, const FitConfiguration& configurat
           {"free", problem.shared_names()},
           {"fix", fix},
           {"with", configuration.problem_options->with_effects},
-          {"starts", fit.starts},
+          {"starts", fit.restarts},
           {"seed", fit.seed},
           {"strategy", NameOf(fit.strategy)},
           {"span", NameOf(configuration.span)},

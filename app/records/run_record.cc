@@ -23,16 +23,16 @@ Json NewRecord(const RecordHeader& header) {
           {"dataset", OrNull(header.dataset)},
           {"law", OrNull(header.law)},
           {"law_variant",
-           header.variant == ThesisVariant() ? Json(nullptr) : VariantRecord(header.variant)},
+           header.reading == ThesisReading() ? Json(nullptr) : ThesisReadingRecord(header.reading)},
           {"seed", OrNull(header.seed)},
           {"options", header.options},
           {"seconds", nullptr}};
 }
 
-Json VariantRecord(const ThesisVariant& variant) {
+Json ThesisReadingRecord(const ThesisReading& reading) {
   Json record = Json::object();
-  for (const VariantKey& key : VariantKeys())
-    record[std::string(key.key)] = key.words[key.get(variant)];
+  for (const ReadingKey& key : ReadingKeys())
+    record[std::string(key.key)] = key.words[key.get(reading)];
   return record;
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "base/thesis_variant.h"
+#include "base/thesis_reading.h"
 
 namespace hoplab {
 
@@ -20,7 +20,7 @@ struct RecordHeader {
   std::string command;
   std::optional<std::string> dataset;  // its name, or the scenario's
   std::optional<std::string> law;
-  ThesisVariant variant;  // `law_variant` of the record; null there where it is the default
+  ThesisReading reading;  // `law_variant` of the record; null there where it is the default
   std::optional<std::uint64_t> seed;
   Json options = Json::object();  // the whole resolved configuration, `jobs` and places left out
 };
@@ -28,8 +28,8 @@ struct RecordHeader {
 /// A record of status "ok" with the common keys; what is absent is null. `seconds` is null.
 Json NewRecord(const RecordHeader& header);
 
-/// The words of a variant by its keys.
-Json VariantRecord(const ThesisVariant& variant);
+/// The words of a reading by its keys.
+Json ThesisReadingRecord(const ThesisReading& reading);
 
 /// What a command prints with --json when it ended before it had anything to record.
 std::string FailureText(const std::string& command, const std::string& message);

@@ -13,7 +13,7 @@ Json NewSimulationRecord(const SimulateSettings& settings, const Scenario& scena
   RecordHeader header;
   header.command = "simulate";
   header.law = std::string(NameOf(law));
-  header.variant = scenario.mechanism.variant;
+  header.reading = scenario.mechanism.reading;
   header.options = {{"scenario", settings.scenario.scenario},
                     {"set", settings.scenario.set},
                     {"with", settings.scenario.with},

@@ -45,7 +45,7 @@ Json NewSweepRecord(const SweepSettings& settings, const SweepPlan& plan) {
   RecordHeader header;
   header.command = "sweep";
   header.law = std::string(NameOf(plan.law()));
-  header.variant = plan.variant();
+  header.reading = plan.reading();
   header.seed = settings.seed;
   header.options = {{"scenario", settings.scenario.scenario},
                     {"set", settings.scenario.set},

@@ -149,7 +149,7 @@ Json MechanismRecord(const SimulationRequest& request) {
                  {"ground_slope_rad", NumberOrNull(GroundSlope(request))},
                  {"parameters", parameters},
                  {"law", NameOf(request.law)},
-                 {"variant", VariantRecord(request.parameters.variant)},
+                 {"variant", ThesisReadingRecord(request.parameters.reading)},
                  {"liftoff", at_force ? "zero_force" : "rest_length"},
                  {"torque_limit_N_m", NumberOrNull(request.parameters.torque_limit)},
                  {"on_guide", request.parameters.on_guide},

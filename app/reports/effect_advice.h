@@ -11,8 +11,9 @@ struct EffectAdvice {
   std::string effect;
   std::string check;  // a sentence: what on the rig shows it, or removes it
   /// Effects that moved the data alike, "a, b", nearest first: of four hops of six trials under the
-  /// speed controller, law large_deflection, fitted values and starts projected out, the columns of
-  /// two of their parameters had a cosine beyond kAlikeCosine. Other trials may tell them apart.
+  /// speed controller, law large_deflection, fitted values and initial states projected out, the
+  /// columns of two of their parameters had a cosine beyond kAlikeCosine. Other trials may tell
+  /// them apart.
   std::string look_alikes;
 };
 inline constexpr double kAlikeCosine = 0.93;

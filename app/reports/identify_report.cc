@@ -20,8 +20,8 @@ std::string ReadingText(const StudyReading& reading) {
   const auto add = [&](std::string_view key, std::string_view word) {
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key, word);
   };
-  for (const VariantKey& key : VariantKeys()) {
-    const int word = key.get(reading.variant);
+  for (const ReadingKey& key : ReadingKeys()) {
+    const int word = key.get(reading.law);
     if (word != 0) add(key.key, key.words[static_cast<std::size_t>(word)]);
   }
   if (reading.liftoff == LiftoffRule::kRestLength) add("liftoff", "rest_length");

@@ -10,14 +10,14 @@
 namespace hoplab {
 namespace {
 
-std::string TextOf(const Variant& variant) {
-  std::string text = variant.law;
-  for (const std::string& effect : variant.with_effects) text += " + " + effect;
+std::string TextOf(const ComparedModel& model) {
+  std::string text = model.law;
+  for (const std::string& effect : model.with_effects) text += " + " + effect;
   return text;
 }
 
 // "22.53 GPa (+2.4 %)": a value with its unit, and how far it is from a stated truth.
-std::string ValueText(const VariantResult& row, int k, const std::map<std::string, double>& truth) {
+std::string ValueText(const ModelResult& row, int k, const std::map<std::string, double>& truth) {
   const SharedParameter& s = row.fit.problem.shared[k];
   const double value = row.fit.result.shared[k];
   const ReadableUnit unit = ReadableUnitOf(value, s.unit);
@@ -28,7 +28,7 @@ std::string ValueText(const VariantResult& row, int k, const std::map<std::strin
   return text;
 }
 
-std::string ErrorsText(const VariantResult& row, const RoleErrors& errors) {
+std::string ErrorsText(const ModelResult& row, const RoleErrors& errors) {
   if (errors.trials == 0) return "-";
   if (errors.incomplete > 0) return fmt::format("{} fell", errors.incomplete);
   std::vector<std::string> parts;
@@ -49,22 +49,22 @@ std::string LawComparisonReport(const LawComparison& comparison,
   for (const ChannelProblem& c : comparison.rows.front().fit.problem.channels)
     channels.push_back(WithoutUnit(std::string(NameOf(c.channel))));
   table.AddRow({"model", "first value", "test error " + Join(channels), "chi2", ""});
-  for (const VariantResult& row : comparison.rows) {
+  for (const ModelResult& row : comparison.rows) {
     if (!row.fit.result.ok) {
-      table.AddRow({TextOf(row.variant), "no fit", "", "", row.fit.result.message});
+      table.AddRow({TextOf(row.model), "no fit", "", "", row.fit.result.message});
       continue;
     }
-    table.AddRow({TextOf(row.variant), ValueText(row, 0, truth), ErrorsText(row, row.test),
+    table.AddRow({TextOf(row.model), ValueText(row, 0, truth), ErrorsText(row, row.test),
                   Significant(row.uncertainty.chi2_per_dof, 3),
                   row.fit.by_hop ? "hop by hop" : ""});
   }
   std::string text;
   for (const std::string& line : table.Lines()) text += line + '\n';
-  for (const VariantResult& row : comparison.rows) {
+  for (const ModelResult& row : comparison.rows) {
     std::vector<std::string> others;
     for (int k = 1; row.fit.result.ok && k < row.fit.problem.shared_count(); ++k)
       others.push_back(ValueText(row, k, truth));
-    if (!others.empty()) text += "  " + TextOf(row.variant) + ": " + Join(others) + '\n';
+    if (!others.empty()) text += "  " + TextOf(row.model) + ": " + Join(others) + '\n';
     if (!row.fit.note.empty()) text += "    note: " + row.fit.note + '\n';
   }
   return text;

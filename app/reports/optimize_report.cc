@@ -78,8 +78,8 @@ std::string OptimizeReport(const std::string& name, const OptimizeRun& run, bool
                       result.agreeing, result.seeds.size());
   text += "  stiffness 5 %  " + WorstText(run.best_robustness.stiffness) +
           " (before: " + WorstText(run.before_robustness.stiffness) + ")\n";
-  text += "  25 starts      " + WorstText(run.best_robustness.starts) +
-          " (before: " + WorstText(run.before_robustness.starts) + ")\n";
+  text += "  25 starts      " + WorstText(run.best_robustness.initial_states) +
+          " (before: " + WorstText(run.before_robustness.initial_states) + ")\n";
   if (run.best_robustness.noise.runs > 0)
     text += "  0.5 deg noise  " + NoiseText(run.best_robustness.noise) +
             " (before: " + NoiseText(run.before_robustness.noise) + ")\n";

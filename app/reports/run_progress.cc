@@ -8,12 +8,12 @@
 namespace hoplab {
 namespace {
 
-std::string StepText(int start, int starts, std::string_view stage, int iteration, double cost) {
+std::string StepText(int start, int restarts, std::string_view stage, int iteration, double cost) {
   std::string text = "fitting";
-  if (start >= starts) {
+  if (start >= restarts) {
     text += ", beyond a threshold";
-  } else if (starts > 1) {
-    text += ", start " + std::to_string(start + 1) + " of " + std::to_string(starts);
+  } else if (restarts > 1) {
+    text += ", start " + std::to_string(start + 1) + " of " + std::to_string(restarts);
   }
   text += ": " + std::string(stage) + ", iteration " + std::to_string(iteration);
   if (std::isfinite(cost)) text += ", cost " + Significant(cost, 5);
@@ -28,10 +28,10 @@ void ShowProgress(FitRunOptions& options, Progress& progress, const Console& con
     progress.Clear();
     for (const std::string& warning : CollapseWarnings(check.warnings)) Warn(console, warning);
   };
-  const int starts = options.fit.starts;
-  options.fit.progress = [&progress, starts](int start, std::string_view stage, int iteration,
-                                             double cost) {
-    progress.Step(StepText(start, starts, stage, iteration, cost), start, starts);
+  const int restarts = options.fit.restarts;
+  options.fit.progress = [&progress, restarts](int start, std::string_view stage, int iteration,
+                                               double cost) {
+    progress.Step(StepText(start, restarts, stage, iteration, cost), start, restarts);
   };
 }
 
@@ -40,12 +40,12 @@ void ShowProgress(DiagnosisOptions& options, Progress& progress) {
   options.step = [&progress](const std::string& text, int done, int of) {
     progress.Step(text, done, of);
   };
-  const int starts = options.fit.starts;
-  options.fit.progress = [&progress, starts](int start, std::string_view stage, int iteration,
-                                             double cost) {
+  const int restarts = options.fit.restarts;
+  options.fit.progress = [&progress, restarts](int start, std::string_view stage, int iteration,
+                                               double cost) {
     std::string text = "fitting the model as it is";
-    if (starts > 1)
-      text += ", start " + std::to_string(start + 1) + " of " + std::to_string(starts);
+    if (restarts > 1)
+      text += ", start " + std::to_string(start + 1) + " of " + std::to_string(restarts);
     text += ": " + std::string(stage) + ", iteration " + std::to_string(iteration);
     if (std::isfinite(cost)) text += ", cost " + Significant(cost, 5);
     progress.Step(text);

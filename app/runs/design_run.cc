@@ -131,7 +131,7 @@ class Run {
     train_ = TrialsOf(fit.problem, TrialRole::kTrain);
     plain_.problem = std::move(fit.problem);
     plain_.shared = fit.result.shared;
-    plain_.starts = fit.result.starts;
+    plain_.initial_states = fit.result.initial_states;
     plain_.cost = fit.result.cost;
     plain_.status = fit.result.records[static_cast<std::size_t>(fit.result.best_start)].status;
     plain_.complete = true;

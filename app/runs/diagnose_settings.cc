@@ -25,7 +25,7 @@ void AddDiagnoseOptions(CLI::App& sub, DiagnoseSettings& settings) {
       ->check(CLI::Range(0.0, 100.0))
       ->option_text("PERCENT");
   AddDiscrepancyOption(sub, settings.discrepancy);
-  sub.add_option("--starts", settings.starts,
+  sub.add_option("--starts", settings.restarts,
                  "Searches for the model as it is: from the nominal values, then scattered")
       ->check(CLI::Range(1, 1000000))
       ->option_text("N");
@@ -42,7 +42,7 @@ void AddDiagnoseOptions(CLI::App& sub, DiagnoseSettings& settings) {
 DiagnosisOptions DiagnosisOptionsOf(const DiagnoseSettings& settings) {
   DiagnosisOptions options;
   options.problem = ProblemOptionsOf(settings.problem);
-  options.fit.starts = settings.starts;
+  options.fit.restarts = settings.restarts;
   options.fit.seed = settings.seed;
   options.fit.jobs = JobsOf(settings.problem.jobs);
   options.fit.discrepancy = *FindDiscrepancy(settings.discrepancy);

@@ -15,7 +15,7 @@ struct DiagnoseSettings : RunSettings {
   std::vector<std::string> effects, without;
   int max_effects = DiagnosisOptions().max_effects;
   double material = 100.0 * kMaterial;  // [%]
-  int starts = 1;
+  int restarts = 1;
   std::uint64_t seed = 1;
   std::string span = "whole_else_hops";
   std::string discrepancy = "matern";

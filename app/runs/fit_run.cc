@@ -58,9 +58,9 @@ void AddObjectives(const FitOptions& fit, const std::vector<TrialProblem>& train
   for (const TrialProblem& trial : train) nominal.push_back(trial.start);
   run.at_nominal = EvaluateObjective(run.problem, train, InitialShared(run.problem), nominal,
                                      fit.loss, fit.jobs, /*matrices=*/false);
-  run.at_optimum =
-      EvaluateObjective(run.problem, train, run.fit.shared, run.fit.starts, fit.loss, fit.jobs,
-                        /*matrices=*/false);
+  run.at_optimum = EvaluateObjective(run.problem, train, run.fit.shared, run.fit.initial_states,
+                                     fit.loss, fit.jobs,
+                                     /*matrices=*/false);
 }
 
 // Fitted trials that are missed by this many times the chi-square of those held out.
@@ -114,7 +114,7 @@ FitStanding FitRun::Standing() const {
   return left_out.empty() ? FitStanding::kOk : FitStanding::kPartial;
 }
 
-int FitRun::finished_starts() const {
+int FitRun::finished_restarts() const {
   return static_cast<int>(std::count_if(fit.records.begin(), fit.records.end(), IsFinished));
 }
 
@@ -134,8 +134,8 @@ bool FitRun::AllUndetermined() const {
 std::string FitRun::Failure() const {
   if (interrupted && !has_result) return "interrupted; no start had been finished";
   if (interrupted) {
-    return "interrupted; the result is the best of " + std::to_string(finished_starts()) +
-           " finished start" + (finished_starts() == 1 ? "" : "s");
+    return "interrupted; the result is the best of " + std::to_string(finished_restarts()) +
+           " finished start" + (finished_restarts() == 1 ? "" : "s");
   }
   if (!refusal.empty()) return refusal;
   if (!has_result) {
@@ -156,7 +156,7 @@ std::string FitRun::Caveat() const {
     return fmt::format(
         "{} of {} train hops are left out, since no values found let them be "
         "simulated: {}",
-        left_out.size(), left_out.size() + fit.starts.size(), Join(left_out));
+        left_out.size(), left_out.size() + fit.initial_states.size(), Join(left_out));
   return "";
 }
 
@@ -193,10 +193,10 @@ FitRun RunFit(const Dataset& dataset, const FitRunOptions& options) {
   AddObjectives(options.fit, train, run);
   // Where a search is stuck there is nothing to be sure about.
   if (!run.faults.empty()) return run;
-  run.uncertainty = AssessUncertainty(run.problem, train, run.fit.shared, run.fit.starts,
+  run.uncertainty = AssessUncertainty(run.problem, train, run.fit.shared, run.fit.initial_states,
                                       options.fit.loss, options.fit.jobs);
-  run.certificate =
-      CertifyGradients(run.problem, train, run.fit.shared, run.fit.starts, options.fit.jobs);
+  run.certificate = CertifyGradients(run.problem, train, run.fit.shared, run.fit.initial_states,
+                                     options.fit.jobs);
   if (!run.interrupted) AddProfiles(options, targets, run);
   run.interrupted = run.interrupted || (options.fit.stop && *options.fit.stop);
   return run;

@@ -49,9 +49,10 @@ struct FitRun {
   std::vector<std::string> left_out;  // train hops that no values found let be simulated
   /// At least one start ran to its end: there is something to report.
   bool has_result = false;
-  /// Stopped from outside; profiles may be missing, starts are.
+  /// Stopped from outside; profiles may be missing, restarts are.
   bool interrupted = false;
-  /// Of the train trials, where the search begins (nominal values and starts) and at the optimum.
+  /// Of the train trials, where the search begins (nominal values and initial states) and at the
+  /// optimum.
   std::optional<Objective> at_nominal, at_optimum;
   std::optional<Uncertainty> uncertainty;
   std::optional<GradientCertificate> certificate;
@@ -64,7 +65,7 @@ struct FitRun {
   std::vector<std::string> faults;
 
   FitStanding Standing() const;
-  int finished_starts() const;
+  int finished_restarts() const;
   /// The data say nothing about it: the value found is an accident of the start.
   bool Undetermined(int parameter) const;
   bool AllUndetermined() const;

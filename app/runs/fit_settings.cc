@@ -6,7 +6,7 @@ namespace hoplab {
 
 void AddFitOptions(CLI::App& sub, FitSettings& settings) {
   AddProblemOptions(sub, settings.problem);
-  sub.add_option("--starts", settings.starts,
+  sub.add_option("--starts", settings.restarts,
                  "Searches: one from the nominal values, then scattered")
       ->check(CLI::Range(1, 1000000))
       ->option_text("N");
@@ -38,7 +38,7 @@ FitRunOptions FitRunOptionsOf(const FitSettings& settings) {
   options.problem = ProblemOptionsOf(settings.problem);
   options.fit.strategy = *FindStrategy(settings.strategy);
   options.span = *FindSpan(settings.span);
-  options.fit.starts = settings.starts;
+  options.fit.restarts = settings.restarts;
   options.fit.seed = settings.seed;
   options.fit.loss = {settings.loss == "squared" ? LossKind::kSquared : LossKind::kPseudoHuber,
                       settings.loss_scale};

@@ -12,7 +12,7 @@ namespace hoplab {
 /// What the command line of `hoplab fit` says.
 struct FitSettings : RunSettings {
   ProblemSettings problem;
-  int starts = 1;
+  int restarts = 1;
   std::uint64_t seed = 1;
   std::string strategy = "apex_shooting";
   std::string span = "whole_else_hops";

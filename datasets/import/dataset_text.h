@@ -34,7 +34,8 @@ enum class Blanks {
 };
 
 /// dataset.yaml with every value a fit needs: those given, gravity of 9.81 m/s^2, of a robot the
-/// starts that its traces tell, and blanks. Throws InputError for a value that has no place there.
+/// initial states that its traces tell, and blanks. Throws InputError for a value that has no place
+/// there.
 std::string FormatDatasetText(const DatasetText& dataset, Blanks blanks);
 
 }  // namespace hoplab

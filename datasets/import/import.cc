@@ -125,7 +125,7 @@ class Importer {
     if (imported.trace.mended.any())
       result_.notes.push_back(table.file + ": " + imported.trace.mended.Text());
     const Trace trace = ParseTraceCsv(imported.trace.csv, imported.file);
-    if (result_.legs > 0) starts_.push_back(StartOfTrace(trace, result_.legs));
+    if (result_.legs > 0) initial_states_.push_back(StartOfTrace(trace, result_.legs));
     if (!result_.files.emplace(imported.file, std::move(imported.trace.csv)).second)
       throw InputError({table.file, imported.file, "is the trial of an earlier file already",
                         "Rename one of the two files."});
@@ -182,7 +182,7 @@ class Importer {
     std::sort(text.inputs.begin(), text.inputs.end());
     for (std::size_t i = 0; i < result_.logs.size(); ++i)
       text.trials.push_back({result_.logs[i].file, result_.logs[i].role,
-                             starts_.empty() ? RobotTrial{} : starts_[i]});
+                             initial_states_.empty() ? RobotTrial{} : initial_states_[i]});
     // With samples in the blanks it must be a dataset like any other.
     ReadDatasetText(FormatDatasetText(text, Blanks::kSamples), result_.files, request_.name);
     std::string yaml = FormatDatasetText(text, Blanks::kBlank);
@@ -192,7 +192,7 @@ class Importer {
 
   const ImportRequest& request_;
   std::vector<MapEntry> entries_;
-  std::vector<RobotTrial> starts_;  // of a robot's logs
+  std::vector<RobotTrial> initial_states_;  // of a robot's logs
   ImportResult result_;
 };
 

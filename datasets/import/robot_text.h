@@ -16,7 +16,8 @@ struct WaitingValue {
 };
 
 /// Those of a robot beside what its mechanism needs: hips, what its motors did or where they begin,
-/// and the starts that a trace does not tell. `controller` of all trials may stand for each one's.
+/// and the initial states that a trace does not tell. `controller` of all trials may stand for each
+/// one's.
 void AddRobotValues(const DatasetText& dataset, std::vector<WaitingValue>* values);
 
 /// The lines `initial` and `initial_sigma` of a trial, without those that are `given` or that its

@@ -4,13 +4,13 @@ namespace hoplab {
 
 std::vector<StudyReading> AllReadings() {
   std::vector<StudyReading> readings = {StudyReading()};
-  for (const VariantKey& key : VariantKeys()) {
+  for (const ReadingKey& key : ReadingKeys()) {
     if (key.key == "torque_sign") continue;
     std::vector<StudyReading> longer;
     for (const StudyReading& reading : readings) {
       for (int word = 0; word < static_cast<int>(key.words.size()); ++word) {
         longer.push_back(reading);
-        key.set(longer.back().variant, word);
+        key.set(longer.back().law, word);
       }
     }
     readings = std::move(longer);

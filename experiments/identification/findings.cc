@@ -72,9 +72,9 @@ class Decider {
 
 std::vector<PointDecision> Decide(const IdentificationResult& result) {
   Decider decider(result);
-  for (const VariantKey& key : VariantKeys())
+  for (const ReadingKey& key : ReadingKeys())
     decider.Add(std::string(key.key), key.words,
-                [&](const StudyFit& fit) { return key.get(fit.reading.variant); });
+                [&](const StudyFit& fit) { return key.get(fit.reading.law); });
   static constexpr std::array<std::string_view, 2> kLiftoff = {"zero_force", "rest_length"};
   decider.Add("liftoff", kLiftoff,
               [](const StudyFit& fit) { return static_cast<int>(fit.reading.liftoff); });

@@ -20,7 +20,7 @@ std::string HeaderOf(const UnitContext& context, const std::string& version) {
                                r.k_min_N_per_m, r.k_max_N_per_m})
       hash.Add(value);
   }
-  for (const StartCell& c : context.data.starts) {
+  for (const StartCell& c : context.data.initial_states) {
     for (const double value :
          {c.speed_m_per_s, c.height_m, c.damping_N_s_per_m, c.convergence_time_s})
       hash.Add(value);

@@ -71,7 +71,7 @@ class Identifier {
     return unit;
   }
   bool HasTables() const {
-    return !request_.context.data.modulus.empty() || !request_.context.data.starts.empty();
+    return !request_.context.data.modulus.empty() || !request_.context.data.initial_states.empty();
   }
 
   void FitEnergy() {
@@ -127,9 +127,9 @@ class Identifier {
   }
   static void AddWithBothSigns(const StudyUnit& unit, Units& units) {
     for (const auto sign :
-         {ThesisVariant::TorqueSign::kNormal, ThesisVariant::TorqueSign::kPrinted}) {
+         {ThesisReading::TorqueSign::kNormal, ThesisReading::TorqueSign::kPrinted}) {
       units.push_back(unit);
-      units.back().reading.variant.torque_sign = sign;
+      units.back().reading.law.torque_sign = sign;
     }
   }
 
@@ -281,7 +281,7 @@ class Identifier {
     Fits best;
     for (const StudyFit& fit : fits) {
       const bool is_known = std::any_of(best.begin(), best.end(), [&](const StudyFit& other) {
-        return other.reading.variant == fit.reading.variant;
+        return other.reading.law == fit.reading.law;
       });
       if (!is_known && std::ssize(best) < count && !std::isnan(fit.misfit)) best.push_back(fit);
     }

@@ -79,7 +79,7 @@ struct PointDecision {
 struct ReadingOfTimes {
   ConvergenceReading reading;
   double damped_misfit, undamped_misfit;  // in units, mean squares
-  TimeScores damped_starts;               // 6.2
+  TimeScores damped_initial_states;       // 6.2
 };
 
 /// The fit where a part of the misfit counts ten times, or not at all.

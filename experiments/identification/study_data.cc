@@ -26,7 +26,7 @@ void AddStartTable(const char* name, double damping, StudyData& data) {
   const auto speed = table.Column("initial_speed_m_per_s"),
              height = table.Column("initial_height_m"), time = table.Column("convergence_time_s");
   for (std::size_t i = 0; i < speed.size(); ++i)
-    data.starts.push_back({speed[i], height[i], damping, time[i]});
+    data.initial_states.push_back({speed[i], height[i], damping, time[i]});
 }
 
 }  // namespace
@@ -66,7 +66,8 @@ StudyData OnlyTables(const StudyData& data, const std::vector<StudyTableId>& tab
   if (has(StudyTableId::k65)) kept.energy = data.energy;
   const auto is_kept = [&](const auto& row) { return has(TableOf(row)); };
   std::copy_if(data.modulus.begin(), data.modulus.end(), std::back_inserter(kept.modulus), is_kept);
-  std::copy_if(data.starts.begin(), data.starts.end(), std::back_inserter(kept.starts), is_kept);
+  std::copy_if(data.initial_states.begin(), data.initial_states.end(),
+               std::back_inserter(kept.initial_states), is_kept);
   return kept;
 }
 

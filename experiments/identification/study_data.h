@@ -28,10 +28,11 @@ struct StartCell {
 struct StudyData {
   std::vector<EnergyCell> energy;
   std::vector<ModulusRow> modulus;
-  std::vector<StartCell> starts;
+  std::vector<StartCell> initial_states;
 };
 
-/// The tables: 6.1 (starts, undamped), 6.2 (damped), 6.3 (moduli, undamped), 6.4 (damped), 6.5.
+/// The tables: 6.1 (initial states, undamped), 6.2 (damped), 6.3 (moduli, undamped), 6.4
+/// (damped), 6.5.
 enum class StudyTableId { k61, k62, k63, k64, k65 };
 inline constexpr int kStudyTableCount = 5;
 /// "6.1" to "6.5".

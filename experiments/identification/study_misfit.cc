@@ -58,9 +58,9 @@ std::vector<TimedCell> TimedCells(const StudyRuns& runs, const StudyData& data) 
     if (!std::isnan(row.convergence_time_s))
       cells.push_back({TableOf(row), &runs.modulus[i], row.convergence_time_s});
   }
-  for (std::size_t i = 0; i < data.starts.size(); ++i) {
-    const StartCell& cell = data.starts[i];
-    cells.push_back({TableOf(cell), &runs.starts[i], cell.convergence_time_s});
+  for (std::size_t i = 0; i < data.initial_states.size(); ++i) {
+    const StartCell& cell = data.initial_states[i];
+    cells.push_back({TableOf(cell), &runs.initial_states[i], cell.convergence_time_s});
   }
   return cells;
 }
@@ -164,10 +164,10 @@ void AddTimes(bool damped, const StudyRuns& runs, const StudyData& data,
   for (std::size_t i = 0; i < data.modulus.size(); ++i)
     add(TableOf(data.modulus[i]), fmt::format("{:.4g} GPa", data.modulus[i].modulus_Pa * 1e-9),
         runs.modulus[i], data.modulus[i].convergence_time_s);
-  for (std::size_t i = 0; i < data.starts.size(); ++i) {
-    const StartCell& cell = data.starts[i];
+  for (std::size_t i = 0; i < data.initial_states.size(); ++i) {
+    const StartCell& cell = data.initial_states[i];
     add(TableOf(cell), fmt::format("{:g} m/s, {:g} m", cell.speed_m_per_s, cell.height_m),
-        runs.starts[i], cell.convergence_time_s);
+        runs.initial_states[i], cell.convergence_time_s);
   }
   Normalise(cells, from);
 }

@@ -71,7 +71,7 @@ SimulationRequest RequestOf(const StudyHopper& hopper, double modulus_Pa, double
   request.liftoff = hopper.reading.liftoff;
   request.integrator = hopper.integrator;
   Parameters<double>& p = request.parameters;
-  p.variant = hopper.reading.variant;
+  p.reading = hopper.reading.law;
   p.m = At(hopper.constants, C::kMass);
   p.g = kGravity;
   p.r = At(hopper.constants, C::kRadius);

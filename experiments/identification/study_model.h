@@ -11,7 +11,7 @@ namespace hoplab {
 
 /// One reading of the study's law: what its text leaves open, without numbers.
 struct StudyReading {
-  ThesisVariant variant;
+  ThesisReading law;
   LiftoffRule liftoff = LiftoffRule::kZeroForce;
   bool operator==(const StudyReading&) const = default;
 };

@@ -41,9 +41,9 @@ class SteadyHops {
 };
 
 // The start speed in the middle of those of the table [m/s].
-double MiddleSpeed(const std::vector<StartCell>& starts) {
+double MiddleSpeed(const std::vector<StartCell>& initial_states) {
   std::vector<double> speeds;
-  for (const StartCell& cell : starts) speeds.push_back(cell.speed_m_per_s);
+  for (const StartCell& cell : initial_states) speeds.push_back(cell.speed_m_per_s);
   std::sort(speeds.begin(), speeds.end());
   return speeds.empty() ? 0.0 : speeds[speeds.size() / 2];
 }
@@ -73,8 +73,8 @@ StudyRuns RunTables(const StudyHopper& hopper, const StudyData& data, const RunW
   of_modulus.stiffness = true;
   for (const ModulusRow& row : data.modulus)
     runs.modulus.push_back(RunControlled(hopper, SettingsOf(row), of_modulus));
-  for (const StartCell& cell : data.starts)
-    runs.starts.push_back(RunControlled(hopper, SettingsOf(cell), wants));
+  for (const StartCell& cell : data.initial_states)
+    runs.initial_states.push_back(RunControlled(hopper, SettingsOf(cell), wants));
   return runs;
 }
 
@@ -82,8 +82,9 @@ StudyData SteadyData(const StudyData& data, bool has_toe_mass) {
   StudyData steady = data;
   steady.modulus = RowsForRanges(data.modulus);
   if (!has_toe_mass) return steady;
-  const double middle = MiddleSpeed(data.starts);
-  std::erase_if(steady.starts, [&](const StartCell& c) { return c.speed_m_per_s != middle; });
+  const double middle = MiddleSpeed(data.initial_states);
+  std::erase_if(steady.initial_states,
+                [&](const StartCell& c) { return c.speed_m_per_s != middle; });
   return steady;
 }
 
@@ -97,8 +98,8 @@ StudyRuns RunSteady(const StudyHopper& hopper, const StudyData& steady_data,
   of_modulus.stiffness = true;
   for (const ModulusRow& row : steady_data.modulus)
     runs.modulus.push_back(steady.Predict(SettingsOf(row), of_modulus));
-  for (const StartCell& cell : steady_data.starts)
-    runs.starts.push_back(steady.Predict(SettingsOf(cell), wants));
+  for (const StartCell& cell : steady_data.initial_states)
+    runs.initial_states.push_back(steady.Predict(SettingsOf(cell), wants));
   return runs;
 }
 

@@ -82,9 +82,9 @@ StudyScores ScoresOf(const StudyRuns& runs, const StudyData& data,
     moduli.push_back(row.modulus_Pa);
     modulus_times.push_back(time.time);
   }
-  for (std::size_t i = 0; i < data.starts.size(); ++i)
-    columns[static_cast<std::size_t>(TableOf(data.starts[i]))].Add(
-        data.starts[i].convergence_time_s, runs.starts[i].TimeBy(reading));
+  for (std::size_t i = 0; i < data.initial_states.size(); ++i)
+    columns[static_cast<std::size_t>(TableOf(data.initial_states[i]))].Add(
+        data.initial_states[i].convergence_time_s, runs.initial_states[i].TimeBy(reading));
   for (std::size_t i = 0; i < columns.size(); ++i) s.times[i] = columns[i].Scores();
   s.modulus_trend = TrendOf(moduli, modulus_times).tau;
   std::vector<double> damped = columns[static_cast<std::size_t>(StudyTableId::k62)].Differences();

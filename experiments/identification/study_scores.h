@@ -4,7 +4,7 @@
 
 namespace hoplab {
 
-/// How the times of a table of starts or moduli compare.
+/// How the times of a table of initial states or moduli compare.
 struct TimeScores {
   int converged = 0;
   int of = 0;  // cells that print a time

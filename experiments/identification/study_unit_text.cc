@@ -58,17 +58,17 @@ class WordReader {
 };
 
 void Write(const StudyReading& reading, WordWriter& out) {
-  for (const VariantKey& key : VariantKeys()) out.Add(key.get(reading.variant));
+  for (const ReadingKey& key : ReadingKeys()) out.Add(key.get(reading.law));
   out.Add(static_cast<int>(reading.liftoff));
 }
 
 StudyReading ReadReading(WordReader& in) {
   StudyReading reading;
-  for (const VariantKey& key : VariantKeys()) {
+  for (const ReadingKey& key : ReadingKeys()) {
     int word = 0;
     in.Get(word);
     in.Require(word >= 0 && word < std::ssize(key.words));
-    if (!in.failed()) key.set(reading.variant, word);
+    if (!in.failed()) key.set(reading.law, word);
   }
   int liftoff = 0;
   in.Get(liftoff);

@@ -9,7 +9,7 @@ namespace {
 
 double AngleAt(const LaserScanRequest& request, int i) {
   return request.start_low +
-         (request.start_high - request.start_low) * i / std::max(request.starts - 1, 1);
+         (request.start_high - request.start_low) * i / std::max(request.initial_states - 1, 1);
 }
 
 }  // namespace
@@ -26,8 +26,8 @@ ScanStart ScanFrom(const LaserScanRequest& request, LegAngles angles) {
   return scan;
 }
 
-std::vector<ScanStart> ScanStarts(const LaserScanRequest& request) {
-  const int n = request.starts;
+std::vector<ScanStart> ScanInitialStates(const LaserScanRequest& request) {
+  const int n = request.initial_states;
   std::vector<ScanStart> scans(static_cast<std::size_t>(n) * n);
   ParallelFor(n * n, request.jobs, [&](int i) {
     scans[i] = ScanFrom(request, {AngleAt(request, i / n), AngleAt(request, i % n)});

@@ -11,7 +11,7 @@ namespace hoplab {
 struct LaserScanRequest {
   TwoLegs legs;
   double start_low = 0.0, start_high = 0.0;  // both start angles, inclusive
-  int starts = 2;                            // per leg
+  int initial_states = 2;                    // per leg
   double wanted_low = 0.0, wanted_high = 0.0;
   int jobs = 1;
 };
@@ -30,7 +30,7 @@ struct ScanStart {
 ScanStart ScanFrom(const LaserScanRequest& request, LegAngles angles);
 
 /// All pairs, the front angle fastest.
-std::vector<ScanStart> ScanStarts(const LaserScanRequest& request);
+std::vector<ScanStart> ScanInitialStates(const LaserScanRequest& request);
 
 /// Poses along the whole travel from one start, evenly spaced in the rear angle.
 std::vector<Pose> PosesAlong(const RollingPair& pair, const Travel& travel, int count);

@@ -250,8 +250,8 @@ std::vector<StudyCheck> JudgeStraightLeg(const HoppingRun& undamped, double v_de
            complete && Rises(energy), NumbersOf(energy)}};
 }
 
-std::vector<StudyCheck> JudgeStarts(const std::vector<double>& undamped,
-                                    const std::vector<double>& damped) {
+std::vector<StudyCheck> JudgeInitialStates(const std::vector<double>& undamped,
+                                           const std::vector<double>& damped) {
   const auto all = static_cast<double>(undamped.size());
   double sooner = 0.0;
   for (std::size_t i = 0; i < undamped.size(); ++i) sooner += Number(damped[i] < undamped[i]);

@@ -33,8 +33,8 @@ std::vector<StudyCheck> JudgeControlled(const HoppingRun& undamped, const Hoppin
 std::vector<StudyCheck> JudgeStraightLeg(const HoppingRun& undamped, double v_des_m_per_s);
 
 /// (f) Every start converges; damped sooner. Times in s, NaN for no convergence.
-std::vector<StudyCheck> JudgeStarts(const std::vector<double>& undamped,
-                                    const std::vector<double>& damped);
+std::vector<StudyCheck> JudgeInitialStates(const std::vector<double>& undamped,
+                                           const std::vector<double>& damped);
 
 /// (g) Convergence time without trend in E if undamped, falling if damped; stiffness grows.
 std::vector<StudyCheck> JudgeModulus(const ModulusSweep& undamped, const ModulusSweep& damped);

@@ -38,7 +38,7 @@ Scenario StraightScenario(const Study& study, const CaptionSettings& settings) {
   scenario.mechanism.straight_leg = {settings.straight->rest_length_m,
                                      settings.straight->stiffness_N_per_m,
                                      settings.damping_N_s_per_m};
-  scenario.mechanism.variant.torque_sign = study.constants.mechanism.variant.torque_sign;
+  scenario.mechanism.reading.torque_sign = study.constants.mechanism.reading.torque_sign;
   PutDown(study,
           settings.straight->touchdown_angle_rad.value_or(0.5 * settings.touchdown_angle_rad),
           scenario);

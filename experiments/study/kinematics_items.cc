@@ -23,8 +23,8 @@ constexpr double kLevel = 1e-9;  // rad: what rounding leaves of a level body
 LaserScanRequest Request(const TwoLegs& legs, int count, int jobs) {
   return {legs, DegToRad(30.0), DegToRad(90.0), count, kWantedLow, kWantedHigh, jobs};
 }
-std::vector<ScanStart> Starts(const TwoLegs& legs, int count, int jobs) {
-  return ScanStarts(Request(legs, count, jobs));
+std::vector<ScanStart> InitialStates(const TwoLegs& legs, int count, int jobs) {
+  return ScanInitialStates(Request(legs, count, jobs));
 }
 
 const StudyColumn kRearStart{"psi_rear_start_deg", "rear start angle", "deg"};
@@ -47,7 +47,7 @@ StudyFigure Surfaces(const TwoLegs& legs, int jobs) {
                     {"pitch_lowest_deg", "lowest pitch", "deg"},
                     {"pitch_highest_deg", "highest pitch", "deg"}};
   StudyCurve surface;
-  for (const ScanStart& start : Starts(legs, kCoarse, jobs))
+  for (const ScanStart& start : InitialStates(legs, kCoarse, jobs))
     surface.rows.push_back({RadToDeg(start.angles.rear), RadToDeg(start.angles.front),
                             RadToDeg(start.range.lowest), RadToDeg(start.range.highest)});
   figure.curves = {std::move(surface)};
@@ -62,7 +62,7 @@ StudyFigure FeasiblePairs(const TwoLegs& legs, int jobs) {
   figure.columns = {kRearStart, kFrontStart, {"feasible", "feasible", ""}};
   StudyCurve map;
   double feasible = 0.0;
-  for (const ScanStart& start : Starts(legs, kFine, jobs)) {
+  for (const ScanStart& start : InitialStates(legs, kFine, jobs)) {
     const double yes = start.feasible ? 1.0 : 0.0;
     feasible += yes;
     map.rows.push_back({RadToDeg(start.angles.rear), RadToDeg(start.angles.front), yes});
@@ -108,7 +108,7 @@ std::vector<StudyCheck> JudgeLevel(const TwoLegs& legs, int) {
 
 std::vector<StudyCheck> JudgeSign(const TwoLegs& legs, int jobs) {
   double turned = 0.0, reached = 0.0;
-  for (const ScanStart& start : Starts(legs, kClaimed, jobs)) {
+  for (const ScanStart& start : InitialStates(legs, kClaimed, jobs)) {
     if (start.outcome != PoseOutcome::kReached) continue;
     reached += 1.0;
     if ((start.start_pitch > kLevel && start.range.lowest < -kLevel) ||

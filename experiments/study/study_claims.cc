@@ -67,7 +67,7 @@ Checks JudgeObliqueStraightLeg(const Study& study) {
 }
 
 Checks JudgeF(const Study& study) {
-  return JudgeStarts(RunStartGrid(study, 0).time, RunStartGrid(study, 6).time);
+  return JudgeInitialStates(RunStartGrid(study, 0).time, RunStartGrid(study, 6).time);
 }
 
 Checks JudgeG(const Study& study) {

@@ -4,7 +4,7 @@
 
 namespace hoplab {
 
-/// Convergence time over 25 starts (tables 6.1, d = 0, and 6.2, d = 6).
+/// Convergence time over 25 initial states (tables 6.1, d = 0, and 6.2, d = 6).
 struct StartGrid {
   std::vector<double> speeds, heights;             // a cell each, as the published table has them
   std::vector<double> published_time, time;        // NaN: no convergence

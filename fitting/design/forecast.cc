@@ -101,8 +101,8 @@ Nats RefittedNats(const FittedModel& rival, const std::vector<TrialProblem>& tra
   request.problem = &rival.problem;
   request.trials = &trials;
   request.shared = rival.shared;
-  request.starts = rival.starts;
-  request.starts.push_back(trial.start);
+  request.initial_states = rival.initial_states;
+  request.initial_states.push_back(trial.start);
   request.max_iterations = kRefitIterations;
   request.function_tolerance = 1e-6;
   const SolveResult result = Solve(request);
@@ -187,7 +187,7 @@ RecordedInformation InformationOf(const FittedModel& model,
   for (std::size_t i = 0; i < train.size(); ++i) {
     const TrialEvaluator evaluator(model.problem, train[i]);
     TrialEvaluation e;
-    evaluator.Evaluate({model.shared, model.starts[i], true}, e);
+    evaluator.Evaluate({model.shared, model.initial_states[i], true}, e);
     if (!e.complete) continue;
     parts.push_back(
         EliminateOwn(train[i], e, model.problem.shared_count(), ColumnsOf(model, out.free)));

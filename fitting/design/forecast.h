@@ -9,8 +9,9 @@
 
 namespace hoplab {
 
-/// What the recorded trials say about a model's shared values, their starts projected out: rows R
-/// with R'R the information, in units of the values' scales. Values on a bound count as known.
+/// What the recorded trials say about a model's shared values, their initial states projected out:
+/// rows R with R'R the information, in units of the values' scales. Values on a bound count as
+/// known.
 struct RecordedInformation {
   std::vector<int> free;  // places of the shared values that are not on a bound
   Eigen::MatrixXd rows;   // one column a free value

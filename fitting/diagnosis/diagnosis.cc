@@ -92,9 +92,10 @@ class Pipeline {
     const Linearisation at = LineariseAt(d_.plain, all, train_, options_.fit.jobs);
     NoteFailed(at);
     d_.detection = Detect(at, candidates, basis_, Seed(kDetectionStream));
-    d_.localisation = Localise(Linearise(d_.plain.problem, d_.plain.problem.shared_count(), train_,
-                                         d_.plain.shared, d_.plain.starts, options_.fit.jobs));
-    d_.uncertainty = AssessUncertainty(d_.problem, train_, d_.null.shared, d_.null.starts,
+    d_.localisation =
+        Localise(Linearise(d_.plain.problem, d_.plain.problem.shared_count(), train_,
+                           d_.plain.shared, d_.plain.initial_states, options_.fit.jobs));
+    d_.uncertainty = AssessUncertainty(d_.problem, train_, d_.null.shared, d_.null.initial_states,
                                        options_.fit.loss, options_.fit.jobs);
     if (d_.detection.p_value > kDetectionLevel) {
       // Nothing to name; what each candidate could have shown is still told.
@@ -162,7 +163,7 @@ class Pipeline {
     const FittedModel& best = d_.naming.best;
     ExtensionReport report;
     report.set_aside = set_aside;
-    report.uncertainty = AssessUncertainty(best.problem, train_, best.shared, best.starts,
+    report.uncertainty = AssessUncertainty(best.problem, train_, best.shared, best.initial_states,
                                            options_.fit.loss, options_.fit.jobs);
     report.after = MeasureHeldOut(best, options_.fit.jobs);
     report.gain =

@@ -25,11 +25,11 @@ struct Evidence {
 };
 
 /// The model linearised at fitted values, and the integral of its likelihood times all priors:
-/// over starts and shared values as in LogValueIntegral, over the discrepancy's own values around
-/// the peak of that (IntegrateOverNoise, begun at `noise`).
-/// The values are those of least squares, where the whitened rows have another optimum; so the
-/// linear model is asked how it goes on from there, and the prior is that of where it leads.
-/// `coarse`, for the discrepancy's own values, may be of averaged rows.
+/// over initial states and shared values as in LogValueIntegral, over the discrepancy's own values
+/// around the peak of that (IntegrateOverNoise, begun at `noise`). The values are those of least
+/// squares, where the whitened rows have another optimum; so the linear model is asked how it goes
+/// on from there, and the prior is that of where it leads. `coarse`, for the discrepancy's own
+/// values, may be of averaged rows.
 Evidence EvidenceOf(const FitProblem& problem, const Eigen::VectorXd& shared,
                     const RestrictedLikelihood& likelihood, const RestrictedLikelihood& coarse,
                     const NoiseModel& noise);

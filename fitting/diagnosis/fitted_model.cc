@@ -35,7 +35,7 @@ SolveRequest RequestFrom(const FittedModel& e, const RefitSettings& settings) {
   request.problem = &e.problem;
   request.trials = settings.train;
   request.shared = e.shared;
-  request.starts = e.starts;
+  request.initial_states = e.initial_states;
   request.max_iterations = settings.max_iterations;
   request.function_tolerance = kCostTolerance;
   request.jobs = settings.jobs;
@@ -45,48 +45,48 @@ SolveRequest RequestFrom(const FittedModel& e, const RefitSettings& settings) {
 
 void Take(FittedModel& e, const SolveResult& result) {
   e.shared = result.shared;
-  e.starts = result.starts;
+  e.initial_states = result.initial_states;
   e.cost = result.cost;
   e.status = result.status;
   e.complete = result.complete;
 }
 
-std::vector<OwnValues> NominalStarts(const std::vector<TrialProblem>& trials) {
-  std::vector<OwnValues> starts;
-  for (const TrialProblem& t : trials) starts.push_back(t.start);
-  return starts;
+std::vector<OwnValues> NominalInitialStates(const std::vector<TrialProblem>& trials) {
+  std::vector<OwnValues> initial_states;
+  for (const TrialProblem& t : trials) initial_states.push_back(t.start);
+  return initial_states;
 }
 
 // What a look is taken at: the hops of some of the trials, each from the apex its data show, so
 // that an early error does not turn the later ones; where no apexes are seen, those trials.
 struct Glance {
   std::vector<TrialProblem> trials;
-  std::vector<OwnValues> starts;
+  std::vector<OwnValues> initial_states;
   bool of_hops = false;
 };
 Glance GlanceAt(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                const std::vector<OwnValues>& starts) {
+                const std::vector<OwnValues>& initial_states) {
   constexpr std::size_t kMost = 12;
   const std::size_t n = std::min(kMost, trials.size());
   Glance whole, hops;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t k = i * trials.size() / n;
     whole.trials.push_back(trials[k]);
-    whole.starts.push_back(starts[k]);
+    whole.initial_states.push_back(initial_states[k]);
     for (TrialProblem& hop : CutAtApexes(problem, trials[k])) hops.trials.push_back(std::move(hop));
   }
   if (hops.trials.empty()) return whole;
-  hops.starts = NominalStarts(hops.trials);
+  hops.initial_states = NominalInitialStates(hops.trials);
   hops.of_hops = true;
   return hops;
 }
 
 // Starts that suit values found on hops: those of another model would lead them back to it.
-std::vector<OwnValues> StartsFor(SolveRequest request) {
-  request.starts = NominalStarts(*request.trials);
+std::vector<OwnValues> InitialStatesFor(SolveRequest request) {
+  request.initial_states = NominalInitialStates(*request.trials);
   request.hold_shared = true;
   const SolveResult found = GrowHorizon(request);
-  return IsUsable(found.status) ? found.starts : request.starts;
+  return IsUsable(found.status) ? found.initial_states : request.initial_states;
 }
 
 bool LedOn(const SolveResult& result) { return IsUsable(result.status) && result.complete; }
@@ -138,7 +138,7 @@ FittedModel Refit(const FittedModel& base, std::span<const Candidate> added,
   e.members = base.members;
   e.members.insert(e.members.end(), added.begin(), added.end());
   e.problem = Extend(base.problem, added);
-  e.starts = base.starts;
+  e.initial_states = base.initial_states;
   const Eigen::VectorXd null = NullValues(added);
   SolveRequest request = RequestFrom(e, settings);
   request.give_up_above = std::min(settings.give_up_above, base.cost);
@@ -158,7 +158,7 @@ FittedModel Refit(const FittedModel& base, std::span<const Candidate> added,
   }
   if (e.ok() && e.cost > base.cost) {
     e.shared << base.shared, null;
-    e.starts = base.starts;
+    e.initial_states = base.initial_states;
     e.cost = base.cost;
   }
   return e;
@@ -175,14 +175,14 @@ void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
       BeginningsBeyondThresholds(model.problem, others, static_cast<int>(base.shared.size()));
   if (beginnings.empty()) return;
   FittedModel from = model;
-  from.starts = base.starts;
+  from.initial_states = base.initial_states;
   SolveRequest request = RequestFrom(from, settings);
   // Where it begins, what stood in for it is still in place, and costs much. So short searches look
   // which beginning comes to something.
   constexpr int kLook = 20;
-  const Glance glance = GlanceAt(model.problem, *settings.train, base.starts);
+  const Glance glance = GlanceAt(model.problem, *settings.train, base.initial_states);
   request.trials = &glance.trials;
-  request.starts = glance.starts;
+  request.initial_states = glance.initial_states;
   request.max_iterations = kLook;
   request.shared = others;
   // A robot's search over all rows at once may end in another order of events.
@@ -203,7 +203,7 @@ void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
   if (best == &without || (LedOn(without) && without.cost - best->cost < kWorthFollowing)) return;
   request = RequestFrom(from, settings);
   request.shared = best->shared;
-  if (glance.of_hops) request.starts = StartsFor(request);
+  if (glance.of_hops) request.initial_states = InitialStatesFor(request);
   request.max_iterations = 2 * settings.max_iterations;
   request.give_up_above = model.ok() ? model.cost : settings.give_up_above;
   SolveResult found = grows ? GrowHorizon(request) : Solve(request);
@@ -222,7 +222,7 @@ FittedModel RefitWithout(const FittedModel& base, int i, const FitProblem& null_
   e.problem.noise = base.problem.noise;
   e.shared.resize(base.shared.size() - count);
   e.shared << base.shared.head(place), base.shared.tail(base.shared.size() - place - count);
-  e.starts = base.starts;
+  e.initial_states = base.initial_states;
   Take(e, Solve(RequestFrom(e, settings)));
   return e;
 }
@@ -244,8 +244,8 @@ void Settle(FittedModel& model, const RefitSettings& settings) {
 void SettleNoise(FittedModel& model, const RefitSettings& settings, const NoiseModel& also) {
   LikelihoodDetail detail;
   detail.prior_widths = PriorWidths(model.problem, model.shared);
-  const RestrictedLikelihood likelihood(model.problem, *settings.train, model.shared, model.starts,
-                                        settings.jobs, detail);
+  const RestrictedLikelihood likelihood(model.problem, *settings.train, model.shared,
+                                        model.initial_states, settings.jobs, detail);
   const RestrictedLikelihood coarse = likelihood.With(LikelihoodDetail::Coarse());
   if (settings.discrepancy == Discrepancy::kMatern) {
     const NoiseModel near = model.problem.noise;

@@ -15,9 +15,9 @@ namespace hoplab {
 /// null fit.
 struct FittedModel {
   std::vector<Candidate> members;
-  FitProblem problem;             // the null problem extended by the members
-  Eigen::VectorXd shared;         // fitted: those of the null problem, then the members'
-  std::vector<OwnValues> starts;  // of the train trials
+  FitProblem problem;                     // the null problem extended by the members
+  Eigen::VectorXd shared;                 // fitted: those of the null problem, then the members'
+  std::vector<OwnValues> initial_states;  // of the train trials
   /// Half the sum of squares of the data over sigma, and of priors: what least squares minimise.
   double cost = 0.0;
   SolveStatus status = SolveStatus::kFailed;

@@ -74,7 +74,7 @@ Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, 
                                "; try --starts 8 or another law with `hoplab fit`"});
     return gate;
   }
-  const StopCheck stop = CheckStop(null.problem, train, null.shared, null.starts, {}, jobs);
+  const StopCheck stop = CheckStop(null.problem, train, null.shared, null.initial_states, {}, jobs);
   gate.at_minimum = stop.IsMinimum();
   std::string fault;
   for (const std::string& f : stop.faults) fault += (fault.empty() ? "" : "; ") + f;
@@ -86,7 +86,7 @@ Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, 
   for (std::size_t i = 0; i < train.size(); ++i) {
     const TrialEvaluator evaluator(null.problem, train[i]);
     TrialEvaluation e;
-    evaluator.Evaluate({null.shared, null.starts[i], false}, e);
+    evaluator.Evaluate({null.shared, null.initial_states[i], false}, e);
     if (!e.complete && incomplete.empty())
       incomplete = train[i].file + ": " + std::string(SentenceOf(e.trajectory.outcome));
   }
@@ -104,7 +104,7 @@ Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, 
   }
   gate.checks.push_back({"noise", known, known ? sigmas : "is not known: " + sigmas});
 
-  gate.certificate = CertifyGradients(null.problem, train, null.shared, null.starts, jobs);
+  gate.certificate = CertifyGradients(null.problem, train, null.shared, null.initial_states, jobs);
   const double worst = gate.certificate.max_relative_error;
   gate.checks.push_back({"gradients", worst < kGradientBound,
                          worst < kGradientBound

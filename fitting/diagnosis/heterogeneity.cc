@@ -166,7 +166,8 @@ std::vector<EliminatedTrial> EliminateTrials(const FittedModel& model,
   ParallelFor(static_cast<int>(train.size()), jobs, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     TrialEvaluation e;
-    TrialEvaluator(model.problem, train[at]).Evaluate({model.shared, model.starts[at], true}, e);
+    TrialEvaluator(model.problem, train[at])
+        .Evaluate({model.shared, model.initial_states[at], true}, e);
     if (e.complete) parts[at] = eliminate(at, e);
   });
   return parts;
@@ -193,7 +194,7 @@ Heterogeneity HeterogeneityAt(const FittedModel& model, const std::vector<TrialP
   const std::vector<KeptColumn> columns = SharedColumns(model.problem);
   const std::vector<EliminatedTrial> parts =
       EliminateTrials(model, train, jobs, [&](std::size_t at, TrialEvaluation& e) {
-        return WithoutDeviation(train[at], place, e, model.starts[at], columns);
+        return WithoutDeviation(train[at], place, e, model.initial_states[at], columns);
       });
   return Describe(parts, place, model.shared[place],
                   columns[static_cast<std::size_t>(place)].scale);

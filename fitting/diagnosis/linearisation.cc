@@ -123,11 +123,12 @@ std::vector<int> FreeShared(const FitProblem& problem, const Eigen::VectorXd& sh
 
 Linearisation Linearise(const FitProblem& problem, int first_tested,
                         const std::vector<TrialProblem>& trials, const Eigen::VectorXd& shared,
-                        const std::vector<OwnValues>& starts, int jobs) {
+                        const std::vector<OwnValues>& initial_states, int jobs) {
   const std::vector<int> fitted = FreeShared(problem, shared.head(first_tested));
   std::vector<LinearisedTrial> parts(trials.size());
   ParallelFor(static_cast<int>(trials.size()), jobs, [&](int i) {
-    parts[i] = LineariseTrial(problem, fitted, first_tested, trials[i], i, shared, starts[i]);
+    parts[i] =
+        LineariseTrial(problem, fitted, first_tested, trials[i], i, shared, initial_states[i]);
   });
   return Assemble(parts, static_cast<int>(fitted.size()), problem.shared_count() - first_tested);
 }

@@ -24,17 +24,17 @@ struct RowLabel {
 };
 
 /// The train trials linearised at a fit: whitened residuals r, and columns of tested values, with
-/// what the fitted values and the starts can explain projected out (M of the method).
+/// what the fitted values and the initial states can explain projected out (M of the method).
 struct Linearisation {
   Eigen::VectorXd r;        // M r
   Eigen::VectorXd raw;      // r itself
   Eigen::MatrixXd columns;  // M s_j, per own unit of value j, one a tested value
   Eigen::VectorXd length;   // |s_j| before the projection
   std::vector<RowLabel> labels;
-  /// Orthonormal basis of what the fitted shared values explain beyond the starts.
+  /// Orthonormal basis of what the fitted shared values explain beyond the initial states.
   Eigen::MatrixXd fitted_basis;
   /// What of each column lies along that basis: columns + fitted_basis * along_fitted is s_j with
-  /// the starts alone projected out, which may be cut to one trial.
+  /// the initial states alone projected out, which may be cut to one trial.
   Eigen::MatrixXd along_fitted;
   /// What one unit of a tested value moves each fitted one by, per scale; one column a tested
   /// value.
@@ -71,12 +71,12 @@ Linearisation Assemble(const std::vector<LinearisedTrial>& trials, int fitted, i
 /// Places of shared values that do not lie on a bound.
 std::vector<int> FreeShared(const FitProblem& problem, const Eigen::VectorXd& shared);
 
-/// Linearises `trials` of `problem` at `shared` and `starts`. Shared values from place
+/// Linearises `trials` of `problem` at `shared` and `initial_states`. Shared values from place
 /// `first_tested` on are tested, those before it are fitted; a fitted value on a bound is taken as
 /// given. Trials whose simulation ends before their data are left out. Every row is kept.
 Linearisation Linearise(const FitProblem& problem, int first_tested,
                         const std::vector<TrialProblem>& trials, const Eigen::VectorXd& shared,
-                        const std::vector<OwnValues>& starts, int jobs);
+                        const std::vector<OwnValues>& initial_states, int jobs);
 
 /// Part of a column's length (squared) that the projection must leave for it to be told from the
 /// fitted values: sensitivities are good to about 1e-7 of their column.

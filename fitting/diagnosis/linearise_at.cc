@@ -177,8 +177,9 @@ Linearisation LineariseAt(const FittedModel& model, std::span<const Candidate> t
   std::vector<Part> parts(train.size());
   ParallelFor(static_cast<int>(train.size()), jobs, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
-    parts[at] = TrialColumns(model, tested, first_column, fitted, train[at], model.starts[at])
-                    .Collect(batches);
+    parts[at] =
+        TrialColumns(model, tested, first_column, fitted, train[at], model.initial_states[at])
+            .Collect(batches);
   });
 
   std::vector<LinearisedTrial> trials(parts.size());

@@ -112,7 +112,7 @@ HeldOutErrors MeasureHeldOut(const FittedModel& model, int jobs, bool test_only)
   FitResult fit;
   fit.ok = model.ok();
   fit.shared = model.shared;
-  fit.starts = model.starts;
+  fit.initial_states = model.initial_states;
   fit.cost = model.cost;
   FitOptions options;
   options.jobs = jobs;

@@ -68,7 +68,7 @@ void FitNull(FitProblem problem, const DiagnosisOptions& options, Diagnosis& d,
   train = TrialsOf(d.problem, TrialRole::kTrain);
   d.plain.problem = d.problem;
   d.plain.shared = d.fit.shared;
-  d.plain.starts = d.fit.starts;
+  d.plain.initial_states = d.fit.initial_states;
   d.plain.cost = d.fit.cost;
   d.plain.status = d.fit.records[static_cast<std::size_t>(d.fit.best_start)].status;
   d.plain.complete = d.fit.stop.complete;

@@ -28,8 +28,8 @@ void AddLocal(Naming& naming, const Linearisation& null_at, const std::vector<Tr
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (candidates[i].parameter_count() != 1 || !naming.candidates[i].separable) continue;
     for (const std::string& recording : recordings) {
-      // Free of the starts alone it may be cut to one trial; then the shared values are taken
-      // out. (Cut after that, it would keep what the other trials' share of them left in this
+      // Free of the initial states alone it may be cut to one trial; then the shared values are
+      // taken out. (Cut after that, it would keep what the other trials' share of them left in this
       // one.)
       const int column = hypotheses[i].first;
       Eigen::VectorXd s =

@@ -272,7 +272,7 @@ ProbeBasis ProbesOf(Law law) {
   b.Group("flight force along y", "", "N", {}, {Probe<BodyPush<false, true>>()});
   b.Group("force against the motion in flight", "speed [m/s]", "N", Values(kSpeed),
           DragBumps(std::make_index_sequence<kSpeed.size()>()));
-  // An offset along x and a delay are seen through the stated starts alone.
+  // An offset along x and a delay are seen through the stated initial states alone.
   b.Group("reading of body_x", "", "m or m/m", {},
           {Probe<ReadingBump<Reading::kXOffset>>(), Probe<ReadingBump<Reading::kXOfX>>(),
            Probe<ReadingBump<Reading::kXOfY>>()});

@@ -33,7 +33,7 @@ void Begin(const std::vector<VaryingValue>& values, VaryingModel& v) {
       if (!AddDeviation(m.problem, value.place, value.spread, v.train[i])) continue;
       const SharedParameter& s = m.problem.shared[static_cast<std::size_t>(value.place)];
       const double size = std::isfinite(value.sizes[i]) ? value.sizes[i] : value.mean;
-      OwnValues& own = m.starts[i];
+      OwnValues& own = m.initial_states[i];
       own.conservativeResize(own.size() + 1);
       own[own.size() - 1] = std::clamp(size, s.lower, s.upper) - m.shared[value.place];
     }
@@ -62,7 +62,7 @@ double Inflation(const VaryingModel& v, int place) {
     if (!k) continue;
     const TrialEvaluator evaluator(m.problem, v.train[i]);
     TrialEvaluation e;
-    EvaluationRequest request{m.shared, m.starts[i], true};
+    EvaluationRequest request{m.shared, m.initial_states[i], true};
     request.whiten = false;
     evaluator.Evaluate(request, e);
     if (!e.complete) continue;
@@ -100,7 +100,7 @@ void PutInside(VaryingModel& v) {
     for (int k = 0; k < v.train[i].own_count(); ++k) {
       const auto [low, high] =
           OwnBounds(m.problem, v.train[i].own[static_cast<std::size_t>(k)], m.shared);
-      m.starts[i][k] = std::clamp(m.starts[i][k], low, high);
+      m.initial_states[i][k] = std::clamp(m.initial_states[i][k], low, high);
     }
   }
 }
@@ -120,7 +120,7 @@ double Look(VaryingModel& v, std::vector<Heterogeneity>& seen, int jobs) {
     for (std::size_t i = 0; i < v.train.size(); ++i) {
       const bool acts = DeviationOf(value.place, v.train[i]).has_value();
       value.sizes.push_back(acts ? ActingShared(v.model.problem, v.train[i], v.model.shared,
-                                                v.model.starts[i])[value.place]
+                                                v.model.initial_states[i])[value.place]
                                  : std::numeric_limits<double>::quiet_NaN());
     }
   }
@@ -137,7 +137,7 @@ double LogSpreadIntegral(const SharedParameter& s, const Heterogeneity& h) {
 
 void AddIntervals(VaryingModel& v, int jobs) {
   const Uncertainty u =
-      AssessUncertainty(v.model.problem, v.train, v.model.shared, v.model.starts, {}, jobs);
+      AssessUncertainty(v.model.problem, v.train, v.model.shared, v.model.initial_states, {}, jobs);
   const auto width = [](const std::pair<double, double>& i) { return i.second - i.first; };
   for (VaryingValue& value : v.values) {
     const ParameterUncertainty& p = u.parameters[static_cast<std::size_t>(value.place)];
@@ -152,7 +152,8 @@ double SquareOf(const VaryingModel& v) {
   double sum = 0.0;
   for (std::size_t i = 0; i < v.train.size(); ++i) {
     TrialEvaluation e;
-    TrialEvaluator(v.model.problem, v.train[i]).Evaluate({v.model.shared, v.model.starts[i]}, e);
+    TrialEvaluator(v.model.problem, v.train[i])
+        .Evaluate({v.model.shared, v.model.initial_states[i]}, e);
     sum += e.white_square + e.residuals.tail(e.residuals.size() - e.data_residuals).squaredNorm();
   }
   return sum;

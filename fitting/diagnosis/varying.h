@@ -42,9 +42,9 @@ struct VaryingModel {
 inline constexpr double kVaryingPays = 3.0;
 
 /// Refits a settled model with a deviation of the shared values at `places` in each trial: shared
-/// values, starts and deviations by least squares, the spreads by the restricted likelihood at the
-/// refit (HeterogeneityAt) under the noise that suits it, in turn until no spread changes by a
-/// hundredth. A value whose spread comes to 0 has one size again. `settings.train` are the trials
+/// values, initial states and deviations by least squares, the spreads by the restricted likelihood
+/// at the refit (HeterogeneityAt) under the noise that suits it, in turn until no spread changes by
+/// a hundredth. A value whose spread comes to 0 has one size again. `settings.train` are the trials
 /// `model` was fitted to.
 VaryingModel RefitVarying(const FittedModel& model, const std::vector<int>& places,
                           const RefitSettings& settings);

@@ -137,7 +137,7 @@ class Search {
 
   void Describe(const std::vector<Term>& library) {
     const FittedModel& best = out_.naming.best;
-    out_.uncertainty = AssessUncertainty(best.problem, *train_, best.shared, best.starts,
+    out_.uncertainty = AssessUncertainty(best.problem, *train_, best.shared, best.initial_states,
                                          options_.fit.loss, options_.fit.jobs);
     out_.after = MeasureHeldOut(best, options_.fit.jobs);
     out_.gain = CompareHeldOut(out_.base.null, out_.base.before, out_.after, Seed(kBootstrapStream),
@@ -234,8 +234,8 @@ class Search {
                  SettingsOf(options_, *train_));
   }
   Uncertainty UncertaintyOf(const FittedModel& with) const {
-    return AssessUncertainty(with.problem, *train_, with.shared, with.starts, options_.fit.loss,
-                             options_.fit.jobs);
+    return AssessUncertainty(with.problem, *train_, with.shared, with.initial_states,
+                             options_.fit.loss, options_.fit.jobs);
   }
 
   // A limit or a frequency has an interval, as the coefficient beside it has.

@@ -17,7 +17,7 @@ FittedModel Freed(const FittedModel& best, std::size_t m, const Candidate& freed
   rest.problem.noise = best.problem.noise;
   rest.shared.resize(place + after);
   rest.shared << best.shared.head(place), best.shared.tail(after);
-  rest.starts = best.starts;
+  rest.initial_states = best.initial_states;
   // Nothing is known of the rest without the term, and nothing is compared with it.
   rest.cost = std::numeric_limits<double>::infinity();
   Eigen::VectorXd sizes = Eigen::VectorXd::Zero(freed.parameter_count());

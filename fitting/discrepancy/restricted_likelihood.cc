@@ -51,7 +51,7 @@ LikelihoodDetail LikelihoodDetail::Coarse() {
 RestrictedLikelihood::RestrictedLikelihood(const FitProblem& problem,
                                            const std::vector<TrialProblem>& trials,
                                            const Eigen::VectorXd& shared,
-                                           const std::vector<OwnValues>& starts, int jobs,
+                                           const std::vector<OwnValues>& initial_states, int jobs,
                                            const LikelihoodDetail& detail)
     : channels_(static_cast<Eigen::Index>(problem.channels.size())), jobs_(jobs) {
   for (int k = 0; k < problem.shared_count(); ++k) {
@@ -67,7 +67,7 @@ RestrictedLikelihood::RestrictedLikelihood(const FitProblem& problem,
   ParallelFor(static_cast<int>(places.size()), jobs, [&](int i) {
     const std::size_t place = places[static_cast<std::size_t>(i)];
     std::optional<Part>& part = made[static_cast<std::size_t>(i)];
-    part = Make(problem, trials[place], shared, starts[place]);
+    part = Make(problem, trials[place], shared, initial_states[place]);
     if (!part) return;
     part->place = place;
     if (detail.rows_a_channel > 0) Average(*part, detail.rows_a_channel);

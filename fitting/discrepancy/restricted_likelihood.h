@@ -40,7 +40,7 @@ class RestrictedLikelihood {
   /// Simulates `trials` (of `problem`) once. Trials that cannot be simulated to the end of their
   /// data are left out. Shared values on a bound are taken as given.
   RestrictedLikelihood(const FitProblem& problem, const std::vector<TrialProblem>& trials,
-                       const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
+                       const Eigen::VectorXd& shared, const std::vector<OwnValues>& initial_states,
                        int jobs, const LikelihoodDetail& detail = {});
 
   /// The same in another detail, without simulating anew: that of a likelihood of every row and

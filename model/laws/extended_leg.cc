@@ -45,10 +45,10 @@ ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const LegConditions<T>& at
 
 // What dphi/dt is multiplied by in M7, with r_d = l/(2 sin(phi/2)), or in its readings M32, M33.
 template <class T>
-T RadiusOfM7(const T& r, const ThesisVariant& variant, const T& sin, const T& cos, const T& l) {
-  const bool at_rest = variant.rolling_radius == ThesisVariant::RollingRadius::kRest;
+T RadiusOfM7(const T& r, const ThesisReading& reading, const T& sin, const T& cos, const T& l) {
+  const bool at_rest = reading.rolling_radius == ThesisReading::RollingRadius::kRest;
   const T radius = at_rest ? T(2.0 * r * sin * cos) : T(l * cos);
-  return variant.angle_rate == ThesisVariant::AngleRate::kTheta ? radius : T(0.5 * radius);
+  return reading.angle_rate == ThesisReading::AngleRate::kTheta ? radius : T(0.5 * radius);
 }
 
 template <class T>
@@ -138,14 +138,14 @@ void ExtendedLeg<T>::TurnContact(const T* z, const LegConditions<T>& at,
                                  const extended::Place<T>& there, const Statics<Tangent<T>>& along,
                                  LegLoad<T>& load) const {
   const T& blend = p_.law_terms.rolling;
-  const ThesisVariant variant = law_ == Law::kThesis ? p_.variant : ThesisVariant();
-  const T full = p_.r, flat = RadiusOfM7(p_.r, variant, along.sin.value, along.cos.value,
+  const ThesisReading reading = law_ == Law::kThesis ? p_.reading : ThesisReading();
+  const T full = p_.r, flat = RadiusOfM7(p_.r, reading, along.sin.value, along.cos.value,
                                          load.l);  // M8, M11; M7
   const T rho = law_ == Law::kThesis ? T((1.0 - blend) * flat + blend * full)
                                      : T((1.0 - blend) * full + blend * flat);
   const T beyond = IsElastic(law_) ? T(rho - full) : rho;  // X0 moves by what is not rolled off
   const ArcRate<T> rate = RateOfArc(p_, law_, at, z, there, along);
-  if (variant.rolling == ThesisVariant::Rolling::kImplicit)
+  if (reading.rolling == ThesisReading::Rolling::kImplicit)
     load.slip_gain = 1.0 / (1.0 - beyond * rate.along_u0);
   load.contact_rate = load.slip_gain * beyond * (rate.rest - rate.along_u0 * z[kVx]);
   if (p_.law_terms.slopes_active) {
@@ -157,10 +157,10 @@ void ExtendedLeg<T>::TurnContact(const T* z, const LegConditions<T>& at,
     load.place_x = rho * load.arc_x;
     load.place_y = rho * load.arc_y;
   }
-  if (!IsElastic(law_) && variant.damping_rate != ThesisVariant::DampingRate::kHip) {  // M34
+  if (!IsElastic(law_) && reading.damping_rate != ThesisReading::DampingRate::kHip) {  // M34
     const T w = load.damping_rate;
     T seen = w + load.u * load.contact_rate / load.l;
-    if (variant.damping_rate == ThesisVariant::DampingRate::kDeflection)
+    if (reading.damping_rate == ThesisReading::DampingRate::kDeflection)
       seen -= p_.r * along.cos.value * (rate.rest + rate.along_u0 * (load.contact_rate - z[kVx]));
     load.damping_rate = (1.0 - p_.law_terms.tip) * seen + p_.law_terms.tip * w;
   }

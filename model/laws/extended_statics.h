@@ -279,15 +279,15 @@ void SetElastic(const ArcParts<S, P>& arc, Statics<S>& out) {
 
 // M5, M6 with the share `tip` of M10.
 template <class S, class P>
-void SetSpring(const ArcParts<S, P>& arc, const ThesisVariant& variant, Statics<S>& out) {
+void SetSpring(const ArcParts<S, P>& arc, const ThesisReading& reading, Statics<S>& out) {
   using std::sqrt;
   const P& r = arc.p.r;
   const LawTerms<P>& terms = arc.p.law_terms;
   const S& phi = arc.at.phi;
-  const bool at_rest = variant.stiffness_radius == ThesisVariant::StiffnessRadius::kRest;  // M35
+  const bool at_rest = reading.stiffness_radius == ThesisReading::StiffnessRadius::kRest;  // M35
   const S radius =
       at_rest ? S(r) : S((1.0 - terms.tip) * (0.5 * arc.at.l / out.sin) + terms.tip * r);
-  const bool at_theta = variant.stiffness_angle == ThesisVariant::StiffnessAngle::kTheta;  // M36
+  const bool at_theta = reading.stiffness_angle == ThesisReading::StiffnessAngle::kTheta;  // M36
   const S bent_arc = at_theta ? phi : S(0.5 * (phi + S(P(std::numbers::pi))));
   const ArcShapes bent = at_theta ? arc.shapes : ArcShapes(Value(bent_arc));
   out.C = arc.ChordOf(radius, bent, bent_arc);
@@ -319,7 +319,7 @@ template <class S, class P>
   if (IsElastic(law))
     SetElastic(arc, out);
   else
-    SetSpring(arc, law == Law::kThesis ? p.variant : ThesisVariant(), out);
+    SetSpring(arc, law == Law::kThesis ? p.reading : ThesisReading(), out);
   return out;
 }
 

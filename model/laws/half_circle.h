@@ -11,7 +11,7 @@ namespace hoplab {
 
 /// Laws `thesis` (M5-M7) and `no_slip` (M5, M6, M8): the loaded leg stays a half circle of radius
 /// r_d, its chord angle half the leg angle. `thesis` in the reading of M5-M7 that the parameters'
-/// `variant` names (M31-M36).
+/// `reading` names (M31-M36).
 template <class T, bool kNoSlip>
 class HalfCircle {
  public:
@@ -21,10 +21,10 @@ class HalfCircle {
   explicit HalfCircle(const Parameters<T>& p)
       : parameters_(p),
         r_(p.r),
-        variant_(kNoSlip ? ThesisVariant() : p.variant),
-        rolls_at_rest_radius_(variant_.rolling_radius == ThesisVariant::RollingRadius::kRest),
-        rolls_explicitly_(variant_.rolling == ThesisVariant::Rolling::kExplicit),
-        rate_factor_(variant_.angle_rate == ThesisVariant::AngleRate::kTheta ? 2.0 : 1.0) {}
+        reading_(kNoSlip ? ThesisReading() : p.reading),
+        rolls_at_rest_radius_(reading_.rolling_radius == ThesisReading::RollingRadius::kRest),
+        rolls_explicitly_(reading_.rolling == ThesisReading::Rolling::kExplicit),
+        rate_factor_(reading_.angle_rate == ThesisReading::AngleRate::kTheta ? 2.0 : 1.0) {}
 
   void StartRootAt(double) {}  // nothing is solved for
   void SaveRoot(DiscreteState&) const {}
@@ -88,25 +88,25 @@ class HalfCircle {
   }
   // M34: dl/dt, w, or dl/dt - dl0/dt with l0 = 2 r cos(alpha).
   T DampingRate(const LegLoad<T>& load, const T* z) const {
-    const T du = variant_.damping_rate == ThesisVariant::DampingRate::kHip
+    const T du = reading_.damping_rate == ThesisReading::DampingRate::kHip
                      ? T(-z[kVx])
                      : T(load.contact_rate - z[kVx]);
     const T rate = (load.u * du + load.y * z[kVy]) / load.l;
-    if (variant_.damping_rate != ThesisVariant::DampingRate::kDeflection) return rate;
+    if (reading_.damping_rate != ThesisReading::DampingRate::kDeflection) return rate;
     const T turn = (du * load.y - load.u * z[kVy]) / (load.l * load.l);  // dalpha/dt
     return rate + 2.0 * r_ * load.u / load.l * turn;
   }
   // C(phi; r_d), M2, or what M35 and M36 make of it.
   T Compliance(const T& phi, const T& r_d) const {
-    const T radius = variant_.stiffness_radius == ThesisVariant::StiffnessRadius::kRest ? r_ : r_d;
-    if (variant_.stiffness_angle == ThesisVariant::StiffnessAngle::kTheta)
+    const T radius = reading_.stiffness_radius == ThesisReading::StiffnessRadius::kRest ? r_ : r_d;
+    if (reading_.stiffness_angle == ThesisReading::StiffnessAngle::kTheta)
       return LegCompliance<T>(parameters_, radius).ChordAt(phi);
     return LegCompliance<T>(parameters_, radius).ChordAt(0.5 * (std::numbers::pi + phi));
   }
 
   Parameters<T> parameters_;
   T r_;
-  ThesisVariant variant_;
+  ThesisReading reading_;
   bool rolls_at_rest_radius_, rolls_explicitly_;
   double rate_factor_;  // dtheta/dt of M7 over dalpha/dt: 2, or 1 (M32)
 };

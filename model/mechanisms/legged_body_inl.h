@@ -40,7 +40,7 @@ LeggedBody<T, LegT>::LeggedBody(const MechanismSetup<T>& setup)
                         Value(p_.law_terms.leg_mass) > kLeastFootShare * Value(p_.m)),
       damps_along_arc_(DampsAlongArc(setup)),
       may_pull_(p_.law_terms.torque_active),
-      torque_lift_(p_.variant.torque_sign == ThesisVariant::TorqueSign::kPrinted ? -1.0 : 1.0),
+      torque_lift_(p_.reading.torque_sign == ThesisReading::TorqueSign::kPrinted ? -1.0 : 1.0),
       inertia_(p_),
       leg_(setup.law, p_),
       controller_(p_),

@@ -258,7 +258,7 @@ TEST_F(DiagnoseCli, TheEvidenceAddsUpToTheScore) {
   double sum = 0.0;
   while (std::getline(lines, line)) sum += std::stod(line.substr(line.rfind(',') + 1));
   const double score = ReadRecord(temp_.path() / "run").at("candidates")[0].at("score");
-  // What the priors on the starts add is not listed.
+  // What the priors on the initial states add is not listed.
   EXPECT_NEAR(sum / score, 1.0, 0.1);
 }
 

@@ -51,9 +51,9 @@ TEST(ExportC, TheRateOfTheLegAngleIsThatOfTheAngle) {
 }
 
 TEST(ExportC, EveryReadingOfThePublishedLawIsTheLibrarys) {
-  for (const VariantKey& key : VariantKeys()) {
+  for (const ReadingKey& key : ReadingKeys()) {
     ExportedModel model = ModelOf(Law::kThesis);
-    key.set(model.parameters.variant, static_cast<int>(key.words.size()) - 1);
+    key.set(model.parameters.reading, static_cast<int>(key.words.size()) - 1);
     ExportedLeg(model).Compare();
   }
 }

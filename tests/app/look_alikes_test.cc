@@ -1,5 +1,5 @@
 // What `hoplab explain` says of look-alikes, measured: columns of effects at the null fit of four
-// hops under the speed controller, fitted values and starts projected out.
+// hops under the speed controller, fitted values and initial states projected out.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,4 +1,5 @@
-// An exported MJCF model, run by MuJoCo from the recorded starts, beside hoplab's own trajectory.
+// An exported MJCF model, run by MuJoCo from the recorded initial states, beside hoplab's own
+// trajectory.
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 

@@ -1,5 +1,5 @@
-// What a log of a real machine brings along: angles hop by hop, starts in stance. Read, written
-// back, and refused with place and remedy.
+// What a log of a real machine brings along: angles hop by hop, initial states in stance. Read,
+// written back, and refused with place and remedy.
 
 #include "datasets/read_record.h"
 
@@ -87,9 +87,9 @@ TEST(BadTouchdownAngles, AreToldWithPlaceValueRuleAndRemedy) {
   });
 }
 
-// ---- starts
+// ---- initial states
 
-TEST(Starts, MayLieInStance) {
+TEST(InitialStates, MayLieInStance) {
   const std::string start =
       "deg: 25\n    initial: {x_m: 0, y_m: 0.15, vx_m_per_s: 1, vy_m_per_s: -1, contact_x_m: 0.03";
   const std::string sigma = "\n    initial_sigma: {y_m: 0.002, contact_x_m: 0.004}\n";
@@ -106,7 +106,7 @@ TEST(Starts, MayLieInStance) {
   }
 }
 
-TEST(BadStarts, AreToldWithPlaceValueRuleAndRemedy) {
+TEST(BadInitialStates, AreToldWithPlaceValueRuleAndRemedy) {
   const auto of = [](const std::string& more, const std::string& yaml = kRecordYaml) {
     return InputErrorOf([&] {
       ReadRecord(Replace(yaml, "deg: 25\n",

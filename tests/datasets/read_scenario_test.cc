@@ -10,34 +10,34 @@ namespace {
 
 using namespace testing;
 
-std::string WithVariant(const std::string& variant) {
+std::string WithReading(const std::string& reading) {
   return Replace(kSmallScenario, "damping_N_s_per_m: 3.0}",
-                 "damping_N_s_per_m: 3.0, variant: " + variant + "}");
+                 "damping_N_s_per_m: 3.0, variant: " + reading + "}");
 }
 
 TEST(ReadScenario, ReadsTheReadingOfThePublishedLaw) {
-  EXPECT_EQ(Document().Read().mechanism.variant, ThesisVariant());
-  const ThesisVariant all =
-      Document(WithVariant("{rolling: explicit, angle_rate: virtual_leg, rolling_radius: rest, "
+  EXPECT_EQ(Document().Read().mechanism.reading, ThesisReading());
+  const ThesisReading all =
+      Document(WithReading("{rolling: explicit, angle_rate: virtual_leg, rolling_radius: rest, "
                            "damping_rate: deflection, stiffness_radius: rest, stiffness_angle: "
                            "virtual_leg, torque_sign: printed}"))
           .Read()
-          .mechanism.variant;
-  EXPECT_EQ(all.rolling, ThesisVariant::Rolling::kExplicit);
-  EXPECT_EQ(all.angle_rate, ThesisVariant::AngleRate::kVirtualLeg);
-  EXPECT_EQ(all.rolling_radius, ThesisVariant::RollingRadius::kRest);
-  EXPECT_EQ(all.damping_rate, ThesisVariant::DampingRate::kDeflection);
-  EXPECT_EQ(all.stiffness_radius, ThesisVariant::StiffnessRadius::kRest);
-  EXPECT_EQ(all.stiffness_angle, ThesisVariant::StiffnessAngle::kVirtualLeg);
-  EXPECT_EQ(all.torque_sign, ThesisVariant::TorqueSign::kPrinted);
+          .mechanism.reading;
+  EXPECT_EQ(all.rolling, ThesisReading::Rolling::kExplicit);
+  EXPECT_EQ(all.angle_rate, ThesisReading::AngleRate::kVirtualLeg);
+  EXPECT_EQ(all.rolling_radius, ThesisReading::RollingRadius::kRest);
+  EXPECT_EQ(all.damping_rate, ThesisReading::DampingRate::kDeflection);
+  EXPECT_EQ(all.stiffness_radius, ThesisReading::StiffnessRadius::kRest);
+  EXPECT_EQ(all.stiffness_angle, ThesisReading::StiffnessAngle::kVirtualLeg);
+  EXPECT_EQ(all.torque_sign, ThesisReading::TorqueSign::kPrinted);
   ScenarioDocument document = Document();
   document.SetFromOption("mechanism.leg.variant.damping_rate=hip");
-  EXPECT_EQ(document.Read().mechanism.variant.damping_rate, ThesisVariant::DampingRate::kHip);
+  EXPECT_EQ(document.Read().mechanism.reading.damping_rate, ThesisReading::DampingRate::kHip);
 }
 
-TEST(ReadScenario, RefusesAVariantItDoesNotKnow) {
-  const auto error = [](const std::string& variant) {
-    return InputErrorOf([&] { Document(WithVariant(variant)).Read(); });
+TEST(ReadScenario, RefusesAReadingItDoesNotKnow) {
+  const auto error = [](const std::string& reading) {
+    return InputErrorOf([&] { Document(WithReading(reading)).Read(); });
   };
   EXPECT_NE(error("{rolling: implict}").find("mechanism.leg.variant.rolling"), std::string::npos);
   EXPECT_NE(error("{rolling: implict}").find("implicit"), std::string::npos);

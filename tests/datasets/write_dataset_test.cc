@@ -47,10 +47,10 @@ MechanismSpec AnyMechanism(MechanismKind type, RandomStream* random) {
     mechanism.toe_mass_kg = Any(random);
   if (mechanism.toe_mass_kg && random->Normal() > 0)
     mechanism.placement = PlacementSpec{Any(random), Any(random)};
-  for (const VariantKey& key : VariantKeys()) {
+  for (const ReadingKey& key : ReadingKeys()) {
     const bool known = type == MechanismKind::kCLeg || key.key == "torque_sign";
     if (known && random->Normal() > 0)
-      key.set(mechanism.variant, static_cast<int>(key.words.size()) - 1);
+      key.set(mechanism.reading, static_cast<int>(key.words.size()) - 1);
   }
   if (type == MechanismKind::kStraightLeg) {
     mechanism.straight_leg = {Any(random), Any(random), Any(random)};

@@ -176,12 +176,14 @@ TEST(ClaimJudges, StraightLeg) {
   EXPECT_FALSE(Holds(JudgeStraightLeg(Hops(speeds, saturating, Outcome::kCompleted), 1.8))[2]);
 }
 
-TEST(ClaimJudges, Starts) {
-  EXPECT_EQ(Holds(JudgeStarts({9, 8, 7}, {2, 3, 1})), std::vector<bool>(3, true));
-  EXPECT_EQ(Holds(JudgeStarts({9, kNaN, 7}, {2, 3, 1})), (std::vector<bool>{false, true, false}));
-  EXPECT_EQ(Holds(JudgeStarts({9, 8, 7}, {2, kNaN, 1})), (std::vector<bool>{true, false, false}));
-  EXPECT_EQ(Holds(JudgeStarts({9, 8, 7}, {2, 8.5, 1})), AllBut(3, 2));
-  EXPECT_EQ(Holds(JudgeStarts({}, {})), std::vector<bool>(3, false));
+TEST(ClaimJudges, InitialStates) {
+  EXPECT_EQ(Holds(JudgeInitialStates({9, 8, 7}, {2, 3, 1})), std::vector<bool>(3, true));
+  EXPECT_EQ(Holds(JudgeInitialStates({9, kNaN, 7}, {2, 3, 1})),
+            (std::vector<bool>{false, true, false}));
+  EXPECT_EQ(Holds(JudgeInitialStates({9, 8, 7}, {2, kNaN, 1})),
+            (std::vector<bool>{true, false, false}));
+  EXPECT_EQ(Holds(JudgeInitialStates({9, 8, 7}, {2, 8.5, 1})), AllBut(3, 2));
+  EXPECT_EQ(Holds(JudgeInitialStates({}, {})), std::vector<bool>(3, false));
 }
 
 ModulusSweep Sweep(const std::vector<double>& times) {

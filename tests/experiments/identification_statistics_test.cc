@@ -17,7 +17,7 @@ using namespace testing;
 using C = StudyConstant;
 using Speed = ConvergenceReading::Speed;
 
-constexpr int kStarts = 4;  // a side of the grid
+constexpr int kInitialStates = 4;  // a side of the grid
 
 const std::vector<ConvergenceReading>& ReadingsOfTimes() {
   static const std::vector<ConvergenceReading> readings = {
@@ -28,10 +28,10 @@ const std::vector<ConvergenceReading>& ReadingsOfTimes() {
 // One departure from `thesis` each, and none.
 std::vector<StudyReading> CandidateReadings() {
   std::vector<StudyReading> readings(5);
-  readings[1].variant.stiffness_radius = ThesisVariant::StiffnessRadius::kRest;
-  readings[2].variant.rolling_radius = ThesisVariant::RollingRadius::kRest;
-  readings[3].variant.rolling = ThesisVariant::Rolling::kExplicit;
-  readings[4].variant.stiffness_angle = ThesisVariant::StiffnessAngle::kVirtualLeg;
+  readings[1].law.stiffness_radius = ThesisReading::StiffnessRadius::kRest;
+  readings[2].law.rolling_radius = ThesisReading::RollingRadius::kRest;
+  readings[3].law.rolling = ThesisReading::Rolling::kExplicit;
+  readings[4].law.stiffness_angle = ThesisReading::StiffnessAngle::kVirtualLeg;
   return readings;
 }
 
@@ -44,7 +44,7 @@ struct Truth {
 bool IsWhole(const StudyData& data) {
   return std::all_of(data.energy.begin(), data.energy.end(),
                      [](const EnergyCell& c) { return std::isfinite(c.percent); }) &&
-         std::all_of(data.starts.begin(), data.starts.end(),
+         std::all_of(data.initial_states.begin(), data.initial_states.end(),
                      [](const StartCell& c) { return std::isfinite(c.convergence_time_s); }) &&
          std::all_of(data.modulus.begin(), data.modulus.end(), [](const ModulusRow& r) {
            return std::isfinite(r.k_min_N_per_m) && std::isfinite(r.convergence_time_s);
@@ -60,7 +60,7 @@ Truth DrawTruth(std::uint64_t seed, bool has_toe) {
     truth.hopper = SomeHopper();
     truth.hopper.reading = readings[static_cast<std::size_t>(random.Uniform(0.0, 5.0))];
     if (random.Uniform(0.0, 1.0) < 0.5)
-      truth.hopper.reading.variant.torque_sign = ThesisVariant::TorqueSign::kPrinted;
+      truth.hopper.reading.law.torque_sign = ThesisReading::TorqueSign::kPrinted;
     truth.times = ReadingsOfTimes()[static_cast<std::size_t>(random.Uniform(0.0, 3.0))];
     const auto draw = [&](C c, double low, double high) {
       At(truth.hopper.constants, c) = random.Uniform(low, high);
@@ -76,7 +76,7 @@ Truth DrawTruth(std::uint64_t seed, bool has_toe) {
       draw(C::kPlacementRate, 35.0, 70.0);
       draw(C::kPlacementDamping, 0.3, 0.9);
     }
-    truth.tables = TablesOf(truth.hopper, truth.times, kStarts);
+    truth.tables = TablesOf(truth.hopper, truth.times, kInitialStates);
     if (IsWhole(truth.tables)) return truth;
   }
 }

@@ -39,7 +39,7 @@ TEST(AllReadings, AreAllCombinationsOnce) {
 // Tables made from constants and a reading that the identification is not told.
 TEST(Identification, FindsTheReadingAndTheConstantsThatMadeTheTables) {
   StudyHopper truth = SomeHopper();
-  truth.reading.variant.stiffness_radius = ThesisVariant::StiffnessRadius::kRest;
+  truth.reading.law.stiffness_radius = ThesisReading::StiffnessRadius::kRest;
   std::vector<StudyReading> readings(2);
   readings[1] = truth.reading;
   IdentificationRequest request = RequestFor(TablesOf(truth, {}, 3), readings);
@@ -91,7 +91,7 @@ TEST(Identification, OfTableSixFiveAloneEndsThere) {
 TEST(Identification, TellsWhatATableSaysAboutAnOpenPoint) {
   IdentificationRequest request =
       RequestFor(TablesOf(SomeHopper(), {}, 2), std::vector<StudyReading>(2));
-  request.readings[1].variant.rolling = ThesisVariant::Rolling::kExplicit;
+  request.readings[1].law.rolling = ThesisReading::Rolling::kExplicit;
   request.budget = 100;
   const IdentificationResult result = Identify(request, ThreadedFits().On(request.context));
   const auto decision = std::find_if(result.decisions.begin(), result.decisions.end(),
@@ -126,7 +126,7 @@ TEST(Identification, SearchesAToeMassFromScratchWithBothSignsOfTheTorque) {
   EXPECT_TRUE(from_scratch(0).empty());
   const std::vector<StudyUnit> units = from_scratch(500);
   ASSERT_EQ(units.size(), 2U);
-  EXPECT_NE(units[0].reading.variant.torque_sign, units[1].reading.variant.torque_sign);
+  EXPECT_NE(units[0].reading.law.torque_sign, units[1].reading.law.torque_sign);
   for (const StudyUnit& unit : units) {
     EXPECT_EQ(unit.budget, 500);
     EXPECT_EQ(unit.runs, StudyUnit::Runs::kSteady);

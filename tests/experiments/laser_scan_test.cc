@@ -12,17 +12,17 @@ LaserScanRequest Request(int jobs) {
   return {TwoLegs{}, DegToRad(30), DegToRad(90), 5, DegToRad(5), DegToRad(10), jobs};
 }
 
-TEST(LaserScan, StartsCoverTheGridWithTheFrontAngleFastest) {
-  const std::vector<ScanStart> starts = ScanStarts(Request(1));
-  ASSERT_EQ(starts.size(), 25u);
-  EXPECT_DOUBLE_EQ(starts[0].angles.rear, DegToRad(30));
-  EXPECT_DOUBLE_EQ(starts[1].angles.front, DegToRad(45));
-  EXPECT_DOUBLE_EQ(starts[24].angles.rear, DegToRad(90));
+TEST(LaserScan, InitialStatesCoverTheGridWithTheFrontAngleFastest) {
+  const std::vector<ScanStart> initial_states = ScanInitialStates(Request(1));
+  ASSERT_EQ(initial_states.size(), 25u);
+  EXPECT_DOUBLE_EQ(initial_states[0].angles.rear, DegToRad(30));
+  EXPECT_DOUBLE_EQ(initial_states[1].angles.front, DegToRad(45));
+  EXPECT_DOUBLE_EQ(initial_states[24].angles.rear, DegToRad(90));
 }
 
 TEST(LaserScan, APairIsFeasibleWhereItsRangeIncludesTheWantedOne) {
   int feasible = 0;
-  for (const ScanStart& start : ScanStarts(Request(1))) {
+  for (const ScanStart& start : ScanInitialStates(Request(1))) {
     EXPECT_EQ(start.feasible, start.range.lowest <= DegToRad(5) + 1e-12 &&
                                   start.range.highest >= DegToRad(10) - 1e-12);
     EXPECT_LE(start.range.lowest, start.start_pitch);
@@ -49,7 +49,8 @@ TEST(LaserScan, TheStudysExampleSweepsTheWantedRange) {
 }
 
 TEST(LaserScan, JobsDoNotChangeIt) {
-  const std::vector<ScanStart> one = ScanStarts(Request(1)), three = ScanStarts(Request(3));
+  const std::vector<ScanStart> one = ScanInitialStates(Request(1)),
+                               three = ScanInitialStates(Request(3));
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].range.lowest, three[i].range.lowest);
     EXPECT_EQ(one[i].range.highest, three[i].range.highest);

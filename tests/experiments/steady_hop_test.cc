@@ -59,7 +59,7 @@ TEST(SteadyHop, AHopperThatFallsHasNone) {
   EXPECT_FALSE(IsComplete(steady.start.outcome));
   const StudyData data = TablesOf(SomeHopper(), {}, 3);
   const StudyRuns runs = RunSteady(hopper, SteadyData(data, false), {});
-  for (const ControlledRun& run : runs.starts) EXPECT_FALSE(run.TimeBy({}).converged());
+  for (const ControlledRun& run : runs.initial_states) EXPECT_FALSE(run.TimeBy({}).converged());
 }
 
 }  // namespace

@@ -34,8 +34,9 @@ inline StudyHopper SomeHopperWithToe() {
 }
 
 /// The print of another study: what a hopper does by a reading of its times, to one digit more than
-/// the study prints. `starts` a side of the grid of starts, damped.
-inline StudyData TablesOf(const StudyHopper& truth, const ConvergenceReading& reading, int starts) {
+/// the study prints. `initial_states` a side of their grid, damped.
+inline StudyData TablesOf(const StudyHopper& truth, const ConvergenceReading& reading,
+                          int initial_states) {
   const auto rounded = [](double value, double digit) { return std::round(value / digit) * digit; };
   StudyData data;
   for (double deg : {25.0, 30.0, 35.0, 40.0, 45.0}) {
@@ -53,12 +54,13 @@ inline StudyData TablesOf(const StudyHopper& truth, const ConvergenceReading& re
     row.k_max_N_per_m = rounded(run.k_max_N_per_m, 10.0);
     data.modulus.push_back(row);
   }
-  for (int i = 0; i < starts; ++i) {
-    for (int j = 0; j < starts; ++j) {
-      StartCell cell{0.8 + 0.4 * i / (starts - 1), 0.2 + 0.2 * j / (starts - 1), 6.0};
+  for (int i = 0; i < initial_states; ++i) {
+    for (int j = 0; j < initial_states; ++j) {
+      StartCell cell{0.8 + 0.4 * i / (initial_states - 1), 0.2 + 0.2 * j / (initial_states - 1),
+                     6.0};
       const ControlledRun run = RunControlled(truth, SettingsOf(cell), wants);
       cell.convergence_time_s = rounded(run.TimeBy(reading).time, 1e-2);
-      data.starts.push_back(cell);
+      data.initial_states.push_back(cell);
     }
   }
   return data;

@@ -122,15 +122,15 @@ TEST(StudyData, ThePublishedTablesHaveTheirCells) {
   ASSERT_EQ(data.modulus.size(), 20U);
   EXPECT_TRUE(std::isnan(data.modulus[3].k_min_N_per_m));  // 21.4 GPa, undamped: no convergence
   EXPECT_EQ(data.modulus.back().k_max_N_per_m, 6500.0);
-  ASSERT_EQ(data.starts.size(), 50U);
-  EXPECT_EQ(data.starts.front().convergence_time_s, 11.3);
-  EXPECT_EQ(data.starts.back().convergence_time_s, 3.6);
+  ASSERT_EQ(data.initial_states.size(), 50U);
+  EXPECT_EQ(data.initial_states.front().convergence_time_s, 11.3);
+  EXPECT_EQ(data.initial_states.back().convergence_time_s, 3.6);
 }
 
 TEST(StudyData, OneTableAloneHasItsCells) {
   const StudyData all = PublishedStudyData();
-  EXPECT_EQ(OnlyTables(all, {StudyTableId::k61}).starts.size(), 25U);
-  EXPECT_EQ(OnlyTables(all, {StudyTableId::k61}).starts.front().damping_N_s_per_m, 0.0);
+  EXPECT_EQ(OnlyTables(all, {StudyTableId::k61}).initial_states.size(), 25U);
+  EXPECT_EQ(OnlyTables(all, {StudyTableId::k61}).initial_states.front().damping_N_s_per_m, 0.0);
   EXPECT_EQ(OnlyTables(all, {StudyTableId::k64}).modulus.size(), 10U);
   EXPECT_TRUE(OnlyTables(all, {StudyTableId::k64}).energy.empty());
   EXPECT_EQ(OnlyTables(all, {StudyTableId::k65, StudyTableId::k62}).energy.size(), 15U);

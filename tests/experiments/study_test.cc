@@ -16,9 +16,9 @@ namespace hoplab::testing {
 namespace {
 
 TEST(PublishedTables, HoldThePrintedNumbers) {
-  const PublishedTable& starts = FindPublishedTable("table_6_1_convergence_d0");
-  ASSERT_EQ(starts.rows.size(), 25u);
-  EXPECT_EQ(starts.rows.back(), (std::vector<double>{1.2, 0.4, 4.0, 0}));
+  const PublishedTable& initial_states = FindPublishedTable("table_6_1_convergence_d0");
+  ASSERT_EQ(initial_states.rows.size(), 25u);
+  EXPECT_EQ(initial_states.rows.back(), (std::vector<double>{1.2, 0.4, 4.0, 0}));
   EXPECT_EQ(FindPublishedTable("table_6_2_convergence_d6").Column("convergence_time_s")[2], 0.2);
   const PublishedTable& modulus = FindPublishedTable("table_6_3_modulus_d0");
   ASSERT_EQ(modulus.rows.size(), 10u);

@@ -18,7 +18,7 @@ using C = StudyConstant;
 StudyUnit SomeUnit() {
   StudyUnit unit;
   unit.runs = StudyUnit::Runs::kSteady;
-  unit.reading.variant.damping_rate = ThesisVariant::DampingRate::kDeflection;
+  unit.reading.law.damping_rate = ThesisReading::DampingRate::kDeflection;
   unit.reading.liftoff = LiftoffRule::kRestLength;
   unit.weights = {1.0, 0.1, 10.0, 0.0};
   unit.free = {C::kMass, C::kPlacedShare};

@@ -252,7 +252,7 @@ TEST(TwoLegs, ABodyTooShortForTheDifferenceOfHeightCannotBePutDown) {
   EXPECT_TRUE(std::isnan(PitchRangeOf(pair, travel).highest));
 }
 
-TEST(TwoLegs, StartsBeyondALimitAreNamed) {
+TEST(TwoLegs, InitialStatesBeyondALimitAreNamed) {
   EXPECT_EQ(RollingPair(TwoLegs{}, Degrees(95, 60)).start().outcome, PoseOutcome::kRearUpright);
   EXPECT_EQ(RollingPair(TwoLegs{}, Degrees(60, 95)).start().outcome, PoseOutcome::kFrontUpright);
   TwoLegs deep;

@@ -20,10 +20,10 @@ namespace {
 
 using testing::HopDataset;
 
-constexpr int kStarts = 40;
+constexpr int kRestarts = 40;
 
 struct Convergence {
-  double share;    // of the starts that end at the optimum
+  double share;    // of the restarts that end at the optimum
   double seconds;  // mean per start
 };
 
@@ -36,8 +36,8 @@ Convergence ShareAtOptimum(int hops, FitStrategy strategy) {
   // The optimum, from the truth: cost is half chi-square, so 0.005 is a tenth of a sigma.
   const StartRecord reference =
       FitFrom(problem, trials, Eigen::Vector2d(22e9, 3.0), options, 0, nullptr);
-  std::vector<double> costs(kStarts), seconds(kStarts);
-  ParallelFor(kStarts, static_cast<int>(std::thread::hardware_concurrency()), [&](int i) {
+  std::vector<double> costs(kRestarts), seconds(kRestarts);
+  ParallelFor(kRestarts, static_cast<int>(std::thread::hardware_concurrency()), [&](int i) {
     RandomStream random(20, static_cast<std::uint64_t>(i));
     const double E = 22e9 * std::pow(2.0, random.Uniform(-1.0, 1.0));
     const double d = 3.0 * random.Uniform(0.0, 3.0);
@@ -48,7 +48,7 @@ Convergence ShareAtOptimum(int hops, FitStrategy strategy) {
   int reached = 0;
   for (double cost : costs) reached += std::abs(cost - reference.cost) < 0.005;
   const double total = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-  return {static_cast<double>(reached) / kStarts, total / kStarts};
+  return {static_cast<double>(reached) / kRestarts, total / kRestarts};
 }
 
 class ConvergenceStatistics : public ::testing::TestWithParam<int> {};
@@ -58,7 +58,8 @@ TEST_P(ConvergenceStatistics, DefaultOptionsReachTheSameOptimumFromFarOff) {
   const Convergence raw = ShareAtOptimum(hops, FitStrategy::kRaw);
   const Convergence growing = ShareAtOptimum(hops, FitStrategy::kGrowingHorizon);
   const Convergence apex = ShareAtOptimum(hops, FitStrategy::kApexShooting);
-  std::printf("%2d hops, %d starts, share at the optimum (mean time per start):\n", hops, kStarts);
+  std::printf("%2d hops, %d starts, share at the optimum (mean time per start):\n", hops,
+              kRestarts);
   for (const auto& [name, result] :
        {std::pair{"raw", raw}, {"growing_horizon", growing}, {"apex_shooting", apex}})
     std::printf("  %-16s %5.1f %%  (%.2f s)\n", name, 100 * result.share, result.seconds);

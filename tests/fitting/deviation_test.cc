@@ -123,11 +123,12 @@ TEST(Deviation, OfASearchStaysWithinTheBounds) {
   request.shared = InitialShared(problem);
   request.shared[drag] = 0.004;
   request.held = {drag};
-  request.starts = {trials.front().start};
-  request.starts[0][*DeviationOf(drag, trials.front())] = 0.05;
+  request.initial_states = {trials.front().start};
+  request.initial_states[0][*DeviationOf(drag, trials.front())] = 0.05;
   const SolveResult result = Solve(request);
   ASSERT_TRUE(IsUsable(result.status)) << result.message;
-  const double size = result.shared[drag] + result.starts[0][*DeviationOf(drag, trials.front())];
+  const double size =
+      result.shared[drag] + result.initial_states[0][*DeviationOf(drag, trials.front())];
   EXPECT_GE(size, -1e-12);
   EXPECT_LT(size, 0.004);
 }

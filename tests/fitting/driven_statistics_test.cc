@@ -31,7 +31,7 @@ TEST(DrivenStatistics, ModulusIsFoundAndCoveredWithNoiseOnTorqueAndAngles) {
           MakeProblem(testing::DrivenDataset(hops, static_cast<std::uint64_t>(i) + 1), {});
       const FitResult fit = Fit(problem, {});
       const Uncertainty u = AssessUncertainty(problem, TrialsOf(problem, TrialRole::kTrain),
-                                              fit.shared, fit.starts, {}, 1);
+                                              fit.shared, fit.initial_states, {}, 1);
       const auto& ci = u.parameters[0].ci95;
       found[static_cast<std::size_t>(i)] = {
           fit.shared[0], ci && ci->first <= hops.truth.E_Pa && hops.truth.E_Pa <= ci->second,

@@ -17,7 +17,7 @@ FittedModel TrueModel(FitProblem problem) {
   model.shared.resize(2);
   model.shared << testing::HopTruth().E_Pa, testing::HopTruth().damping_N_s_per_m;
   for (const TrialProblem& t : TrialsOf(model.problem, TrialRole::kTrain))
-    model.starts.push_back(t.start);
+    model.initial_states.push_back(t.start);
   model.status = SolveStatus::kConverged;
   return model;
 }
@@ -51,7 +51,7 @@ TEST(EnergyLedger, BodyEnergyIsWeightTimesHeightAndHalfTheSquareOfSpeed) {
   EXPECT_EQ(ledger.hops[0].after->begin, ledger.hops[0].before.begin);
 }
 
-TEST(EnergyLedger, SingleHopsBeginAtTheirOwnStarts) {
+TEST(EnergyLedger, SingleHopsBeginAtTheirOwnInitialStates) {
   const FittedModel model = TrueModel(SplitIntoHops(MakeProblem(testing::SmallDataset(), {})));
   const HeldOutErrors errors = MeasureHeldOut(model, 1);
   const EnergyLedger ledger = LedgerOf(model, errors, nullptr);

@@ -46,9 +46,9 @@ TEST(Fit, FromFarOffReachesTheOptimum) {
   EXPECT_NEAR(far.cost, near.cost, 1e-6 * near.cost);
 }
 
-TEST(Fit, SeveralStartsAgreeAndAreRecorded) {
+TEST(Fit, SeveralRestartsAgreeAndAreRecorded) {
   const FitProblem p = MakeProblem(SmallDataset(), {});
-  const FitResult fit = Fit(p, {.starts = 4, .seed = 9});
+  const FitResult fit = Fit(p, {.restarts = 4, .seed = 9});
   ASSERT_EQ(fit.records.size(), 4u);
   for (const StartRecord& r : fit.records) EXPECT_NEAR(r.cost, fit.cost, 1e-6 * fit.cost);
   EXPECT_NE(fit.records[1].from, fit.records[2].from);
@@ -65,7 +65,7 @@ TEST(Fit, WorksWithoutHeightsByRawTime) {
 TEST(Fit, AnInterruptedFitSaysSoOfTheStartItCutShort) {
   std::atomic<bool> stop{true};
   FitOptions options;
-  options.starts = 3;
+  options.restarts = 3;
   options.stop = &stop;
   const FitResult fit = Fit(MakeProblem(SmallDataset(), {}), options);
   EXPECT_TRUE(fit.interrupted);
@@ -140,7 +140,7 @@ TEST(Fit, RecoversGeneratedValuesWithinItsIntervals) {
     const FitResult fit = Fit(p, {});
     ASSERT_TRUE(fit.ok);
     const Uncertainty u =
-        AssessUncertainty(p, TrialsOf(p, TrialRole::kTrain), fit.shared, fit.starts, {}, 1);
+        AssessUncertainty(p, TrialsOf(p, TrialRole::kTrain), fit.shared, fit.initial_states, {}, 1);
     E_mean += fit.shared[0] / kSeeds;
     const double truth[] = {22e9, 3.0};
     for (int k = 0; k < 2; ++k)
@@ -159,14 +159,14 @@ TEST(Uncertainty, ADiscrepancyIsNotAveragedOutByMoreTrials) {
   p.noise.amplitude.assign(p.channels.size(), 2.0);
   p.noise.time_scale = 0.05;
   std::vector<TrialProblem> trials = TrialsOf(p, TrialRole::kTrain);
-  std::vector<OwnValues> starts = fit.starts;
-  const Uncertainty once = AssessUncertainty(p, trials, fit.shared, starts, {}, 1);
+  std::vector<OwnValues> initial_states = fit.initial_states;
+  const Uncertainty once = AssessUncertainty(p, trials, fit.shared, initial_states, {}, 1);
   const std::size_t n = trials.size();
   for (std::size_t i = 0; i < 3 * n; ++i) {
     trials.push_back(trials[i]);
-    starts.push_back(starts[i]);
+    initial_states.push_back(initial_states[i]);
   }
-  const Uncertainty four = AssessUncertainty(p, trials, fit.shared, starts, {}, 1);
+  const Uncertainty four = AssessUncertainty(p, trials, fit.shared, initial_states, {}, 1);
   for (int k = 0; k < 2; ++k) {
     const ParameterUncertainty &a = once.parameters[k], &b = four.parameters[k];
     const auto white = [](const ParameterUncertainty& u) {
@@ -183,7 +183,7 @@ TEST(Uncertainty, AgreesWithTheProfile) {
   const FitProblem p = MakeProblem(SmallDataset(), {});
   const FitResult fit = Fit(p, {});
   const Uncertainty u =
-      AssessUncertainty(p, TrialsOf(p, TrialRole::kTrain), fit.shared, fit.starts, {}, 1);
+      AssessUncertainty(p, TrialsOf(p, TrialRole::kTrain), fit.shared, fit.initial_states, {}, 1);
   for (int k = 0; k < 2; ++k) {
     const Profile profile = ComputeProfile(p, fit, {}, k, *u.parameters[k].std_error);
     ASSERT_TRUE(profile.lower95 && profile.upper95);
@@ -198,7 +198,7 @@ TEST(Uncertainty, ACombinationTheDataCannotSeeHasNoInterval) {
   const FitProblem p = MakeProblem(SmallDataset(), {.free = {"E", "G", "d", "m"}});
   const std::vector<TrialProblem> trials = TrialsOf(p, TrialRole::kTrain);
   const Uncertainty u =
-      AssessUncertainty(p, trials, InitialShared(p), testing::NominalStarts(trials), {}, 1);
+      AssessUncertainty(p, trials, InitialShared(p), testing::NominalInitialStates(trials), {}, 1);
   EXPECT_EQ(u.identifiability.rank, 3);
   EXPECT_TRUE(std::isinf(u.identifiability.condition_number));
   ASSERT_FALSE(u.identifiability.weak_directions.empty());
@@ -220,7 +220,7 @@ TEST(Uncertainty, AValueOnItsBoundIsSaidToBeThere) {
   const FitProblem p = MakeProblem(d, {});
   const std::vector<TrialProblem> trials = TrialsOf(p, TrialRole::kTrain);
   const Uncertainty u = AssessUncertainty(p, trials, Eigen::Vector2d(22e9, 0.0),
-                                          testing::NominalStarts(trials), {}, 1);
+                                          testing::NominalInitialStates(trials), {}, 1);
   EXPECT_TRUE(u.parameters[1].at_bound);
   EXPECT_FALSE(u.parameters[1].std_error.has_value());
   EXPECT_TRUE(u.parameters[0].std_error.has_value());
@@ -231,7 +231,7 @@ TEST(Uncertainty, AWrongModelIsNoticed) {
   const FitResult fit = Fit(p, {});
   ASSERT_TRUE(fit.ok);
   const Uncertainty u =
-      AssessUncertainty(p, TrialsOf(p, TrialRole::kTrain), fit.shared, fit.starts, {}, 1);
+      AssessUncertainty(p, TrialsOf(p, TrialRole::kTrain), fit.shared, fit.initial_states, {}, 1);
   EXPECT_TRUE(u.misfit);
   EXPECT_GT(*u.parameters[0].std_error_between_trials, *u.parameters[0].std_error);
 }

@@ -273,24 +273,25 @@ TEST(ForeignData, TheRigsCausesAreNamed) {
   EXPECT_EQ(main, right);
 }
 
-// ---- far starts --------------------------------------------------------------------------------
+// ---- far restarts
+// --------------------------------------------------------------------------------
 
 struct Landing {
   int reached = 0, told = 0, wrong = 0;
   std::string wrongs;
 };
 
-Landing FromFarStarts(const PracticeSet& set, int starts) {
+Landing FromFarRestarts(const PracticeSet& set, int restarts) {
   ProblemOptions options;
   options.law = set.law;
   FitOptions more;
-  more.starts = 8;
+  more.restarts = 8;
   const DatasetFit best = FitDataset(set.dataset, options, more);
   const double E = SharedValue(best.problem, best.result.shared, "E");
   const double d = SharedValue(best.problem, best.result.shared, "d");
   Landing out;
   RandomStream random(40, 1);
-  for (int i = 0; i < starts; ++i) {
+  for (int i = 0; i < restarts; ++i) {
     Dataset dataset = set.dataset;
     const double by_E = std::exp2(random.Uniform(-1.0, 1.0)), by_d = random.Uniform(0.0, 3.0);
     const auto shift = [&](MechanismSpec& m) {
@@ -316,21 +317,21 @@ Landing FromFarStarts(const PracticeSet& set, int starts) {
   return out;
 }
 
-TEST(ForeignData, FromFarStartsThereIsOneOptimumOrItIsTold) {
-  constexpr int kStarts = 40;
+TEST(ForeignData, FromFarRestartsThereIsOneOptimumOrItIsTold) {
+  constexpr int kRestarts = 40;
   const std::vector<PracticeSet> sets = PracticeSets();
   if (sets.empty()) GTEST_SKIP() << "no data in " << kData;
   std::vector<Landing> landings(sets.size());
   ParallelFor(static_cast<int>(sets.size()), Jobs(), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    landings[k] = FromFarStarts(sets[k], kStarts);
+    landings[k] = FromFarRestarts(sets[k], kRestarts);
     std::printf("%s: %d of %d at the optimum, %d told as no result, %d wrong%s\n",
-                sets[k].name.c_str(), landings[k].reached, kStarts, landings[k].told,
+                sets[k].name.c_str(), landings[k].reached, kRestarts, landings[k].told,
                 landings[k].wrong, landings[k].wrongs.c_str());
     std::fflush(stdout);
   });
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    EXPECT_GE(landings[i].reached + landings[i].told, 0.95 * kStarts) << sets[i].name;
+    EXPECT_GE(landings[i].reached + landings[i].told, 0.95 * kRestarts) << sets[i].name;
     EXPECT_EQ(landings[i].wrong, 0) << sets[i].name << landings[i].wrongs;
   }
 }

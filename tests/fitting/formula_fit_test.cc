@@ -50,7 +50,7 @@ TEST_P(WorkedExample, IsGeneratedAndFoundAgain) {
   ASSERT_TRUE(fit.result.ok) << fit.result.message;
   const std::vector<TrialProblem> train = TrialsOf(fit.problem, TrialRole::kTrain);
   const Uncertainty known =
-      AssessUncertainty(fit.problem, train, fit.result.shared, fit.result.starts, {}, 1);
+      AssessUncertainty(fit.problem, train, fit.result.shared, fit.result.initial_states, {}, 1);
   int fitted = 0;
   for (int i = 0; i < fit.problem.shared_count(); ++i) {
     const SharedParameter& s = fit.problem.shared[i];

@@ -65,7 +65,7 @@ TEST(Generate, AnEffectChangesTheTraceButNotTheDescription) {
   EXPECT_EQ(plain.mechanism, dragged.mechanism);
 }
 
-TEST(Generate, StatedStartsAreOffByTheirSigma) {
+TEST(Generate, StatedInitialStatesAreOffByTheirSigma) {
   const Scenario s = HopScenario(2);
   double sum = 0;
   int count = 0;

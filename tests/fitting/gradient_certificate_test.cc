@@ -12,15 +12,15 @@
 namespace hoplab {
 namespace {
 
-using testing::NominalStarts;
+using testing::NominalInitialStates;
 using testing::SmallDataset;
 
 struct Case {
   FitProblem problem = MakeProblem(SmallDataset(), {.with_effects = {"air_drag", "sensor_delay"}});
   std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
   GradientCertificate Certify(const JacobianSource& source = nullptr) const {
-    return CertifyGradients(problem, trials, InitialShared(problem), NominalStarts(trials), 1,
-                            source);
+    return CertifyGradients(problem, trials, InitialShared(problem), NominalInitialStates(trials),
+                            1, source);
   }
 };
 
@@ -70,7 +70,7 @@ TEST(GradientCertificate, ATrialThatNeverTouchesSaysNothingOfTheLeg) {
 struct PushedWhereItBounces {
   FitProblem problem;
   std::vector<TrialProblem> trials;
-  std::vector<OwnValues> starts;
+  std::vector<OwnValues> initial_states;
 
   explicit PushedWhereItBounces(double beside) {
     const SimulationRequest ball = testing::BallRequest();
@@ -96,15 +96,15 @@ struct PushedWhereItBounces {
                            .scale = 0.01,
                            .prior_mean = trial.start[i],
                            .prior_sigma = 0.01});
-    starts = {trial.start};
+    initial_states = {trial.start};
     trials = {trial};
   }
   GradientCertificate Certify() const {
-    return CertifyGradients(problem, trials, Eigen::VectorXd(), starts, 1);
+    return CertifyGradients(problem, trials, Eigen::VectorXd(), initial_states, 1);
   }
   // The first two events that change the motion, x0 moved by `by`.
   std::vector<EventKind> FirstEvents(double by) const {
-    OwnValues start = starts[0];
+    OwnValues start = initial_states[0];
     start[0] += by;
     Trajectory run;
     TrialEvaluator(problem, trials[0])

@@ -10,7 +10,7 @@
 namespace hoplab {
 namespace {
 
-using testing::NominalStarts;
+using testing::NominalInitialStates;
 using testing::SmallDataset;
 
 struct ObjectiveCase {
@@ -20,12 +20,12 @@ struct ObjectiveCase {
     options.integrator.absolute_tolerance = 1e-13;
     problem = MakeProblem(SmallDataset(), options);
     trials = TrialsOf(problem, TrialRole::kTrain);
-    starts = NominalStarts(trials);
+    initial_states = NominalInitialStates(trials);
   }
-  // The cost where one column (shared values, then starts) has moved by `by`.
+  // The cost where one column (shared values, then initial states) has moved by `by`.
   double CostAfter(int column, double by) const {
     Eigen::VectorXd values = shared;
-    std::vector<OwnValues> moved = starts;
+    std::vector<OwnValues> moved = initial_states;
     if (column < 2)
       values[column] += by;
     else
@@ -34,13 +34,13 @@ struct ObjectiveCase {
   }
   FitProblem problem;
   std::vector<TrialProblem> trials;
-  std::vector<OwnValues> starts;
+  std::vector<OwnValues> initial_states;
   Eigen::VectorXd shared = Eigen::Vector2d(21e9, 2.0);
 };
 
 TEST(Objective, ItsGradientIsThatOfRichardsonDifferencesOfTheCost) {
   const ObjectiveCase c;
-  const Objective at = EvaluateObjective(c.problem, c.trials, c.shared, c.starts);
+  const Objective at = EvaluateObjective(c.problem, c.trials, c.shared, c.initial_states);
   ASSERT_TRUE(at.complete);
   ASSERT_EQ(at.gradient.size(), 2 + 4 * 2);
   for (int column = 0; column < at.gradient.size(); ++column) {
@@ -56,15 +56,15 @@ TEST(Objective, ItsGradientIsThatOfRichardsonDifferencesOfTheCost) {
 
 TEST(Objective, DoesNotDependOnTheNumberOfJobs) {
   const ObjectiveCase c;
-  const Objective one = EvaluateObjective(c.problem, c.trials, c.shared, c.starts, {}, 1);
-  const Objective two = EvaluateObjective(c.problem, c.trials, c.shared, c.starts, {}, 2);
+  const Objective one = EvaluateObjective(c.problem, c.trials, c.shared, c.initial_states, {}, 1);
+  const Objective two = EvaluateObjective(c.problem, c.trials, c.shared, c.initial_states, {}, 2);
   EXPECT_EQ(one.cost, two.cost);
   EXPECT_EQ(one.gradient, two.gradient);
 }
 
 TEST(Objective, AStartMovesTheResidualsOfItsOwnTrialOnly) {
   const ObjectiveCase c;
-  const Objective at = EvaluateObjective(c.problem, c.trials, c.shared, c.starts);
+  const Objective at = EvaluateObjective(c.problem, c.trials, c.shared, c.initial_states);
   const long first = TrialEvaluator(c.problem, c.trials[0]).residual_count();
   EXPECT_EQ(at.jacobian.block(0, 6, first, 4).cwiseAbs().maxCoeff(), 0.0);
   EXPECT_GT(at.jacobian.block(0, 2, first, 4).cwiseAbs().maxCoeff(), 0.0);
@@ -73,7 +73,8 @@ TEST(Objective, AStartMovesTheResidualsOfItsOwnTrialOnly) {
 
 TEST(Objective, HasNoNumbersWhereASimulationFalls) {
   const ObjectiveCase c;
-  const Objective at = EvaluateObjective(c.problem, c.trials, Eigen::Vector2d(1e8, 1.0), c.starts);
+  const Objective at =
+      EvaluateObjective(c.problem, c.trials, Eigen::Vector2d(1e8, 1.0), c.initial_states);
   EXPECT_FALSE(at.complete);
   EXPECT_TRUE(std::isnan(at.cost));
   EXPECT_EQ(at.gradient.size(), 0);

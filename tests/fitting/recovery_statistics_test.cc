@@ -36,7 +36,7 @@ Recovered Recover(std::uint64_t seed, const HopTruth& truth) {
   }();
   const FitResult fit = Fit(problem, {});
   const Uncertainty u = AssessUncertainty(problem, TrialsOf(problem, TrialRole::kTrain), fit.shared,
-                                          fit.starts, {}, 1);
+                                          fit.initial_states, {}, 1);
   const auto covers = [&](int k, double value) {
     return u.parameters[k].ci95->first <= value && value <= u.parameters[k].ci95->second;
   };

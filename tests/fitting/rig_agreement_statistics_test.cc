@@ -49,7 +49,7 @@ Agreement AgreementOf(int studs) {
     return fit.result.shared[at - fit.problem.shared.begin()];
   };
   const Uncertainty of = AssessUncertainty(fit.problem, TrialsOf(fit.problem, TrialRole::kTrain),
-                                           fit.result.shared, fit.result.starts, {}, jobs);
+                                           fit.result.shared, fit.result.initial_states, {}, jobs);
   return {value("E") * StatedSecondMoment() / rig.bending_stiffness - 1.0,
           value("leg_material_damping.tau") / rig.relaxation - 1.0,
           value("leg_mass.m_leg") - rig.leg_mass,

@@ -11,7 +11,7 @@
 namespace hoplab {
 namespace {
 
-using testing::NominalStarts;
+using testing::NominalInitialStates;
 using testing::SmallDataset;
 
 using Case = testing::SmallFit;
@@ -31,7 +31,7 @@ TEST(Solve, DoesNotDependOnTheNumberOfJobs) {
   const SolveResult a = Solve(one), b = Solve(two);
   EXPECT_EQ(a.cost, b.cost);
   EXPECT_EQ(a.shared, b.shared);
-  EXPECT_EQ(a.starts, b.starts);
+  EXPECT_EQ(a.initial_states, b.initial_states);
 }
 
 TEST(Solve, AStartThatFallsIsNamedAndLeftBehind) {
@@ -62,7 +62,7 @@ TEST(Solve, AStepThatFallsIsRejectedWithItsReason) {
   const Case c;
   SolveRequest request = c.Request();
   request.shared = Eigen::Vector2d(60e9, 0.1);
-  request.hold_starts = true;
+  request.hold_initial_states = true;
   const SolveResult r = Solve(request);
   ASSERT_NE(r.status, SolveStatus::kNoStart);
   int rejected = 0;
@@ -109,11 +109,11 @@ TEST(Solve, HeldValuesStay) {
   EXPECT_NE(r.shared[1], 2.0);
 }
 
-TEST(Solve, HeldStartsStay) {
+TEST(Solve, HeldInitialStatesStay) {
   const Case c;
   SolveRequest request = c.Request();
-  request.hold_starts = true;
-  EXPECT_EQ(Solve(request).starts, request.starts);
+  request.hold_initial_states = true;
+  EXPECT_EQ(Solve(request).initial_states, request.initial_states);
 }
 
 TEST(Solve, AValueOnItsBoundDoesNotKeepTheRestFromTheirOptimum) {
@@ -125,7 +125,7 @@ TEST(Solve, AValueOnItsBoundDoesNotKeepTheRestFromTheirOptimum) {
   SolveRequest request;
   request.problem = &problem;
   request.trials = &trials;
-  request.starts = NominalStarts(trials);
+  request.initial_states = NominalInitialStates(trials);
   request.shared = InitialShared(problem);
   request.shared[0] = 22.5e9;
   const SolveResult free = Solve(request);

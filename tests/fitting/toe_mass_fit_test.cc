@@ -32,7 +32,7 @@ TEST(ToeMassFit, FindsMassAndModulusOfGeneratedHops) {
   const FitResult fit = Fit(problem, {});
   ASSERT_TRUE(fit.ok) << fit.message;
   const Uncertainty known = AssessUncertainty(problem, TrialsOf(problem, TrialRole::kTrain),
-                                              fit.shared, fit.starts, {}, 1);
+                                              fit.shared, fit.initial_states, {}, 1);
   const double truth[] = {22e9, 3.0, 0.02};
   for (int i = 0; i < 3; ++i) {
     // Five standard errors: one seed in two million misses.

@@ -9,7 +9,7 @@
 namespace hoplab {
 namespace {
 
-using testing::NominalStarts;
+using testing::NominalInitialStates;
 using testing::SmallDataset;
 
 struct EvaluatedTrial {
@@ -21,7 +21,7 @@ struct EvaluatedTrial {
     request.problem = &problem;
     request.trials = &trials;
     request.shared = Eigen::Vector2d(21e9, 2.0);
-    request.starts = NominalStarts(trials);
+    request.initial_states = NominalInitialStates(trials);
   }
 };
 
@@ -91,7 +91,7 @@ TEST(TrialEvaluations, ComingBackToAPointKeepsItsDerivatives) {
 TEST(TrialEvaluations, MovesToGivenValues) {
   const EvaluatedTrial c;
   TrialEvaluations at(c.request);
-  std::vector<OwnValues> own = c.request.starts;
+  std::vector<OwnValues> own = c.request.initial_states;
   own[1][0] += 0.01;
   at.MoveTo(Eigen::Vector2d(23e9, 1.0), own);
   EXPECT_NEAR(at.SharedValues()[0] / 23e9, 1.0, 1e-14);
@@ -119,7 +119,7 @@ TEST(TrialEvaluations, HeldSharedValuesCostNoColumnsAndChangeNone) {
   request.problem = &problem;
   request.trials = &trials;
   request.shared = InitialShared(problem);
-  request.starts = NominalStarts(trials);
+  request.initial_states = NominalInitialStates(trials);
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto own_of = [&](bool hold, Eigen::VectorXd& slopes) {
     request.hold_shared = hold;

@@ -27,7 +27,7 @@ using testing::EffectCase;
 using testing::EffectDirection;
 
 constexpr std::array kSizes = {5.0, 15.0, 40.0};  // delta80
-constexpr int kMostSeeds = 3, kStarts = 8;
+constexpr int kMostSeeds = 3, kRestarts = 8;
 // Two searches that stop within a tenth of a nat, or this share of a large cost, agree.
 constexpr double kSameNats = 0.1, kSameShare = 1e-4;
 
@@ -99,7 +99,7 @@ Ending Try(const Wrong& wrong, std::uint64_t number) {
   options.law = std::string(NameOf(wrong.truth.law));
   const DatasetFit one = FitDataset(dataset, options, {});
   FitOptions more;
-  more.starts = kStarts;
+  more.restarts = kRestarts;
   const DatasetFit best = FitDataset(dataset, options, more);
   out.by_hop = one.by_hop;
   out.left_out = one.left_out.size();
@@ -139,13 +139,13 @@ TEST_P(WrongModelStatistics, IsFittedAllTheSame) {
                 e.end == End::kRefused  ? "REFUSED"
                 : e.end == End::kMissed ? "missed"
                                         : "told as no minimum",
-                e.cost, kStarts, e.best, e.by_hop ? ", hop by hop" : "", e.told.c_str());
+                e.cost, kRestarts, e.best, e.by_hop ? ", hop by hop" : "", e.told.c_str());
   }
   const int made = static_cast<int>(cases.size()) - count[End::kNotMade];
   std::printf(
       "%s: %d cases; %d reached the best of %d starts, %d missed it, %d told as no minimum, "
       "%d refused; %d hop by hop, %d with hops left out\n",
-      std::string(NameOf(GetParam())).c_str(), made, count[End::kReached], kStarts,
+      std::string(NameOf(GetParam())).c_str(), made, count[End::kReached], kRestarts,
       count[End::kMissed], count[End::kTold], count[End::kRefused], by_hop, left_out);
   EXPECT_EQ(count[End::kRefused], 0);
   EXPECT_GE(count[End::kReached], 0.95 * made);

@@ -12,7 +12,8 @@ namespace {
 using namespace testing;
 using D = SensitivityDirection;
 
-// ---- starts ------------------------------------------------------------------------------
+// ---- initial states
+// ------------------------------------------------------------------------------
 
 TEST(Start, BelowTouchdownHeightIsRefused) {
   for (Law law : {Law::kThesis, Law::kLargeDeflection, Law::kStraightLeg, Law::kBall}) {

@@ -140,7 +140,7 @@ TEST(Robustness, CountsRunsAndKeepsTheWorst) {
   options.noise_runs = 4;
   const Robustness one = AssessRobustness(hopper, options);
   EXPECT_EQ(one.stiffness.runs, 11);
-  EXPECT_EQ(one.starts.runs, 25);
+  EXPECT_EQ(one.initial_states.runs, 25);
   EXPECT_GT(one.stiffness.converged, 0);
   const double own = EvaluatePoint(problem, x).convergence.time;
   EXPECT_GE(one.stiffness.worst_time, own);

@@ -1,5 +1,5 @@
-// Gaits of a robot found from nothing but a box of clocks and starts, seed by seed: the figures of
-// docs/statistics/robot.md. ctest -L statistics; the seeds are 1 to 10.
+// Gaits of a robot found from nothing but a box of clocks and initial states, seed by seed: the
+// figures of docs/statistics/robot.md. ctest -L statistics; the seeds are 1 to 10.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -96,7 +96,7 @@ struct NullFit {
     const FitResult fit = Fit(problem, {});
     null.problem = problem;
     null.shared = fit.shared;
-    null.starts = fit.starts;
+    null.initial_states = fit.initial_states;
     null.cost = fit.cost;
     null.status = fit.records.at(static_cast<std::size_t>(fit.best_start)).status;
     null.complete = fit.stop.complete;
@@ -113,7 +113,8 @@ struct NullFit {
     const FitProblem extended = Extend(model.problem, tested);
     Eigen::VectorXd shared(extended.shared_count());
     shared << model.shared, NullValues(tested);
-    return Linearise(extended, model.problem.shared_count(), train, shared, model.starts, 1);
+    return Linearise(extended, model.problem.shared_count(), train, shared, model.initial_states,
+                     1);
   }
   FittedModel RefittedWith(const Candidate& candidate) const {
     return RefittedWith(candidate,

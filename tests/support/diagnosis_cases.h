@@ -44,7 +44,7 @@ struct Truth {
   std::string only_recording = {};     // the one trial the effects act in; empty: all
   /// The traces are mirrored about those without an effect: to first order the opposite sizes.
   bool mirrored = false;
-  std::uint64_t seed = 1;  // of noise and starts
+  std::uint64_t seed = 1;  // of noise and initial states
   NoiseModel noise = {};
 };
 
@@ -52,7 +52,7 @@ struct Truth {
 /// true ones. `notes` gets what GenerateDataset has to say.
 Dataset MakeDataset(const Truth& truth, std::vector<std::string>* notes = nullptr);
 
-/// The same without noise, with true starts and true nominal values.
+/// The same without noise, with true initial states and true nominal values.
 Dataset MakeExactDataset(Law law);
 
 /// The value fits are after, E (k, restitution of the other mechanisms): the first free by default.

@@ -72,9 +72,9 @@ Linearisation AtTheTruth(const FitProblem& problem, const std::vector<Candidate>
   Eigen::VectorXd shared(extended.shared_count());
   for (int k = 0; k < shared.size(); ++k)
     shared[k] = extended.shared[static_cast<std::size_t>(k)].initial;
-  std::vector<OwnValues> starts;
-  for (const TrialProblem& t : train) starts.push_back(t.start);
-  return Linearise(extended, problem.shared_count(), train, shared, starts, 1);
+  std::vector<OwnValues> initial_states;
+  for (const TrialProblem& t : train) initial_states.push_back(t.start);
+  return Linearise(extended, problem.shared_count(), train, shared, initial_states, 1);
 }
 
 }  // namespace
@@ -115,8 +115,8 @@ std::vector<EffectCase> EffectCasesOf(Law law) {
     bool seen = true;
     for (int k = 0; k < n; ++k) {
       seen = seen && Information(at, first + k) > 0.0;
-      e.through_starts =
-          e.through_starts || Information(free, first + k) < 0.05 * Information(at, first + k);
+      e.through_initial_states = e.through_initial_states ||
+                                 Information(free, first + k) < 0.05 * Information(at, first + k);
     }
     first += n;
     if (!seen) {

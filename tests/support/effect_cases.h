@@ -31,9 +31,10 @@ struct EffectCase {
   const Effect* effect = nullptr;
   std::vector<EffectDirection> directions;
   std::string excluded;  // why it is not among the cases; empty if it is
-  /// Only the stated starts show it (a delay, an offset along x): with free starts the data would
-  /// hold less than a twentieth of its information. The model extended by it predicts alike.
-  bool through_starts = false;
+  /// Only the stated initial states show it (a delay, an offset along x): with free initial states
+  /// the data would hold less than a twentieth of its information. The model extended by it
+  /// predicts alike.
+  bool through_initial_states = false;
 
   /// Directions that allow `size`.
   std::vector<const EffectDirection*> At(double size) const;

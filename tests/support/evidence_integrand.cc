@@ -121,14 +121,14 @@ double EvidenceIntegrand::operator()(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd EvidenceIntegrand::CoordinatesOf(const Eigen::VectorXd& shared,
-                                                 const std::vector<OwnValues>& starts,
+                                                 const std::vector<OwnValues>& initial_states,
                                                  const hoplab::NoiseModel& noise) const {
   std::vector<double> x;
   for (int k = 0; k < problem_.shared_count(); ++k)
     x.push_back(shared[k] / problem_.shared[static_cast<std::size_t>(k)].scale);
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     for (int k = 0; k < trials_[i].own_count(); ++k)
-      x.push_back(starts[i][k] / trials_[i].own[static_cast<std::size_t>(k)].scale);
+      x.push_back(initial_states[i][k] / trials_[i].own[static_cast<std::size_t>(k)].scale);
   }
   if (discrepancy_) {
     for (std::size_t c = 0; c < problem_.channels.size(); ++c)
@@ -142,14 +142,14 @@ Eigen::VectorXd EvidenceIntegrand::CoordinatesOf(const Eigen::VectorXd& shared,
 }
 
 Eigen::MatrixXd EvidenceIntegrand::Spread(const Eigen::VectorXd& shared,
-                                          const std::vector<OwnValues>& starts) const {
-  const Eigen::VectorXd at = CoordinatesOf(shared, starts, {});
+                                          const std::vector<OwnValues>& initial_states) const {
+  const Eigen::VectorXd at = CoordinatesOf(shared, initial_states, {});
   Eigen::MatrixXd information = Eigen::MatrixXd::Identity(at.size(), at.size());
   const int n = problem_.shared_count();
   Eigen::Index first = n;
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     TrialEvaluation e;
-    EvaluationRequest request{shared, starts[i], true};
+    EvaluationRequest request{shared, initial_states[i], true};
     request.whiten = false;
     TrialEvaluator(problem_, trials_[i]).Evaluate(request, e);
     Eigen::MatrixXd J = Eigen::MatrixXd::Zero(e.jacobian.rows(), at.size());

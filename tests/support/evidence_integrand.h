@@ -9,11 +9,11 @@ namespace hoplab::testing {
 
 /// What the evidence of a model is the integral of, written down from its definition and not from
 /// the code that takes Laplace's approximation of it: the likelihood of the rows, times the priors
-/// of starts, of shared values and, with a discrepancy, of its amplitudes and its time scale.
-/// Coordinates: shared values per scale, each trial's starts per scale, then the logarithms of the
-/// amplitudes (in sigma) and of the time scale. Not linearised, no value held.
-/// In units of the channels' sigma, and with a factor of 1/sqrt(2 pi) for each start, as the
-/// evidence is: constants that all models share.
+/// of initial states, of shared values and, with a discrepancy, of its amplitudes and its time
+/// scale. Coordinates: shared values per scale, each trial's initial states per scale, then the
+/// logarithms of the amplitudes (in sigma) and of the time scale. Not linearised, no value held. In
+/// units of the channels' sigma, and with a factor of 1/sqrt(2 pi) for each start, as the evidence
+/// is: constants that all models share.
 class EvidenceIntegrand {
  public:
   EvidenceIntegrand(const FitProblem& problem, const std::vector<TrialProblem>& trials,
@@ -22,10 +22,12 @@ class EvidenceIntegrand {
   double operator()(const Eigen::VectorXd& x) const;
 
   /// Where values lie in its coordinates; `noise` is taken with a discrepancy.
-  Eigen::VectorXd CoordinatesOf(const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts,
+  Eigen::VectorXd CoordinatesOf(const Eigen::VectorXd& shared,
+                                const std::vector<OwnValues>& initial_states,
                                 const hoplab::NoiseModel& noise) const;
   /// A first guess of the spread there: that of the linearised rows under white noise.
-  Eigen::MatrixXd Spread(const Eigen::VectorXd& shared, const std::vector<OwnValues>& starts) const;
+  Eigen::MatrixXd Spread(const Eigen::VectorXd& shared,
+                         const std::vector<OwnValues>& initial_states) const;
 
  private:
   struct Noise {

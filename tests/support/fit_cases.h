@@ -25,10 +25,10 @@ inline Dataset SmallDataset(int train_trials = 2, int test_trials = 1, std::uint
   return d;
 }
 
-inline std::vector<OwnValues> NominalStarts(const std::vector<TrialProblem>& trials) {
-  std::vector<OwnValues> starts;
-  for (const TrialProblem& t : trials) starts.push_back(t.start);
-  return starts;
+inline std::vector<OwnValues> NominalInitialStates(const std::vector<TrialProblem>& trials) {
+  std::vector<OwnValues> initial_states;
+  for (const TrialProblem& t : trials) initial_states.push_back(t.start);
+  return initial_states;
 }
 
 /// A fit of SmallDataset, from off the truth (22 GPa, 3 N s/m).
@@ -40,7 +40,7 @@ struct SmallFit {
     r.problem = &problem;
     r.trials = &trials;
     r.shared = Eigen::Vector2d(21e9, 2.0);
-    r.starts = NominalStarts(trials);
+    r.initial_states = NominalInitialStates(trials);
     return r;
   }
 };

@@ -60,10 +60,10 @@ inline ComparedEvidence CompareEvidence(const char* what, const FittedModel& mod
   ComparedEvidence out;
   out.laplace = discrepancy ? model.evidence.discrepancy : model.evidence.white;
   const EvidenceIntegrand integrand(model.problem, train, discrepancy);
-  out.sampled =
-      SampleIntegral([&](const Eigen::VectorXd& x) { return integrand(x); },
-                     integrand.CoordinatesOf(model.shared, model.starts, model.problem.noise),
-                     integrand.Spread(model.shared, model.starts), settings);
+  out.sampled = SampleIntegral(
+      [&](const Eigen::VectorXd& x) { return integrand(x); },
+      integrand.CoordinatesOf(model.shared, model.initial_states, model.problem.noise),
+      integrand.Spread(model.shared, model.initial_states), settings);
   std::printf(
       "%s: Laplace %.3f, sampled %.3f +- %.3f, difference %+.3f nats; moved %.0f %%, %ld "
       "evaluations\n",

@@ -64,7 +64,7 @@ TEST(ForecastInterval, IsTheIntervalOfTheFitWithThatTrial) {
   const testing::NullFit fit{testing::World{}};
   const RecordedInformation information = InformationOf(fit.null, fit.train);
   const Uncertainty now =
-      AssessUncertainty(fit.problem, fit.train, fit.null.shared, fit.null.starts, {}, 1);
+      AssessUncertainty(fit.problem, fit.train, fit.null.shared, fit.null.initial_states, {}, 1);
   for (int k = 0; k < fit.problem.shared_count(); ++k) {
     const double half = ForecastInterval(fit.null, information, k, nullptr).half_width;
     EXPECT_NEAR(half / (1.959963984540054 * *now.parameters[k].std_error), 1.0, 1e-8);
@@ -81,9 +81,10 @@ TEST(ForecastInterval, IsTheIntervalOfTheFitWithThatTrial) {
   more.push_back(trial);
   more.back().data = run.samples;
   more.back().sample_count = static_cast<long>(run.samples.size());
-  std::vector<OwnValues> starts = fit.null.starts;
-  starts.push_back(trial.start);
-  const Uncertainty then = AssessUncertainty(fit.problem, more, fit.null.shared, starts, {}, 1);
+  std::vector<OwnValues> initial_states = fit.null.initial_states;
+  initial_states.push_back(trial.start);
+  const Uncertainty then =
+      AssessUncertainty(fit.problem, more, fit.null.shared, initial_states, {}, 1);
   for (int k = 0; k < fit.problem.shared_count(); ++k) {
     const SharpeningForecast forecast = ForecastInterval(fit.null, information, k, &trial);
     ASSERT_EQ(forecast.failure, "");

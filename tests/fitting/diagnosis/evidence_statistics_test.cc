@@ -65,12 +65,12 @@ double AtTheMean(const CaseFit& f, const Eigen::VectorXd& mean, bool discrepancy
     const SharedParameter& s = problem.shared[static_cast<std::size_t>(at)];
     value = std::clamp(mean[at++] * s.scale, s.lower, s.upper);
   }
-  std::vector<OwnValues> starts = f.model.starts;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    for (Eigen::Index k = 0; k < starts[i].size(); ++k)
-      starts[i][k] = mean[at++] * f.fit.train[i].own[static_cast<std::size_t>(k)].scale;
+  std::vector<OwnValues> initial_states = f.model.initial_states;
+  for (std::size_t i = 0; i < initial_states.size(); ++i) {
+    for (Eigen::Index k = 0; k < initial_states[i].size(); ++k)
+      initial_states[i][k] = mean[at++] * f.fit.train[i].own[static_cast<std::size_t>(k)].scale;
   }
-  const RestrictedLikelihood likelihood(problem, f.fit.train, shared, starts, 1);
+  const RestrictedLikelihood likelihood(problem, f.fit.train, shared, initial_states, 1);
   const Evidence e = EvidenceOf(problem, shared, likelihood, likelihood, problem.noise);
   return discrepancy ? e.discrepancy : e.white;
 }

@@ -36,7 +36,7 @@ double LogEvidenceBySlices(const NullFit& fit, const FittedModel& e) {
   const double at = e.shared[e.shared.size() - 1];
   const SharedParameter& s = e.problem.shared.back();
   // Curvature at the optimum says how far to look.
-  const Uncertainty u = AssessUncertainty(e.problem, fit.train, e.shared, e.starts, {}, 1);
+  const Uncertainty u = AssessUncertainty(e.problem, fit.train, e.shared, e.initial_states, {}, 1);
   const double sigma = *u.parameters.back().std_error;
   double peak = 0.0;
   const auto log_slice = [&](double value) {
@@ -45,7 +45,7 @@ double LogEvidenceBySlices(const NullFit& fit, const FittedModel& e) {
     q.trials = &fit.train;
     q.shared = e.shared;
     q.shared[q.shared.size() - 1] = value;
-    q.starts = e.starts;
+    q.initial_states = e.initial_states;
     q.held = {e.problem.shared_count() - 1};
     const SolveResult r = Solve(q);
     FitProblem rest = e.problem;
@@ -54,7 +54,7 @@ double LogEvidenceBySlices(const NullFit& fit, const FittedModel& e) {
     LikelihoodDetail detail;
     detail.prior_widths = PriorWidths(rest, r.shared.head(rest.shared_count()));
     const RestrictedLikelihood likelihood(rest, fit.train, r.shared.head(rest.shared_count()),
-                                          r.starts, 1, detail);
+                                          r.initial_states, 1, detail);
     double sum = likelihood.At({}) + 0.5 * rest.shared_count() * std::log(2.0 * std::numbers::pi);
     for (int k = 0; k < rest.shared_count(); ++k)
       sum += LogSizePrior(r.shared[k] / rest.shared[k].scale, rest.shared[k].lower >= 0.0);

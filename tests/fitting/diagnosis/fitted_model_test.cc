@@ -133,7 +133,8 @@ NullFit WithStepsForSmoothEffectsOnly() {
   const TrialProblem& trial = fit.train.front();
   Trajectory run;
   TrialEvaluator(fit.null.problem, trial)
-      .Simulate({fit.null.shared, fit.null.starts.front(), true}, fit.null.problem.integrator, run);
+      .Simulate({fit.null.shared, fit.null.initial_states.front(), true},
+                fit.null.problem.integrator, run);
   fit.null.problem.integrator.max_steps = run.steps + 1;
   return fit;
 }

@@ -30,7 +30,7 @@ struct Dense {
     Eigen::Index rows = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       TrialEvaluator(fit.problem, fit.train[i])
-          .Evaluate({fit.null.shared, fit.null.starts[i], true}, parts[i]);
+          .Evaluate({fit.null.shared, fit.null.initial_states[i], true}, parts[i]);
       rows += parts[i].residuals.size();
     }
     const auto shared = static_cast<Eigen::Index>(fitted.size());
@@ -58,7 +58,7 @@ struct Dense {
 const std::vector<Candidate> kTested = {CandidateOf("air_drag"), CandidateOf("gravity_scale"),
                                         CandidateOf("leg_material_damping")};
 
-TEST(Linearisation, IsOrthogonalToFittedValuesAndStarts) {
+TEST(Linearisation, IsOrthogonalToFittedValuesAndInitialStates) {
   const NullFit fit{testing::World{}};
   const Linearisation at = fit.With(kTested);
   const Dense dense(fit, {0, 1});
@@ -105,7 +105,8 @@ TEST(Linearisation, ColumnsAreProjectedDifferencesOfTheResiduals) {
       std::vector<double> all;
       for (std::size_t i = 0; i < fit.train.size(); ++i) {
         TrialEvaluation e;
-        TrialEvaluator(extended, fit.train[i]).Evaluate({shared, fit.null.starts[i], false}, e);
+        TrialEvaluator(extended, fit.train[i])
+            .Evaluate({shared, fit.null.initial_states[i], false}, e);
         all.insert(all.end(), e.residuals.begin(), e.residuals.end());
       }
       return all;
@@ -127,7 +128,7 @@ TEST(Linearisation, CountsTheDimensionsItTakesOut) {
   EXPECT_EQ(at.fitted_rank, 2 + 4 * 3);
   EXPECT_EQ(at.degrees_of_freedom(), at.rows() - 14);
   EXPECT_NEAR(at.leverage.sum(), 14.0, 1e-9);
-  EXPECT_EQ(at.rows(), at.samples + 4 * 3);  // priors on the starts
+  EXPECT_EQ(at.rows(), at.samples + 4 * 3);  // priors on the initial states
 }
 
 TEST(Linearisation, AValueOnItsBoundIsTakenAsGiven) {
@@ -154,8 +155,8 @@ TEST(Linearisation, DoesNotDependOnTheNumberOfJobs) {
   const FitProblem extended = Extend(fit.problem, kTested);
   Eigen::VectorXd shared(extended.shared_count());
   shared << fit.null.shared, NullValues(kTested);
-  const Linearisation one = Linearise(extended, 2, fit.train, shared, fit.null.starts, 1);
-  const Linearisation four = Linearise(extended, 2, fit.train, shared, fit.null.starts, 4);
+  const Linearisation one = Linearise(extended, 2, fit.train, shared, fit.null.initial_states, 1);
+  const Linearisation four = Linearise(extended, 2, fit.train, shared, fit.null.initial_states, 4);
   EXPECT_EQ(one.r, four.r);
   EXPECT_EQ(one.columns, four.columns);
 }
@@ -169,7 +170,7 @@ struct Labelled {
     for (std::size_t i = 0; i < fit.train.size(); ++i) {
       TrialEvaluation e;
       TrialEvaluator(fit.problem, fit.train[i])
-          .Evaluate({fit.null.shared, fit.null.starts[i], false}, e);
+          .Evaluate({fit.null.shared, fit.null.initial_states[i], false}, e);
       runs.push_back(e.trajectory);
     }
   }

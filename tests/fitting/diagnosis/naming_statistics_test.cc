@@ -115,10 +115,10 @@ void PrintNaming(Report& report, const std::vector<Outcome>& outcomes, double si
   both.members += all.members;
 }
 
-bool ShownByStarts(const Truth& truth) {
+bool ShownByInitialStates(const Truth& truth) {
   for (const EffectCase& e : AllEffectCases()) {
     if (e.law == truth.law && e.effect->info.name == truth.effects.front().name)
-      return e.through_starts;
+      return e.through_initial_states;
   }
   return false;
 }
@@ -126,12 +126,12 @@ bool ShownByStarts(const Truth& truth) {
 // Held-out gain where the cause is right: is it there, and is the stiffness nearer to the truth?
 // A stiffness the effect did not move by a standard error has nowhere to go.
 void PrintWorth(Report& report, const std::vector<Outcome>& outcomes) {
-  int right = 0, starts = 0, claims = 0, biased = 0, nearer = 0, biased_claims_nearer = 0;
+  int right = 0, initial_states = 0, claims = 0, biased = 0, nearer = 0, biased_claims_nearer = 0;
   std::map<std::string, std::pair<int, std::string>> unclaimed;
   for (const Outcome& o : outcomes) {
     if (o.first != o.truth.effects.front().name) continue;
-    if (ShownByStarts(o.truth)) {
-      ++starts;
+    if (ShownByInitialStates(o.truth)) {
+      ++initial_states;
       continue;
     }
     ++right;
@@ -153,7 +153,7 @@ void PrintWorth(Report& report, const std::vector<Outcome>& outcomes) {
       "(%.0f %%), both: %d (%.0f %%). Left out: %d cases of effects that only the stated starts "
       "show (a delay, an offset along x); nothing is predicted better there.",
       right, claims, PerCent(claims, right), biased, nearer, PerCent(nearer, biased),
-      biased_claims_nearer, PerCent(biased_claims_nearer, biased), starts);
+      biased_claims_nearer, PerCent(biased_claims_nearer, biased), initial_states);
   for (const auto& [name, which] : unclaimed)
     report.Say("%s without a claim %d times (law, nats a sample):%s", name.c_str(), which.first,
                which.second.c_str());
@@ -195,7 +195,7 @@ TEST(DiagnosisStatistics, EffectsThatCannotBePlantedAreListed) {
       delta += (delta.empty() ? "" : ", ") + step;
       if (!d.limit.empty()) limit += (limit.empty() ? "" : ", ") + d.limit;
     }
-    if (e.through_starts)
+    if (e.through_initial_states)
       limit += std::string(limit.empty() ? "" : "; ") + "(planted; only the stated starts show it)";
     const std::string name(e.effect->info.name);
     report.Row({name, std::string(NameOf(e.law)), delta, limit});

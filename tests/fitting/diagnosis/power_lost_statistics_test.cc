@@ -22,8 +22,8 @@ struct CleanFit {
   std::map<std::string, double> ratios;  // of delta80, by effect; 1: nothing is lost
 };
 
-// delta80 = 3.64/sqrt(V), V the effect's information beside the fitted values and starts; the
-// direction that loses most.
+// delta80 = 3.64/sqrt(V), V the effect's information beside the fitted values and initial states;
+// the direction that loses most.
 CleanFit RatiosOf(Law law, std::uint64_t seed) {
   ProblemOptions options;
   options.law = std::string(NameOf(law));

@@ -38,7 +38,7 @@ double OwnP(const Truth& truth) {
   shared << fit.result.shared, NullValues(tested);
   const Linearisation at =
       Linearise(problem, fit.problem.shared_count(), TrialsOf(fit.problem, TrialRole::kTrain),
-                shared, fit.result.starts, 1);
+                shared, fit.result.initial_states, 1);
   return ScoreOf(at, HypothesesOf(tested).front()).p_value;
 }
 

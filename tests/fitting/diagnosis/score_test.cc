@@ -64,7 +64,7 @@ TEST(Score, IsTheGainOfTheLinearModel) {
   Eigen::VectorXd shared(4);
   shared << fit.null.shared, NullValues(tested);
   TrialEvaluation e;
-  TrialEvaluator(extended, fit.train[0]).Evaluate({shared, fit.null.starts[0], true}, e);
+  TrialEvaluator(extended, fit.train[0]).Evaluate({shared, fit.null.initial_states[0], true}, e);
   Eigen::MatrixXd S(e.residuals.size(), 6);
   S << e.jacobian.leftCols(2), e.jacobian.rightCols(4);
   const double without = LeastSquares(S, e.residuals);

@@ -51,8 +51,8 @@ double NatsOf(const Rivals& r, const TrialDesign& design) {
     request.problem = &r.models[i].problem;
     request.trials = &more;
     request.shared = r.models[i].shared;
-    request.starts = r.models[i].starts;
-    request.starts.push_back(more.back().start);
+    request.initial_states = r.models[i].initial_states;
+    request.initial_states.push_back(more.back().start);
     cost[i] = Solve(request).cost;
   }
   return (cost[1] - cost[0]) - (r.models[1].cost - r.models[0].cost);

@@ -36,7 +36,7 @@ double LeftP(const Diagnosis& d, const std::string& name) {
   shared << best.shared, NullValues(tested);
   const Linearisation at =
       Linearise(problem, best.problem.shared_count(), TrialsOf(d.problem, TrialRole::kTrain),
-                shared, best.starts, 1);
+                shared, best.initial_states, 1);
   return ScoreOf(at, HypothesesOf(tested).front()).p_value;
 }
 

@@ -42,14 +42,15 @@ int DragOf(const FittedModel& model) { return model.problem.shared_count() - 1; 
 // u ~ N(0, tau^2) of each trial, e ~ N(0, 1), b flat (Patterson and Thompson 1971; Robinson 1991).
 class DenseMixedModel {
  public:
-  // The rows of trials with their deviation taken back; X: the shared values, then the starts.
+  // The rows of trials with their deviation taken back; X: the shared values, then the initial
+  // states.
   DenseMixedModel(const VaryingModel& v, int place) : place_(place) {
     const int n = v.model.problem.shared_count();
     Eigen::Index rows = 0, columns = n;
     std::vector<TrialEvaluation> evaluations(v.train.size());
     for (std::size_t i = 0; i < v.train.size(); ++i) {
       TrialEvaluator(v.model.problem, v.train[i])
-          .Evaluate({v.model.shared, v.model.starts[i], true}, evaluations[i]);
+          .Evaluate({v.model.shared, v.model.initial_states[i], true}, evaluations[i]);
       rows += evaluations[i].residuals.size();
       columns += v.train[i].own_count() - 1;
     }
@@ -62,7 +63,7 @@ class DenseMixedModel {
       const Eigen::Index m = e.residuals.size();
       const int own = *DeviationOf(place, v.train[i]);
       const Eigen::VectorXd c = e.jacobian.col(n + own);
-      y_.segment(row, m) = -(e.residuals - c * v.model.starts[i][own]);
+      y_.segment(row, m) = -(e.residuals - c * v.model.initial_states[i][own]);
       X_.block(row, 0, m, n) = e.jacobian.leftCols(n);
       for (int k = 0; k < v.train[i].own_count(); ++k)
         if (k != own) X_.block(row, column++, m, 1) = e.jacobian.col(n + k);
@@ -173,7 +174,7 @@ TEST(RefitVarying, KeepsEverySizeWithinTheBounds) {
   for (std::size_t i = 0; i < v.train.size(); ++i) {
     EXPECT_GE(v.values[0].sizes[i], 0.0) << i;
     const int own = *DeviationOf(DragOf(model), v.train[i]);
-    EXPECT_GE(v.model.shared[DragOf(model)] + v.model.starts[i][own], -1e-12) << i;
+    EXPECT_GE(v.model.shared[DragOf(model)] + v.model.initial_states[i][own], -1e-12) << i;
   }
 }
 

@@ -18,7 +18,7 @@ struct Disturbed {
   FitProblem problem;
   std::vector<TrialProblem> trials;
   Eigen::VectorXd shared;
-  std::vector<OwnValues> starts;
+  std::vector<OwnValues> initial_states;
 
   Disturbed(std::vector<double> ratios, double scale, std::uint64_t seed, int train = 2)
       : problem(MakeProblem(testing::SmallDataset(train, 1, seed, 200.0), {})) {
@@ -48,12 +48,12 @@ struct Disturbed {
     request.problem = &problem;
     request.trials = &trials;
     request.shared = Eigen::Vector2d(22e9, 3.0);
-    request.starts = testing::NominalStarts(trials);
+    request.initial_states = testing::NominalInitialStates(trials);
     const SolveResult r = Solve(request);
     shared = r.shared;
-    starts = r.starts;
+    initial_states = r.initial_states;
   }
-  RestrictedLikelihood Likelihood() const { return {problem, trials, shared, starts, 1}; }
+  RestrictedLikelihood Likelihood() const { return {problem, trials, shared, initial_states, 1}; }
 };
 
 // The definition, by dense matrices: every row, every free column, flat priors.
@@ -65,7 +65,7 @@ double Dense(const Disturbed& d, const NoiseModel& noise) {
   std::vector<Eigen::VectorXd> r;
   for (std::size_t i = 0; i < d.trials.size(); ++i) {
     TrialEvaluation e;
-    EvaluationRequest q{d.shared, d.starts[i], true};
+    EvaluationRequest q{d.shared, d.initial_states[i], true};
     q.whiten = false;
     TrialEvaluator(d.problem, d.trials[i]).Evaluate(q, e);
     Eigen::MatrixXd C = Eigen::MatrixXd::Identity(e.residuals.size(), e.residuals.size());
@@ -122,7 +122,7 @@ TEST(RestrictedLikelihood, InAnotherDetailIsTheOneSimulatedInIt) {
   LikelihoodDetail detail = LikelihoodDetail::Coarse();
   detail.rows_a_channel = 20;
   detail.most_samples = 300;  // every second trial or fewer
-  const RestrictedLikelihood made(d.problem, d.trials, d.shared, d.starts, 1, detail);
+  const RestrictedLikelihood made(d.problem, d.trials, d.shared, d.initial_states, 1, detail);
   const RestrictedLikelihood taken = d.Likelihood().With(detail);
   const NoiseModel noise{{0.5, 0.7}, 0.02};
   ASSERT_NE(made.At(noise), d.Likelihood().At(noise));

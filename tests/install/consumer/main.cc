@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
     }
     const hoplab::Uncertainty uncertainty = hoplab::AssessUncertainty(
         fit.problem, hoplab::TrialsOf(fit.problem, hoplab::TrialRole::kTrain), fit.result.shared,
-        fit.result.starts, {}, 1);
+        fit.result.initial_states, {}, 1);
     const auto& interval = uncertainty.parameters[0].ci95;
     if (!interval) return 1;
     std::printf("%.17g %.17g %.17g\n", fit.result.shared[0], interval->first, interval->second);

@@ -15,34 +15,34 @@ namespace {
 using namespace testing;
 using D = SensitivityDirection;
 
-// Every variant that differs from the default in one word, and one that differs in all.
-struct NamedVariant {
+// Every reading that differs from the default in one word, and one that differs in all.
+struct NamedReading {
   std::string name;
-  ThesisVariant variant;
+  ThesisReading reading;
 };
-void PrintTo(const NamedVariant& v, std::ostream* out) { *out << v.name; }
+void PrintTo(const NamedReading& v, std::ostream* out) { *out << v.name; }
 
-std::vector<NamedVariant> Variants() {
-  std::vector<NamedVariant> variants;
-  NamedVariant all{"all", {}};
-  for (const VariantKey& key : VariantKeys()) {
+std::vector<NamedReading> Readings() {
+  std::vector<NamedReading> readings;
+  NamedReading all{"all", {}};
+  for (const ReadingKey& key : ReadingKeys()) {
     for (int word = 1; word < static_cast<int>(key.words.size()); ++word) {
-      NamedVariant one{std::string(key.key) + "_" + std::string(key.words[word]), {}};
-      key.set(one.variant, word);
-      key.set(all.variant, word);
-      variants.push_back(one);
+      NamedReading one{std::string(key.key) + "_" + std::string(key.words[word]), {}};
+      key.set(one.reading, word);
+      key.set(all.reading, word);
+      readings.push_back(one);
     }
   }
-  variants.push_back(all);
-  return variants;
+  readings.push_back(all);
+  return readings;
 }
 
-class Variant : public ::testing::TestWithParam<NamedVariant> {
+class EachReading : public ::testing::TestWithParam<NamedReading> {
  protected:
   // A controlled hop that rolls onto its toe: every word has something to do.
   SimulationRequest Request() const {
     SimulationRequest q = ThickLegRequest(Law::kThesis);
-    q.parameters.variant = GetParam().variant;
+    q.parameters.reading = GetParam().reading;
     q.parameters.theta_td = Degrees(12.0);
     q.parameters.kp = 0.6;
     q.parameters.v_des = 1.6;
@@ -50,7 +50,7 @@ class Variant : public ::testing::TestWithParam<NamedVariant> {
   }
 };
 
-TEST_P(Variant, DerivativesMatchDifferences) {
+TEST_P(EachReading, DerivativesMatchDifferences) {
   SimulationRequest q = Request();
   const Trajectory run = Simulate(q);
   ASSERT_TRUE(IsComplete(run.outcome)) << NameOf(run.outcome);
@@ -66,8 +66,8 @@ TEST_P(Variant, DerivativesMatchDifferences) {
   for (const ColumnCheck& check : checks) EXPECT_EQ(Complaint(check), "");
 }
 
-// With its terms null the extended leg is the plain one: two implementations of each variant.
-TEST_P(Variant, IsTheSameInTheLegThatTakesEffects) {
+// With its terms null the extended leg is the plain one: two implementations of each reading.
+TEST_P(EachReading, IsTheSameInTheLegThatTakesEffects) {
   SimulationRequest q = Request();
   const Trajectory plain = Simulate(q);
   const std::array effects = {EffectSetting::Null(*FindEffect("leg_hardening"))};
@@ -80,15 +80,15 @@ TEST_P(Variant, IsTheSameInTheLegThatTakesEffects) {
     EXPECT_NEAR(plain.final_state[i], extended.final_state[i], 1e-9) << i;
 }
 
-TEST_P(Variant, ChangesTheMotion) {
+TEST_P(EachReading, ChangesTheMotion) {
   SimulationRequest q = Request();
   const Trajectory changed = Simulate(q);
-  q.parameters.variant = {};
+  q.parameters.reading = {};
   const Trajectory plain = Simulate(q);
   EXPECT_GT(std::abs(changed.final_state[kX] - plain.final_state[kX]), 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(OneWordAndAll, Variant, ::testing::ValuesIn(Variants()),
+INSTANTIATE_TEST_SUITE_P(OneWordAndAll, EachReading, ::testing::ValuesIn(Readings()),
                          [](const auto& info) { return info.param.name; });
 
 // A state of rolling stance and the law's load there.
@@ -97,9 +97,9 @@ struct Rolling {
   std::array<double, 5> z;
   double u, y, l, alpha;
 
-  Rolling(const ThesisVariant& variant, RandomStream& random)
+  Rolling(const ThesisReading& reading, RandomStream& random)
       : p(ThickLegRequest(Law::kThesis).parameters) {
-    p.variant = variant;
+    p.reading = reading;
     alpha = random.Uniform(0.05, 0.4);
     l = 2.0 * p.r * std::cos(alpha) * random.Uniform(0.75, 0.99);
     u = l * std::sin(alpha);
@@ -111,14 +111,14 @@ struct Rolling {
   double Turn(double rate) const { return ((rate - z[kVx]) * y - u * z[kVy]) / (l * l); }
 };
 
-TEST(ThesisVariantLaw, RollsAsEachReadingOfM7Says) {
+TEST(ThesisReadingLaw, RollsAsEachReadingOfM7Says) {
   RandomStream random(5, 1);
   for (int i = 0; i < 200; ++i) {
-    ThesisVariant v;
-    v.rolling = i & 1 ? ThesisVariant::Rolling::kExplicit : ThesisVariant::Rolling::kImplicit;
-    v.angle_rate = i & 2 ? ThesisVariant::AngleRate::kVirtualLeg : ThesisVariant::AngleRate::kTheta;
+    ThesisReading v;
+    v.rolling = i & 1 ? ThesisReading::Rolling::kExplicit : ThesisReading::Rolling::kImplicit;
+    v.angle_rate = i & 2 ? ThesisReading::AngleRate::kVirtualLeg : ThesisReading::AngleRate::kTheta;
     v.rolling_radius =
-        i & 4 ? ThesisVariant::RollingRadius::kRest : ThesisVariant::RollingRadius::kDeformed;
+        i & 4 ? ThesisReading::RollingRadius::kRest : ThesisReading::RollingRadius::kDeformed;
     const Rolling state(v, random);
     const double rate = state.Load().contact_rate;
     const double radius = i & 4 ? state.p.r : state.l / (2.0 * std::cos(state.alpha));
@@ -129,24 +129,24 @@ TEST(ThesisVariantLaw, RollsAsEachReadingOfM7Says) {
   }
 }
 
-TEST(ThesisVariantLaw, DampsTheRateEachReadingNames) {
+TEST(ThesisReadingLaw, DampsTheRateEachReadingNames) {
   RandomStream random(5, 2);
   constexpr double kStep = 1e-6;
   for (int i = 0; i < 60; ++i) {
-    for (const auto word : {ThesisVariant::DampingRate::kChord, ThesisVariant::DampingRate::kHip,
-                            ThesisVariant::DampingRate::kDeflection}) {
+    for (const auto word : {ThesisReading::DampingRate::kChord, ThesisReading::DampingRate::kHip,
+                            ThesisReading::DampingRate::kDeflection}) {
       RandomStream same = random;
-      ThesisVariant v;
+      ThesisReading v;
       v.damping_rate = word;
       const Rolling state(v, same);
       const LegLoad<double> load = state.Load();
       // The quantity whose rate is damped, a little later and a little earlier.
       const auto length = [&](double t) {
-        const double contact = word == ThesisVariant::DampingRate::kHip ? 0.0 : load.contact_rate;
+        const double contact = word == ThesisReading::DampingRate::kHip ? 0.0 : load.contact_rate;
         const double u = state.u + t * (contact - state.z[kVx]);
         const double y = state.y + t * state.z[kVy];
         const double l = std::hypot(u, y);
-        return word == ThesisVariant::DampingRate::kDeflection ? l - 2.0 * state.p.r * y / l : l;
+        return word == ThesisReading::DampingRate::kDeflection ? l - 2.0 * state.p.r * y / l : l;
       };
       EXPECT_NEAR(load.damping_rate, (length(kStep) - length(-kStep)) / (2.0 * kStep), 1e-8);
     }
@@ -154,12 +154,12 @@ TEST(ThesisVariantLaw, DampsTheRateEachReadingNames) {
   }
 }
 
-TEST(ThesisVariantLaw, IsAsStiffAsEachReadingSays) {
+TEST(ThesisReadingLaw, IsAsStiffAsEachReadingSays) {
   RandomStream random(5, 3);
   for (int i = 0; i < 100; ++i) {
-    ThesisVariant v;
-    if (i & 1) v.stiffness_radius = ThesisVariant::StiffnessRadius::kRest;
-    if (i & 2) v.stiffness_angle = ThesisVariant::StiffnessAngle::kVirtualLeg;
+    ThesisReading v;
+    if (i & 1) v.stiffness_radius = ThesisReading::StiffnessRadius::kRest;
+    if (i & 2) v.stiffness_angle = ThesisReading::StiffnessAngle::kVirtualLeg;
     const Rolling state(v, random);
     const Parameters<double>& p = state.p;
     // M1 and M2 written out.
@@ -174,11 +174,11 @@ TEST(ThesisVariantLaw, IsAsStiffAsEachReadingSays) {
   }
 }
 
-TEST(ThesisVariantLaw, ThePrintedSignTurnsTheTorquesVerticalForceOver) {
+TEST(ThesisReadingLaw, ThePrintedSignTurnsTheTorquesVerticalForceOver) {
   for (const Law law : {Law::kThesis, Law::kStraightLeg}) {
     for (const bool printed : {false, true}) {
       SimulationRequest q = ExcitedRequest(law);
-      if (printed) q.parameters.variant.torque_sign = ThesisVariant::TorqueSign::kPrinted;
+      if (printed) q.parameters.reading.torque_sign = ThesisReading::TorqueSign::kPrinted;
       const Trajectory run = Simulate(q);
       const std::vector<double> times = TimesClearOfEvents(run);
       constexpr std::array kSeen = {Channel::kLegAngle, Channel::kLegLength, Channel::kGroundForceX,
@@ -202,12 +202,12 @@ TEST(ThesisVariantLaw, ThePrintedSignTurnsTheTorquesVerticalForceOver) {
   }
 }
 
-TEST(ThesisVariantLaw, TheStraightLegAndOtherLawsKnowNothingElse) {
+TEST(ThesisReadingLaw, TheStraightLegAndOtherLawsKnowNothingElse) {
   for (const Law law : {Law::kNoSlip, Law::kConsistent, Law::kStraightLeg}) {
     SimulationRequest q = ExcitedRequest(law);
     const Trajectory plain = Simulate(q);
-    q.parameters.variant = Variants().back().variant;
-    q.parameters.variant.torque_sign = ThesisVariant::TorqueSign::kNormal;
+    q.parameters.reading = Readings().back().reading;
+    q.parameters.reading.torque_sign = ThesisReading::TorqueSign::kNormal;
     const Trajectory same = Simulate(q);
     EXPECT_EQ(plain.final_state, same.final_state) << NameOf(law);
   }

@@ -9,7 +9,7 @@ namespace hoplab {
 /// What the published study leaves open about its law: readings of M5-M7 and M14 (section 3 of the
 /// equation sheet, M31-M37). The defaults are `thesis` as it stands there; the straight leg knows
 /// the sign of the torque alone. Settings without derivatives.
-struct ThesisVariant {
+struct ThesisReading {
   /// Whether dtheta/dt in M7 contains dx_c/dt (M31).
   enum class Rolling : std::uint8_t { kImplicit, kExplicit };
   /// Whose rate M7 rolls by: theta = 2 alpha, or alpha of the virtual leg (M32).
@@ -34,17 +34,17 @@ struct ThesisVariant {
   StiffnessAngle stiffness_angle = StiffnessAngle::kTheta;
   TorqueSign torque_sign = TorqueSign::kNormal;
 
-  bool operator==(const ThesisVariant&) const = default;
+  bool operator==(const ThesisReading&) const = default;
 };
 
 /// One of the settings above as files name it: a key and its words, the default first.
-struct VariantKey {
+struct ReadingKey {
   std::string_view key;
   std::span<const std::string_view> words;
-  int (*get)(const ThesisVariant& variant);  // index of the word
-  void (*set)(ThesisVariant& variant, int word_index);
+  int (*get)(const ThesisReading& reading);  // index of the word
+  void (*set)(ThesisReading& reading, int word_index);
 };
 /// All of them, in the order of the struct.
-std::span<const VariantKey> VariantKeys();
+std::span<const ReadingKey> ReadingKeys();
 
 }  // namespace hoplab
