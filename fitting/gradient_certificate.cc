@@ -34,8 +34,11 @@ double Size(const SharedParameter& s, double value) {
 }
 
 // Differences are taken over a step this much shorter where the events of a shifted simulation come
-// in another order, and how often: beyond, the simulations' own error is what is left of them.
+// in another order, or where half the step gives another slope by this share, and how often:
+// beyond, the simulations' own error is what is left of them. What is left of the share after
+// extrapolation is about its square.
 constexpr double kShorter = 0.25;
+constexpr double kBends = 1e-3;
 constexpr int kMostShorter = 4;
 
 // Events that act on the motion.
@@ -146,20 +149,25 @@ class TrialCheck {
     double h = k < n ? kStep * Size(problem_.shared[k], shared_[k])
                      : std::max(kStep * trial_.own[k - n].scale, kLeastStartStep);
     Side plus = SideOf(k, h), minus = SideOf(k, -h);
-    for (int i = 0; i < kMostShorter && !(plus.in_order && minus.in_order); ++i) {
+    for (int i = 0; i < kMostShorter; ++i) {
+      if (plus.in_order && minus.in_order && !Bends(k, plus, minus, h)) break;
       h *= kShorter;
       plus = SideOf(k, h);
       minus = SideOf(k, -h);
     }
     Differences out;
     out.step = h;
+    const std::string name = k < n ? problem_.shared[k].name : trial_.own[k - n].name;
     if (plus.in_order && minus.in_order) {
+      if (Bends(k, plus, minus, h))
+        flags.push_back(
+            {trial_.file, "an event is met so close to grazing that its derivative by " + name +
+                              " changes within the shortest difference"});
       NoteNew(plus, out);
       NoteNew(minus, out);
       out.slopes = Central(plus, minus, h);
       return out;
     }
-    const std::string name = k < n ? problem_.shared[k].name : trial_.own[k - n].name;
     flags.push_back(
         {trial_.file, "another event sequence begins right beside this " + name +
                           (plus.in_order || minus.in_order
@@ -170,6 +178,28 @@ class TrialCheck {
     NoteNew(side, out);
     out.slopes = OneSided(Simulate(k, 0.0).samples, side, plus.in_order ? h : -h);
     return out;
+  }
+  // Whether the slope over the step and that over half of it differ by more than kBends.
+  bool Bends(int k, const Side& plus, const Side& minus, double h) const {
+    Differences of;
+    NoteNew(plus, of);
+    NoteNew(minus, of);
+    const std::size_t columns = problem_.channels.size();
+    double difference = 0.0, norm = 0.0;
+    for (std::size_t row = 0; row < trial_.row_times.size(); ++row) {
+      const double time = trial_.row_times[row];
+      if (time >= of.first_new || IsNearEvent(time, k, h)) continue;
+      for (std::size_t c = 0; c < columns; ++c) {
+        const std::size_t cell = row * columns + c;
+        const double wide = (plus.whole.samples[cell] - minus.whole.samples[cell]) / (2.0 * h);
+        const double narrow = (plus.half.samples[cell] - minus.half.samples[cell]) / h;
+        if (!std::isfinite(wide) || !std::isfinite(narrow)) continue;
+        const double weight = 1.0 / problem_.channels[c].sigma;
+        difference += std::pow((wide - narrow) * weight, 2);
+        norm += std::pow(narrow * weight, 2);
+      }
+    }
+    return difference > kBends * kBends * norm;
   }
   static std::vector<double> Central(const Side& plus, const Side& minus, double h) {
     std::vector<double> slopes(plus.whole.samples.size());
@@ -248,6 +278,13 @@ GradientCertificate CertifyGradients(const FitProblem& problem,
   });
   GradientCertificate out;
   out.max_relative_error = std::numeric_limits<double>::quiet_NaN();
+  out.max_error_without_flags = std::numeric_limits<double>::quiet_NaN();
+  for (const TrialReport& report : reports) {
+    for (const double error : report.errors) {
+      if (report.flags.empty() && !std::isnan(error) && !(error <= out.max_error_without_flags))
+        out.max_error_without_flags = error;
+    }
+  }
   const auto take = [&](const CertificateColumn& column) {
     out.columns.push_back(column);
     if (!column.relative_error) return;

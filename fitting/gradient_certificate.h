@@ -25,6 +25,8 @@ struct CertificateFlag {
 struct GradientCertificate {
   double max_relative_error = 0.0;  // NaN if no column could be checked
   std::string worst_parameter;
+  /// The same over the trials without a flag; NaN where each has one.
+  double max_error_without_flags = 0.0;
   std::vector<CertificateColumn> columns;
   std::vector<CertificateFlag> flags;
 };

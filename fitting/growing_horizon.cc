@@ -21,11 +21,18 @@ constexpr double kRobotRound = 1e-5;
 // Nats by which a round's cost is clearly above another's.
 constexpr double kBehind = 10.0;
 
+// What the first rows cannot tell yet, the stiffness of a leg in the air, must not run off to where
+// later rows let no search begin: in a round each shared value is known to this share of itself, at
+// least of its typical size, about where the round begins. The last round knows nothing.
+constexpr double kRoomOfARound = 0.5;
+
 bool IsBehind(double cost, double other) { return std::isfinite(cost) && cost > other + kBehind; }
 
-// The trials cut to the first `fraction` of their time.
+// The trials cut to the first `fraction` of their time, and what a round that begins at `shared`
+// knows.
 std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
-                                        const std::vector<TrialProblem>& trials, double fraction) {
+                                        const std::vector<TrialProblem>& trials,
+                                        const Eigen::VectorXd& shared, double fraction) {
   std::vector<TrialProblem> cut;
   for (const TrialProblem& trial : trials) {
     const double until = trial.row_times.back() * fraction;
@@ -33,6 +40,11 @@ std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
     while (last < static_cast<int>(trial.row_times.size()) && trial.row_times[last] <= until)
       ++last;
     cut.push_back(CutTrial(problem, trial, 0, last));
+  }
+  for (int k = 0; k < problem.shared_count(); ++k) {
+    const double size =
+        std::max(problem.shared[static_cast<std::size_t>(k)].scale, std::abs(shared[k]));
+    cut.front().shared_priors.push_back({k, shared[k], kRoomOfARound * size});
   }
   return cut;
 }
@@ -49,7 +61,8 @@ SolveResult GrowHorizonBeside(SolveRequest request, const RoundCosts& other, Rou
   const int most = request.max_iterations;
   const double tolerance = request.function_tolerance;
   for (double fraction : {0.12, 0.2, 0.3, 0.45, 0.65, 0.85}) {
-    const std::vector<TrialProblem> cut = CutToFraction(*request.problem, whole, fraction);
+    const std::vector<TrialProblem> cut =
+        CutToFraction(*request.problem, whole, request.shared, fraction);
     request.trials = &cut;
     request.max_iterations = kIterations;
     if (TraitsOf(request.problem->law).has_costly_runs)

@@ -25,22 +25,30 @@ bool IsWall(const SharedParameter& s, Side side) {
   return bound != 0.0 && bound != 1.0 && bound != s.initial;
 }
 
-// Gain of a Gauss-Newton step that does not cross the bounds values lie on already.
+// Gain of a Gauss-Newton step that does not cross the bounds values lie on already, and that step.
 double PromisedNats(const FitProblem& problem, const Eigen::VectorXd& shared,
-                    const EliminatedTrial& all) {
+                    const EliminatedTrial& all, Eigen::VectorXd& of_shared) {
   const Eigen::VectorXd gradient = all.columns.transpose() * all.residuals;
   Eigen::MatrixXd S(all.columns.rows(), all.columns.cols());
+  std::vector<int> free_values;
   Eigen::Index free = 0;
+  of_shared = Eigen::VectorXd::Zero(problem.shared_count());
   for (int k = 0; k < problem.shared_count(); ++k) {
     const Side side = SideOf(problem.shared[static_cast<std::size_t>(k)], shared[k]);
     const bool outward =
         (side == Side::kLower && gradient[k] > 0.0) || (side == Side::kUpper && gradient[k] < 0.0);
     const bool seen = all.columns.col(k).squaredNorm() > 0.0;
-    if (seen && !outward) S.col(free++) = all.columns.col(k);
+    if (!seen || outward) continue;
+    S.col(free++) = all.columns.col(k);
+    free_values.push_back(k);
   }
   if (free == 0) return all.own_nats;
   S.conservativeResize(Eigen::NoChange, free);
   const Eigen::VectorXd step = S.completeOrthogonalDecomposition().solve(all.residuals);
+  for (Eigen::Index i = 0; i < free; ++i) {
+    const int k = free_values[static_cast<std::size_t>(i)];
+    of_shared[k] = -step[i] * problem.shared[static_cast<std::size_t>(k)].scale;
+  }
   return all.own_nats +
          0.5 * (all.residuals.squaredNorm() - (all.residuals - S * step).squaredNorm());
 }
@@ -52,6 +60,10 @@ std::string Text(const char* format, double value) {
 }
 
 }  // namespace
+
+bool StopCheck::OnlyPromises() const {
+  return complete && at_wall.empty() && faults.size() == 1 && !(promised_nats < kMinimumNats);
+}
 
 StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                     const Eigen::VectorXd& shared, const std::vector<OwnValues>& initial_states,
@@ -97,7 +109,7 @@ StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& 
                          s.unit);
   }
   if (!evaluated) return out;
-  out.promised_nats = PromisedNats(problem, shared, Stacked(eliminated));
+  out.promised_nats = PromisedNats(problem, shared, Stacked(eliminated), out.promised_step);
   if (!(out.promised_nats < kMinimumNats)) {
     out.faults.push_back(
         Text("the search ended where the fit still gets better, by %.2g nats to first order",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
 #include <string>
 #include <vector>
@@ -16,16 +17,23 @@ struct StopCheck {
   /// Log-likelihood that the linear model still promises there, bounds respected [nats]; NaN where
   /// not even a free flight leads on. At a minimum it is far below one.
   double promised_nats = std::numeric_limits<double>::quiet_NaN();
+  /// The step of the shared values that promises it, in their own units; zero for those it holds.
+  Eigen::VectorXd promised_step;
   /// Shared values on a bound where no physics ends: a modulus can be neither 1e3 nor 1e13 Pa.
   std::vector<std::string> at_wall;
   /// What speaks against a minimum, one sentence each.
   std::vector<std::string> faults;
 
   bool IsMinimum() const { return faults.empty(); }
+  /// Nothing else speaks against a minimum than what the linear model promises.
+  bool OnlyPromises() const;
 };
 
 /// A gain below this is the tolerance of two searches [nats].
 inline constexpr double kMinimumNats = 0.1;
+
+/// A promised step of fewer standard errors is within what an interval says.
+inline constexpr double kOfNoConsequence = 0.3;
 
 /// Linearises `trials` (of `problem`) at the values where a search has ended.
 StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& trials,

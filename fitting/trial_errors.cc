@@ -15,9 +15,18 @@ namespace hoplab {
 namespace {
 
 // Half a squared residual a sample beyond which a refitted start is tried from elsewhere, too, and
-// how often.
-constexpr double kPoorCost = 1.0;
+// how often; where the trials that were fitted have more, so many times theirs: a model that fits
+// nothing well fits no start well.
+constexpr double kPoorCost = 1.0, kPoorer = 2.0;
 constexpr int kMoreRestarts = 8;
+
+double PoorCost(const FitProblem& problem, const FitResult& fit) {
+  long samples = 0;
+  for (const TrialProblem& trial : problem.trials)
+    if (trial.role == TrialRole::kTrain) samples += trial.sample_count;
+  return samples > 0 ? std::max(kPoorCost, kPoorer * fit.cost / static_cast<double>(samples))
+                     : kPoorCost;
+}
 
 // A start drawn from what is known of it.
 OwnValues DrawnStart(const TrialProblem& trial, RandomStream& random) {
@@ -31,9 +40,9 @@ OwnValues DrawnStart(const TrialProblem& trial, RandomStream& random) {
 
 // The start of a held-out trial, the shared values held. Which of a robot's legs lands first turns
 // with its pitch, and a search does not pass from one order to the other: one that ends badly
-// begins again elsewhere.
+// begins again elsewhere. `poor`: the cost a sample of such an end.
 OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
-                     const Eigen::VectorXd& shared, const FitOptions& options) {
+                     const Eigen::VectorXd& shared, double poor, const FitOptions& options) {
   const std::vector<TrialProblem> one = {trial};
   SolveRequest request;
   request.problem = &problem;
@@ -46,8 +55,8 @@ OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
   request.stop = options.stop;
   const bool grows = TraitsOf(problem.law).lands_leg_by_leg;
   SolveResult best = grows ? GrowHorizon(request) : Solve(request);
-  const auto is_poor = [&trial](const SolveResult& r) {
-    return !r.complete || r.cost > kPoorCost * static_cast<double>(trial.sample_count);
+  const auto is_poor = [&](const SolveResult& r) {
+    return !r.complete || r.cost > poor * static_cast<double>(trial.sample_count);
   };
   RandomStream random(options.seed, 0);
   for (int k = 0; k < kMoreRestarts && grows && is_poor(best); ++k) {
@@ -130,6 +139,7 @@ std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult
       initial_states[i] = fit.initial_states[train++];
   }
   std::vector<TrialErrors> errors(problem.trials.size());
+  const double poor = PoorCost(problem, fit);
   ParallelFor(static_cast<int>(errors.size()), options.jobs, [&](int i) {
     const TrialProblem& trial = problem.trials[i];
     TrialErrors& out = errors[i];
@@ -137,7 +147,7 @@ std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult
     out.role = trial.role;
     if (test_only && trial.role == TrialRole::kTrain) return;
     if (trial.role == TrialRole::kTest)
-      initial_states[i] = RefitStart(problem, trial, fit.shared, options);
+      initial_states[i] = RefitStart(problem, trial, fit.shared, poor, options);
     const TrialEvaluator evaluator(problem, trial);
     TrialEvaluation e;
     evaluator.Evaluate({fit.shared, initial_states[i], false}, e);

@@ -91,6 +91,23 @@ void AddTrainFault(FitRun& run) {
       train, test));
 }
 
+// Where the model misses the data by much, the least cost lies at an edge, where events change
+// their order, and a search creeps along it. What it has not gained yet is told; it is no fault
+// where it moves no value beyond what its interval says.
+void ForgivePromises(const Uncertainty& uncertainty, FitRun& run) {
+  if (run.faults.empty()) return;
+  double most = 0.0;
+  for (int k = 0; k < run.problem.shared_count(); ++k) {
+    const auto& error = uncertainty.parameters[static_cast<std::size_t>(k)].std_error;
+    if (error && *error > 0.0)
+      most = std::max(most, std::abs(run.fit.stop.promised_step[k]) / *error);
+  }
+  if (!(most < kOfNoConsequence)) return;
+  run.note += fmt::format("{}{}, which moves no value by more than {:.2g} standard errors",
+                          run.note.empty() ? "" : "; ", run.faults.front(), most);
+  run.faults.clear();
+}
+
 }  // namespace
 
 std::string_view NameOf(FitStanding standing) {
@@ -192,9 +209,15 @@ FitRun RunFit(const Dataset& dataset, const FitRunOptions& options) {
   AddTrainFault(run);
   AddObjectives(options.fit, train, run);
   // Where a search is stuck there is nothing to be sure about.
+  const bool may_be_sure =
+      run.faults.empty() || (run.faults.size() == 1 && run.fit.stop.OnlyPromises());
+  if (!may_be_sure) return run;
+  Uncertainty uncertainty =
+      AssessUncertainty(run.problem, train, run.fit.shared, run.fit.initial_states,
+                        options.fit.loss, options.fit.jobs);
+  ForgivePromises(uncertainty, run);
   if (!run.faults.empty()) return run;
-  run.uncertainty = AssessUncertainty(run.problem, train, run.fit.shared, run.fit.initial_states,
-                                      options.fit.loss, options.fit.jobs);
+  run.uncertainty = std::move(uncertainty);
   run.certificate = CertifyGradients(run.problem, train, run.fit.shared, run.fit.initial_states,
                                      options.fit.jobs);
   if (!run.interrupted) AddProfiles(options, targets, run);

@@ -29,6 +29,10 @@ struct Gate {
 /// Sensitivities must agree with differences this well to be trusted with a diagnosis.
 inline constexpr double kGradientBound = 1e-4;
 
+/// A wrong model may fit best right where an event is met without crossing it: there a derivative
+/// ends, which the certificate flags. It is trusted where the other trials have the right ones.
+GateCheck CheckGradients(const GradientCertificate& certificate);
+
 /// Whether the null fit may be diagnosed: every train trial is simulated through all its data, the
 /// noise is known, the gradients hold. Where the fit is no minimum that is told; an extension of it
 /// may be one.

@@ -53,7 +53,7 @@ void JudgeWhatIsSeen(Diagnosis& d) {
     d.verdict = Verdict::kUnexplained;
     d.reason =
         "the best extension, " + NamesOf(d.naming.best) + ", needs a size beyond what is physical";
-  } else if (remains && e.explained < kExplained) {
+  } else if (remains && e.explained < kExplained && e.Probability() < kSure) {
     d.verdict = Verdict::kUnexplained;
     char text[96];
     std::snprintf(text, sizeof text, " explains only %.0f %% of the misfit", 100.0 * e.explained);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/support/fit_cases.h"
+#include "tests/support/robot_drops.h"
 
 namespace hoplab {
 namespace {
@@ -43,6 +44,31 @@ TEST(GrowingHorizon, GivesUpBesideOneThatFitsClearlyBetter) {
   EXPECT_TRUE(std::isinf(worse.cost));
   EXPECT_LT(own.size(), costs.size());
   EXPECT_TRUE(std::isfinite(GrowHorizon(held).cost));
+}
+
+// The front leg meets the ground at the end of the first rows. What two rows say of its stiffness
+// sent it to where no later round could begin, and the fit was refused.
+TEST(GrowingHorizon, ALegStillInTheAirKeepsItsStiffness) {
+  Scenario drop = testing::RobotDrops(
+      {{"controller", "{type: held, angles_rad: [0.2392, 0.6483]}"},
+       {"initial",
+        "{x_m: 0, y_m: 0.2288, vx_m_per_s: 0.309, vy_m_per_s: -0.043, pitch_rad: 0.0024, "
+        "pitch_rate_rad_per_s: -0.164}"}});
+  drop.dataset->trials.resize(1);
+  std::erase_if(drop.dataset->channels, [](const ChannelSpec& c) {
+    return NameOf(c.id).starts_with("hip_torque");
+  });
+  GenerateOptions options;
+  options.seed = 1;
+  FitProblem problem = MakeProblem(GenerateDataset(drop, options).dataset, {});
+  ASSERT_EQ(problem.shared_names(), (std::vector<std::string>{"E_1", "E_2", "leg_damping"}));
+  const double told[] = {24e9, 24e9, 3e-4};
+  for (std::size_t k = 0; k < 3; ++k) problem.shared[k].initial = told[k];
+  const FitResult fit = Fit(problem, {});
+  ASSERT_TRUE(fit.ok) << fit.message;
+  EXPECT_TRUE(fit.stop.IsMinimum());
+  EXPECT_NEAR(fit.shared[0], 22e9, 0.02 * 22e9);
+  EXPECT_NEAR(fit.shared[1], 22e9, 0.02 * 22e9);
 }
 
 }  // namespace

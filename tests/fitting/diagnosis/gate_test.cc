@@ -80,6 +80,28 @@ TEST(Gate, RefusesGradientsThatDifferFromDifferences) {
   EXPECT_EQ(refusal.rfind("gradients: ", 0), 0u) << refusal;
 }
 
+// A certificate of trials that differ by `worst`, and by `clear` where none has a flag.
+GradientCertificate Certificate(double worst, double clear) {
+  GradientCertificate c;
+  c.max_relative_error = worst;
+  c.max_error_without_flags = clear;
+  c.worst_parameter = "E";
+  return c;
+}
+
+TEST(Gate, TrustsGradientsThatDifferOnlyWhereAnEventGrazes) {
+  const GateCheck grazing = CheckGradients(Certificate(2e-2, 1e-8));
+  EXPECT_TRUE(grazing.passed);
+  EXPECT_NE(grazing.text.find("2.0e-02 (E) in a trial where"), std::string::npos) << grazing.text;
+  EXPECT_NE(grazing.text.find("agree to 1.0e-08"), std::string::npos) << grazing.text;
+}
+
+TEST(Gate, RefusesGradientsThatDifferInATrialWithoutAFlag) {
+  EXPECT_FALSE(CheckGradients(Certificate(2e-2, 2e-2)).passed);
+  EXPECT_FALSE(CheckGradients(Certificate(2e-2, std::nan(""))).passed);
+  EXPECT_FALSE(CheckGradients(Certificate(std::nan(""), std::nan(""))).passed);
+}
+
 TEST(CorrectNoise, KeepsNoiseThatIsStatedRight) {
   for (double rate : {100.0, 250.0}) {
     FitProblem p = MakeProblem(testing::DatasetOf({.rate_hz = rate}), {});
