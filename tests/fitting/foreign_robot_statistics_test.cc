@@ -1,6 +1,7 @@
-// Robots with one thing wrong that a physics engine drops (tests/support/beam_robot.h): what
+// Robots with one thing wrong that a physics engine runs (tests/support/beam_robot.h): what
 // diagnose calls a main cause, and whether it is there. HOPLAB_ROBOTS: how many, from
-// HOPLAB_ROBOT_SEED on; one of each fault by default. ctest -L statistics -R ForeignRobots
+// HOPLAB_ROBOT_SEED on; one of each fault by default. HOPLAB_ROBOT_TORQUE=1: the torque told to the
+// motors is compared, too. ctest -L statistics -R ForeignRobots
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@
 namespace hoplab::testing {
 namespace {
 
-// A `%` in the name stands for the leg, 1 and 2 in turn.
+// A `%` in the name stands for the leg, each in turn.
 struct Fault {
   const char* cause;  // of the catalogue; empty: none
   void (*plant)(Parameters<double>& p, std::size_t leg);
@@ -39,9 +40,9 @@ constexpr Fault kFaults[] = {
      [](Parameters<double>& p, std::size_t) { p.robot->pitch_inertia *= 1.15; }},
 };
 
-// The robot of datasets/robot-drops: legs of 10 g, half an arc of each fast to its motor.
-Parameters<double> SoundRobot() {
-  Parameters<double> p = RobotParametersFor(2);
+// The robots of datasets/: legs of 10 g, half an arc of each fast to its motor.
+Parameters<double> SoundRobot(int legs) {
+  Parameters<double> p = RobotParametersFor(legs);
   p.E = 21.991e9;
   p.I = 1.8355e-10;
   RobotParameters<double>& robot = *p.robot;
@@ -52,6 +53,46 @@ Parameters<double> SoundRobot() {
   robot.clamp = p.r * std::numbers::pi / 48.0;
   return p;
 }
+
+Parameters<double> Dropping() { return SoundRobot(2); }
+
+Parameters<double> Pronking() {
+  Parameters<double> p = SoundRobot(2);
+  p.E = 23.63e9;
+  RobotParameters<double>& robot = *p.robot;
+  robot.control = MotorControl::kClock;
+  robot.pitch_inertia = 0.03707;
+  robot.motor_kp = 47.35;
+  robot.motor_kd = 1.662;
+  robot.period = 0.399;
+  robot.duty = 0.5624;
+  robot.sweep = 1.25;
+  robot.offset = 0.4181;
+  return p;
+}
+
+Parameters<double> Tripod() {
+  Parameters<double> p = SoundRobot(3);
+  p.E = 30.82e9;
+  RobotParameters<double>& robot = *p.robot;
+  for (int i = 0; i < 3; ++i) robot.hip_x[i] = 0.15 * (i - 1);
+  robot.control = MotorControl::kClock;
+  robot.pitch_inertia = 0.04468;
+  robot.motor_kp = 56.52;
+  robot.motor_kd = 0.7199;
+  robot.period = 0.41;
+  robot.duty = 0.6339;
+  robot.sweep = 0.737;
+  robot.offset = 0.2098;
+  robot.phase = {0.0, 0.5, 0.0};
+  return p;
+}
+
+struct Kind {
+  const char* name;
+  Parameters<double> (*robot)();
+};
+class ForeignRobots : public ::testing::TestWithParam<Kind> {};
 
 int EnvironmentOr(const char* name, int value) {
   const char* text = std::getenv(name);
@@ -67,7 +108,7 @@ struct Count {
 void Judge(const Diagnosis& d, const std::string& planted, double E, Count& count) {
   std::string said;
   const std::string other = planted.empty() ? "" : planted.substr(0, planted.size() - 1);
-  const bool of_leg = !planted.empty() && (planted.back() == '1' || planted.back() == '2');
+  const bool of_leg = !planted.empty() && planted.back() >= '1' && planted.back() <= '4';
   bool first = true;
   for (const CauseReport& c : d.extension ? d.extension->causes : std::vector<CauseReport>()) {
     const std::string name = c.cause.Name();
@@ -97,22 +138,22 @@ void Judge(const Diagnosis& d, const std::string& planted, double E, Count& coun
   std::fflush(stdout);
 }
 
-TEST(ForeignRobots, WhatIsWrongIsNamed) {
+TEST_P(ForeignRobots, WhatIsWrongIsNamed) {
   const int first = EnvironmentOr("HOPLAB_ROBOT_SEED", 0);
   const int robots = EnvironmentOr("HOPLAB_ROBOTS", static_cast<int>(std::size(kFaults)));
   Count count;
   for (int seed = first; seed < first + robots; ++seed) {
     const Fault& fault = kFaults[static_cast<std::size_t>(seed) % std::size(kFaults)];
-    const auto leg = static_cast<std::size_t>(seed / static_cast<int>(std::size(kFaults))) % 2;
+    Parameters<double> told = GetParam().robot(), robot = told;
+    const int leg = seed / static_cast<int>(std::size(kFaults)) % told.robot->legs;
     std::string cause = fault.cause;
     if (const auto at = cause.find('%'); at != cause.npos)
       cause.replace(at, 1, std::to_string(leg + 1));
-    Parameters<double> told = SoundRobot(), robot = told;
-    fault.plant(robot, leg);
+    fault.plant(robot, static_cast<std::size_t>(leg));
     told.E = 24e9;
     told.robot->damping = 3e-4;
     const TempFolder folder;
-    RecordRobotDrops(robot, told, seed + 1, folder.path());
+    RecordRobot(robot, told, seed + 1, EnvironmentOr("HOPLAB_ROBOT_TORQUE", 0) != 0, folder.path());
     DiagnosisOptions options;
     options.fit.jobs = static_cast<int>(std::thread::hardware_concurrency());
     Judge(Diagnose(ReadDataset(folder.path()), options), cause, robot.E, count);
@@ -125,6 +166,11 @@ TEST(ForeignRobots, WhatIsWrongIsNamed) {
   EXPECT_EQ(count.wrong_leg, 0);
   EXPECT_GE(count.E_within, count.robots - 1);
 }
+
+INSTANTIATE_TEST_SUITE_P(, ForeignRobots,
+                         ::testing::Values(Kind{"Drops", Dropping}, Kind{"Pronks", Pronking},
+                                           Kind{"Walks", Tripod}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace hoplab::testing

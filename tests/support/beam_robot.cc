@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "base/random.h"
 #include "tests/support/arc_contact.h"
@@ -18,59 +19,114 @@
 namespace hoplab::testing {
 namespace {
 
-constexpr double kRow = 2e-3, kLongest = 0.8;  // s
-constexpr int kTrials = 9, kTrain = 6;
+constexpr double kRow = 2e-3;                                      // s
 constexpr double kPosition = 5e-4, kAngle = 1e-3, kTorque = 5e-3;  // noise [m], [rad], [N m]
 // The first degrees of freedom.
 enum Dof { kX, kY, kPitch };
 
-struct Drop {
-  std::array<double, kMaxLegs> angle;  // of the motors [rad]
+// How many runs, and how long.
+struct Plan {
+  int trials, train;
+  double longest;  // s
+};
+Plan PlanFor(const RobotParameters<double>& robot) {
+  return robot.control == MotorControl::kClock ? Plan{6, 4, 1.0} : Plan{9, 6, 0.8};
+}
+
+struct Run {
+  std::array<double, kMaxLegs> angle;  // of motors that are held [rad]
+  double period, sweep;                // of a clock [s], [rad]
   std::array<double, 6> start;         // x, y, vx, vy, pitch, its rate
 };
 
-Drop RandomDrop(const Parameters<double>& p, RandomStream& random) {
-  Drop drop = {};
-  for (int i = 0; i < p.robot->legs; ++i) drop.angle[i] = random.Uniform(0.15, 0.7);
-  drop.start = {0.0,
-                random.Uniform(0.225, 0.29),
-                random.Uniform(-0.1, 0.4),
-                random.Uniform(-0.05, 0.05),
-                random.Uniform(-0.08, 0.04),
-                random.Uniform(-0.4, 0.3)};
-  return drop;
+Run RandomDrop(const Parameters<double>& p, RandomStream& random) {
+  Run run = {};
+  for (int i = 0; i < p.robot->legs; ++i) run.angle[i] = random.Uniform(0.15, 0.7);
+  run.start = {0.0,
+               random.Uniform(0.225, 0.29),
+               random.Uniform(-0.1, 0.4),
+               random.Uniform(-0.05, 0.05),
+               random.Uniform(-0.08, 0.04),
+               random.Uniform(-0.4, 0.3)};
+  return run;
+}
+
+// Legs in phase leap, others walk: from near a steady gait of the robots in datasets/.
+Run RandomGait(const Parameters<double>& p, RandomStream& random) {
+  const RobotParameters<double>& robot = *p.robot;
+  const bool leaps = robot.phase[0] == robot.phase[1];
+  Run run = {};
+  run.period = robot.period * random.Uniform(0.97, 1.03);
+  run.sweep = robot.sweep * random.Uniform(0.98, 1.02);
+  if (leaps)
+    run.start = {0.0,
+                 random.Uniform(0.215, 0.223),
+                 random.Uniform(0.72, 0.775),
+                 random.Uniform(-0.01, 0.03),
+                 random.Uniform(0.015, 0.049),
+                 random.Uniform(-0.077, 0.025)};
+  else
+    run.start = {0.0,
+                 random.Uniform(0.2045, 0.2065),
+                 random.Uniform(0.44, 0.48),
+                 random.Uniform(-0.015, 0.015),
+                 random.Uniform(-0.04, -0.02),
+                 random.Uniform(-0.04, 0.04)};
+  return run;
+}
+
+// Angle and rate that motor i follows at t: held, or by the clock (M76).
+struct Followed {
+  double angle, rate;
+};
+Followed FollowedAt(const RobotParameters<double>& robot, const Run& run, int i, double t) {
+  if (robot.control != MotorControl::kClock) return {run.angle[i], 0.0};
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double c = t / run.period + robot.phase[i], turns = std::floor(c), s = c - turns;
+  const double slow = run.sweep / (robot.duty * run.period);
+  const double fast = (kTurn - run.sweep) / ((1.0 - robot.duty) * run.period);
+  if (s < robot.duty)
+    return {robot.offset + 0.5 * run.sweep - kTurn * turns - slow * s * run.period, -slow};
+  return {robot.offset - 0.5 * run.sweep - kTurn * turns - fast * (s - robot.duty) * run.period,
+          -fast};
 }
 
 // Whether the robot is about to fall: then what is recorded ends.
 bool Tips(const Parameters<double>& p, const mjData& data) {
-  constexpr double kTipped = 0.6;  // rad
-  return std::abs(data.qpos[kPitch]) > kTipped || data.qpos[kY] < p.r;
+  // A leap by the clock pitches more than a drop.
+  const double tipped = p.robot->control == MotorControl::kClock ? 0.9 : 0.6;  // rad
+  return std::abs(data.qpos[kPitch]) > tipped || data.qpos[kY] < p.r;
 }
 
-void RecordDrop(const Parameters<double>& p, mjModel& model, const Drop& drop, RandomStream& noise,
-                const std::filesystem::path& file) {
+void RecordRun(const Parameters<double>& p, mjModel& model, const Run& run, RandomStream& noise,
+               const std::filesystem::path& file) {
   const RobotParameters<double>& robot = *p.robot;
   const MujocoData data = NewData(model);
   std::array<int, kMaxLegs> hip = {};
   for (int i = 0; i < robot.legs; ++i)
     hip[i] = model.jnt_dofadr[mj_name2id(&model, mjOBJ_JOINT, fmt::format("hip{}", i).c_str())];
-  data->qpos[kY] = drop.start[1];
-  data->qvel[kX] = drop.start[2];
-  data->qvel[kY] = drop.start[3];
-  data->qpos[kPitch] = drop.start[4];
-  data->qvel[kPitch] = drop.start[5];
-  for (int i = 0; i < robot.legs; ++i) data->qpos[hip[i]] = drop.angle[i];
+  data->qpos[kY] = run.start[1];
+  data->qvel[kX] = run.start[2];
+  data->qvel[kY] = run.start[3];
+  data->qpos[kPitch] = run.start[4];
+  data->qvel[kPitch] = run.start[5];
+  for (int i = 0; i < robot.legs; ++i) {
+    const Followed begin = FollowedAt(robot, run, i, 0.0);
+    data->qpos[hip[i]] = begin.angle;
+    data->qvel[hip[i]] = begin.rate;
+  }
   std::ofstream csv(file);
   csv << "time_s,body_x_m,body_y_m,body_pitch_rad";
   for (int i = 1; i <= robot.legs; ++i) csv << fmt::format(",leg_angle_{}_rad", i);
   for (int i = 1; i <= robot.legs; ++i) csv << fmt::format(",hip_torque_{}_N_m", i);
   csv << '\n';
-  for (int row = 0; data->time <= kLongest && !Tips(p, *data);) {
+  for (int row = 0; data->time <= PlanFor(robot).longest && !Tips(p, *data);) {
     mj_step1(&model, data.get());
     std::array<double, kMaxLegs> told = {};
     for (int i = 0; i < robot.legs; ++i) {
-      told[i] = std::clamp(robot.motor_kp * (drop.angle[i] - data->qpos[hip[i]]) -
-                               robot.motor_kd * data->qvel[hip[i]],
+      const Followed at = FollowedAt(robot, run, i, data->time);
+      told[i] = std::clamp(robot.motor_kp * (at.angle - data->qpos[hip[i]]) +
+                               robot.motor_kd * (at.rate - data->qvel[hip[i]]),
                            -robot.torque_limit, robot.torque_limit);
       data->ctrl[i] = robot.motor_gain * robot.gain_of[i] * told[i];
     }
@@ -91,7 +147,7 @@ void RecordDrop(const Parameters<double>& p, mjModel& model, const Drop& drop, R
   }
 }
 
-void DescribeRobot(const Parameters<double>& p, std::ostream& yaml) {
+void DescribeRobot(const Parameters<double>& p, bool compares_torque, std::ostream& yaml) {
   const RobotParameters<double>& robot = *p.robot;
   yaml << fmt::format(
       "format: hoplab-dataset/1\nname: robot\ntitle: A robot on chains of arcs in MuJoCo\n"
@@ -111,43 +167,57 @@ void DescribeRobot(const Parameters<double>& p, std::ostream& yaml) {
       "channels:\n  body_x_m: {{sigma: {0}}}\n  body_y_m: {{sigma: {0}}}\n"
       "  body_pitch_rad: {{sigma: {1}}}\n",
       kPosition, kAngle);
-  for (int i = 1; i <= robot.legs; ++i)
-    yaml << fmt::format(
-        "  leg_angle_{0}_rad: {{sigma: {1}}}\n  hip_torque_{0}_N_m: {{sigma: {2}}}\n", i, kAngle,
-        kTorque);
+  for (int i = 1; i <= robot.legs; ++i) {
+    yaml << fmt::format("  leg_angle_{}_rad: {{sigma: {}}}\n", i, kAngle);
+    if (compares_torque) yaml << fmt::format("  hip_torque_{}_N_m: {{sigma: {}}}\n", i, kTorque);
+  }
   yaml << "trials:\n";
+}
+
+std::string ControllerText(const RobotParameters<double>& robot, const Run& run) {
+  const auto list = [&](const std::array<double, kMaxLegs>& values) {
+    std::string text;
+    for (int k = 0; k < robot.legs; ++k)
+      text += fmt::format("{}{:.6f}", k > 0 ? ", " : "", values[k]);
+    return text;
+  };
+  if (robot.control != MotorControl::kClock)
+    return fmt::format("{{type: held, angles_rad: [{}]}}", list(run.angle));
+  return fmt::format(
+      "{{type: clock, period_s: {}, duty: {}, sweep_rad: {}, offset_rad: {}, phases: [{}]}}",
+      run.period, robot.duty, run.sweep, robot.offset, list(robot.phase));
 }
 
 }  // namespace
 
-void RecordRobotDrops(const Parameters<double>& p, const Parameters<double>& told, int seed,
-                      const std::filesystem::path& folder) {
+void RecordRobot(const Parameters<double>& p, const Parameters<double>& told, int seed,
+                 bool compares_torque, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   MeetEllipsoidsAsArcs();
   const MujocoModel model = CompileMujoco(BeamRobotText(p));
   std::ofstream yaml(folder / "dataset.yaml");
-  DescribeRobot(told, yaml);
+  DescribeRobot(told, compares_torque, yaml);
   RandomStream random(static_cast<std::uint64_t>(seed), 1);
-  for (int i = 0; i < kTrials; ++i) {
-    const Drop drop = RandomDrop(p, random);
-    const char* role = i < kTrain ? "train" : "test";
+  const Plan plan = PlanFor(*p.robot);
+  const bool by_clock = p.robot->control == MotorControl::kClock;
+  for (int i = 0; i < plan.trials; ++i) {
+    const Run run = by_clock ? RandomGait(p, random) : RandomDrop(p, random);
+    const char* role = i < plan.train ? "train" : "test";
     const std::string name = fmt::format("{}-{}.csv", role, i + 1);
-    RecordDrop(p, *model, drop, random, folder / name);
-    std::string angles;
-    for (int k = 0; k < p.robot->legs; ++k)
-      angles += fmt::format("{}{:.6f}", k > 0 ? ", " : "", drop.angle[k]);
+    RecordRun(p, *model, run, random, folder / name);
     // What is stated of a start is off by its sigma.
     constexpr std::array<double, 6> kSigma = {0.002, 0.002, 0.02, 0.02, 0.005, 0.05};
     std::array<double, 6> start;
     for (std::size_t k = 0; k < start.size(); ++k)
-      start[k] = drop.start[k] + kSigma[k] * random.Normal();
+      start[k] = run.start[k] + kSigma[k] * random.Normal();
     yaml << fmt::format(
-        "  - file: {}\n    role: {}\n    controller: {{type: held, angles_rad: [{}]}}\n"
+        "  - file: {}\n    role: {}\n    controller: {}\n"
         "    initial: {{x_m: {:.5f}, y_m: {:.5f}, vx_m_per_s: {:.4f}, vy_m_per_s: {:.4f}, "
         "pitch_rad: {:.5f}, pitch_rate_rad_per_s: {:.4f}}}\n"
         "    initial_sigma: {{x_m: 0.002, y_m: 0.002, vx_m_per_s: 0.02, vy_m_per_s: 0.02, "
         "pitch_rad: 0.005, pitch_rate_rad_per_s: 0.05}}\n",
-        name, role, angles, start[0], start[1], start[2], start[3], start[4], start[5]);
+        name, role, ControllerText(*p.robot, run), start[0], start[1], start[2], start[3], start[4],
+        start[5]);
   }
 }
 
