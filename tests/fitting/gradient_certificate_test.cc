@@ -150,7 +150,7 @@ TEST(GradientCertificate, RightBesideAnotherOrderOfEventsDifferencesAreOfOneSide
 // difference, 10 um of it, no straight line and no parabola is the motion. It is pushed up again
 // before it comes to rest.
 TEST(GradientCertificate, ADifferenceIsShorterBesideAGraze) {
-  const PushedBall ball(0.5, 0.004, Eigen::Vector4d(0.0, ContactHeight() + 3e-5, 1.5, 0.0));
+  const PushedBall ball(8.0, 0.006, Eigen::Vector4d(0.0, ContactHeight() + 3e-5, 1.5, 0.0));
   ASSERT_EQ(ball.FirstEvents(0.0), (std::vector{EventKind::kBounce, EventKind::kCorner}));
   const GradientCertificate c = ball.Certify();
   EXPECT_LT(c.max_relative_error, 1e-6) << c.worst_parameter;
