@@ -84,7 +84,7 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
     text += Labelled("not sought",
                      Capped(unsought) +
                          ": runs with them are slow, so they are tried where the "
-                         "causes found leave something to see",
+                         "causes found leave more than a detail to see",
                      colours);
   return text;
 }

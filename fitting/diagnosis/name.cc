@@ -26,8 +26,8 @@ constexpr double kWorthATry = 4.0;
 // the noise's square). What explains less than both is a detail of the model, which the discrepancy
 // stands for.
 constexpr double kLeastShare = 1e-3, kLeastPerSample = 0.01;
-// A set that leaves this share of the misfit beyond noise may be one of stand-ins; so many causes
-// then join it at once.
+// A set that leaves this share of the misfit beyond noise may be one of stand-ins, and slow causes
+// are sought; so many causes join it at once.
 constexpr double kMuch = 5e-3;
 constexpr int kJoin = 3;
 // Rounds in which a set is put in order; each but the last changes it.
@@ -184,10 +184,10 @@ class Search {
     return std::nullopt;
   }
   bool IsSlow(std::size_t i) const { return naming_.candidates[i].candidate.effect->info.slow; }
-  // The set misses more than noise does, by three of its standard deviations.
+  // The set misses more than noise does, by three of its standard deviations, and no mere detail.
   bool MisfitIsSeen(const CandidateSet& set) const {
     const double noise = 0.5 * null_at_.degrees_of_freedom();
-    return refits_.White(set).cost - noise > 3.0 * std::sqrt(noise);
+    return refits_.White(set).cost - noise > std::max(3.0 * std::sqrt(noise), kMuch * Misfit());
   }
   bool SeeksSlowOnes(const CandidateSet& set) const {
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i)
