@@ -42,7 +42,7 @@ class StopOnRequest : public ceres::IterationCallback {
   const std::atomic<bool>* stop_;
 };
 
-LeastSquaresResult::Status StatusOf(const ceres::Solver::Summary& summary) {
+LeastSquaresResult::Status OutcomeOf(const ceres::Solver::Summary& summary) {
   using Status = LeastSquaresResult::Status;
   switch (summary.termination_type) {
     case ceres::CONVERGENCE:
@@ -87,7 +87,7 @@ LeastSquaresResult SolveLeastSquares(const LeastSquaresRequest& request) {
   options.callbacks = {&stop};
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  result.status = StatusOf(summary);
+  result.status = OutcomeOf(summary);
   result.cost = summary.final_cost;
   result.iterations = static_cast<int>(summary.iterations.size());
   return result;

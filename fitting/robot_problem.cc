@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "fitting/trial_start.h"
+
 namespace hoplab {
 namespace {
 
-// Priors tighter than this pin a component.
-constexpr double kTightest = 1e-9;
 // Sizes of a change of pitch and its rate that matter where no prior tells one: [rad], [rad/s].
 constexpr double kPitchScale = 0.05, kPitchRateScale = 0.5;
 
@@ -20,7 +20,7 @@ void AddStart(const char* name, int place, double scale, double value,
                    .direction = SensitivityDirection::InitialState(place),
                    .scale = scale,
                    .prior_mean = value};
-  if (sigma) own.prior_sigma = std::max(*sigma, kTightest);
+  if (sigma) own.prior_sigma = std::max(*sigma, kTightestPrior);
   own.scale = std::min(own.scale, own.prior_sigma);
   t.start.conservativeResize(place + 1);
   t.start[place] = value;

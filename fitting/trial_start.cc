@@ -16,8 +16,6 @@ namespace {
 // Sizes of a change of start that matter where no prior tells one: [m], [m], [m/s], [m/s].
 constexpr std::array<double, 4> kStartScale = {0.01, 0.01, 0.05, 0.05};
 constexpr std::array<const char*, 4> kStartNames = {"x0", "y0", "vx0", "vy0"};
-// Priors tighter than this pin a component: the optimiser still sees a well-scaled variable.
-constexpr double kTightest = 1e-9;
 
 bool Sees(const FitProblem& problem, Channel channel) {
   return std::any_of(problem.channels.begin(), problem.channels.end(),
@@ -32,7 +30,7 @@ void SetContact(const Trial& trial, TrialProblem& t) {
                        .direction = SensitivityDirection::InitialState(4),
                        .scale = kStartScale[0],
                        .prior_mean = *trial.initial->contact_x_m};
-  if (known) contact.prior_sigma = std::max(*trial.initial_sigma->contact_x_m, kTightest);
+  if (known) contact.prior_sigma = std::max(*trial.initial_sigma->contact_x_m, kTightestPrior);
   contact.scale = std::min(contact.scale, contact.prior_sigma);
   t.start.conservativeResize(5);
   t.start[4] = contact.prior_mean;
@@ -109,7 +107,7 @@ void SetStart(const Trial& trial, const FitProblem& problem, TrialProblem& t) {
   if (trial.initial && trial.initial_sigma) {
     const OwnValues sigma = StateOfSpec(*trial.initial_sigma);
     for (int i = 0; i < 4; ++i) {
-      t.own[i].prior_sigma = std::max(sigma[i], kTightest);
+      t.own[i].prior_sigma = std::max(sigma[i], kTightestPrior);
       t.own[i].scale = std::min(t.own[i].scale, t.own[i].prior_sigma);
     }
   }

@@ -20,13 +20,13 @@ using enum TextTable::Align;
 
 constexpr std::size_t kMostTrials = 12;  // listed of a size that differs between trials
 
-struct Interval {
+struct CauseInterval {
   std::optional<std::pair<double, double>> ci;
   bool at_bound = false;
 };
 
-void AddCauseRow(TextTable& table, const SharedParameter& s, double value, const Interval& interval,
-                 const std::array<std::string, 2>& remarks) {
+void AddCauseRow(TextTable& table, const SharedParameter& s, double value,
+                 const CauseInterval& interval, const std::array<std::string, 2>& remarks) {
   const ReadableUnit unit = ReadableUnitOf(value, s.unit);
   std::string shown = Significant(value * unit.factor, 3), range;
   if (interval.ci) {
@@ -70,7 +70,7 @@ void AddCause(TextTable& table, const Diagnosis& d, const CauseReport& cause, bo
     if (place < 0) continue;
     for (int i = 0; i < c.candidate.parameter_count(); ++i) {
       const auto at = static_cast<std::size_t>(place) + static_cast<std::size_t>(i);
-      Interval interval;
+      CauseInterval interval;
       if (!rival) {
         const ParameterUncertainty& p = u.parameters[at];
         interval = {between ? p.ci95_between_trials : p.ci95, p.at_bound};

@@ -7,11 +7,12 @@
 namespace hoplab {
 namespace {
 
-constexpr std::string_view kKeys[] = {"effect", "check", "look_alikes"};
+constexpr std::string_view kAdviceKeys[] = {"effect", "check", "look_alikes"};
 
 std::vector<EffectAdvice> ReadAdvice() {
   std::vector<EffectAdvice> advice;
-  for (const TextEntry& e : EntriesOf("effects.txt", kKeys)) advice.push_back({e[0], e[1], e[2]});
+  for (const TextEntry& e : EntriesOf("effects.txt", kAdviceKeys))
+    advice.push_back({e[0], e[1], e[2]});
   return advice;
 }
 

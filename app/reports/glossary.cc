@@ -5,11 +5,11 @@
 namespace hoplab {
 namespace {
 
-constexpr std::string_view kKeys[] = {"word", "also", "what", "meaning"};
+constexpr std::string_view kGlossaryKeys[] = {"word", "also", "what", "meaning"};
 
 std::vector<GlossaryEntry> ReadGlossary() {
   std::vector<GlossaryEntry> words;
-  for (const TextEntry& e : EntriesOf("glossary.txt", kKeys))
+  for (const TextEntry& e : EntriesOf("glossary.txt", kGlossaryKeys))
     words.push_back({e[0], e[1], e[2], e[3]});
   return words;
 }

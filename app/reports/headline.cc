@@ -8,22 +8,22 @@
 namespace hoplab {
 namespace {
 
-struct Kind {
+struct RunKind {
   const char* command;
   const char* title;
   void (*fill)(const Json&, Headline&);
 };
-constexpr std::array<Kind, 11> kKinds = {{{"check", "Check", CheckHeadline},
-                                          {"fit", "Fit", FitHeadline},
-                                          {"diagnose", "Diagnosis", DiagnosisHeadline},
-                                          {"discover", "Formula", DiscoveryHeadline},
-                                          {"design", "Trial to record next", DesignHeadline},
-                                          {"gait", "Gait", GaitHeadline},
-                                          {"optimize", "Optimisation", OptimizeHeadline},
-                                          {"sweep", "Sweep", SweepHeadline},
-                                          {"simulate", "Simulation", SimulationHeadline},
-                                          {"report", "Comparison", ComparisonHeadline},
-                                          {"reproduce", "Reproduction", ReproductionHeadline}}};
+constexpr std::array<RunKind, 11> kKinds = {{{"check", "Check", CheckHeadline},
+                                             {"fit", "Fit", FitHeadline},
+                                             {"diagnose", "Diagnosis", DiagnosisHeadline},
+                                             {"discover", "Formula", DiscoveryHeadline},
+                                             {"design", "Trial to record next", DesignHeadline},
+                                             {"gait", "Gait", GaitHeadline},
+                                             {"optimize", "Optimisation", OptimizeHeadline},
+                                             {"sweep", "Sweep", SweepHeadline},
+                                             {"simulate", "Simulation", SimulationHeadline},
+                                             {"report", "Comparison", ComparisonHeadline},
+                                             {"reproduce", "Reproduction", ReproductionHeadline}}};
 
 }  // namespace
 
@@ -33,7 +33,7 @@ Headline HeadlineOf(const Json& record) {
   std::string subject = TextAt(record, "/dataset");
   if (subject.empty()) subject = TextAt(record, "/scenario");
   const auto kind = std::find_if(kKinds.begin(), kKinds.end(),
-                                 [&](const Kind& k) { return command == k.command; });
+                                 [&](const RunKind& k) { return command == k.command; });
   const bool known = kind != kKinds.end();
   out.title =
       (known ? kind->title : "hoplab " + command) + (subject.empty() ? "" : " of ") + subject;

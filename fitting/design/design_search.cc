@@ -18,13 +18,13 @@ namespace {
 // What the search sees of a design that cannot be simulated: worse than any that can, whose
 // logarithm is that of an entropy (at most that of the rivals' number) or of a share.
 constexpr double kWorthless = 10.0;
-constexpr int kMostAsked = 100;  // designs that are tried with settings off
-constexpr double kLeast = -1e4;  // of a logarithm, where nothing is left
+constexpr int kMostAsked = 100;           // designs that are tried with settings off
+constexpr double kLeastLogarithm = -1e4;  // of a logarithm, where nothing is left
 
 using Fill = std::function<void(const TrialProblem& trial, DesignTried& tried)>;
 
 double RankOf(const DesignTried& tried) {
-  return tried.failure.empty() ? std::max(tried.log_left, kLeast) : kWorthless;
+  return tried.failure.empty() ? std::max(tried.log_left, kLeastLogarithm) : kWorthless;
 }
 
 double Apart(const DesignTried& a, const DesignTried& b) {

@@ -28,9 +28,9 @@ constexpr double kNearShape = 1.5;
 // Nats the exponent must gain to be told as another number than the whole one.
 constexpr double kExponentPays = 3.0;
 
-class Search {
+class FormulaSearch {
  public:
-  Search(const DiagnosisOptions& options, Discovery& out) : options_(options), out_(out) {}
+  FormulaSearch(const DiagnosisOptions& options, Discovery& out) : options_(options), out_(out) {}
 
   void Run(const std::vector<TrialProblem>& train) {
     train_ = &train;
@@ -303,7 +303,7 @@ Discovery DiscoverFrom(const Diagnosis& base, const DiagnosisOptions& options) {
   Discovery out;
   out.base = base;
   if (base.refusal.empty() && !stopped())
-    Search(options, out).Run(TrialsOf(base.problem, TrialRole::kTrain));
+    FormulaSearch(options, out).Run(TrialsOf(base.problem, TrialRole::kTrain));
   out.base.interrupted = stopped();
   return out;
 }

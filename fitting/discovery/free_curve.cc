@@ -10,7 +10,7 @@ namespace hoplab {
 namespace {
 
 constexpr int kHats = 9;
-constexpr double kFar = 1e6;  // no physical bound
+constexpr double kNoBound = 1e6;  // no physical bound
 
 // The factor by which a formula of the library acts in one phase; empty: always.
 std::string PhaseOf(const Formula& formula) {
@@ -36,10 +36,10 @@ const Effect& Hat(const Term& term, const PlaceInfo& place, const VariableInfo& 
   source.formula =
       "c * max(1 - abs(" + name + " - centre)/width, 0)" + (phase.empty() ? "" : " * " + phase);
   const std::string unit(v.unit == "-" ? "1" : v.unit);
-  source.parameters = {
-      {"c", std::string(place.unit == "-" ? "1" : place.unit), 0.0, std::nullopt, -kFar, kFar, 1.0},
-      {"centre", unit, std::nullopt, centre, -kFar, kFar, std::nullopt},
-      {"width", unit, std::nullopt, width, 0.0, kFar, std::nullopt}};
+  source.parameters = {{"c", std::string(place.unit == "-" ? "1" : place.unit), 0.0, std::nullopt,
+                        -kNoBound, kNoBound, 1.0},
+                       {"centre", unit, std::nullopt, centre, -kNoBound, kNoBound, std::nullopt},
+                       {"width", unit, std::nullopt, width, 0.0, kNoBound, std::nullopt}};
   source.sentence = "a hat over " + name;
   return FormulaEffect(source);
 }
@@ -129,8 +129,8 @@ std::optional<ReconstructedForce> FreeCurve(const Term& term, const FittedModel&
     group.centres.push_back(over.least + k * width);
     basis.probes.emplace_back(&Hat(term, place, *v, group.centres.back(), width, k + 1));
   }
-  basis.hypotheses.push_back(
-      {0, kHats, Eigen::VectorXd::Constant(kHats, -kFar), Eigen::VectorXd::Constant(kHats, kFar)});
+  basis.hypotheses.push_back({0, kHats, Eigen::VectorXd::Constant(kHats, -kNoBound),
+                              Eigen::VectorXd::Constant(kHats, kNoBound)});
   basis.groups.push_back(std::move(group));
   const auto [held, c] = Held(best, *term.effect);
   FreeForces free = Reconstruct(LineariseAt(held, basis.probes, train, jobs), basis, seed);
