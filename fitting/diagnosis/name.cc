@@ -29,6 +29,8 @@ constexpr double kLeastShare = 1e-3, kLeastPerSample = 0.01;
 // A set that leaves this share of the misfit beyond noise may be one of stand-ins, and slow causes
 // are sought; so many causes join it at once.
 constexpr double kMuch = 5e-3;
+// One that leaves less than this explains the data by and large.
+constexpr double kLittle = 0.1;
 constexpr int kJoin = 3;
 // Rounds in which a set is put in order; each but the last changes it.
 constexpr int kRounds = 8;
@@ -56,7 +58,7 @@ class Search {
     CandidateSet current = single;
     current = refits_.Better(current, Pairs(), kPairsSettled);
     const bool slow_ones = SeeksSlowOnes(current);
-    if (slow_ones) current = refits_.Better(current, SlowOnes(), kPairsSettled);
+    if (slow_ones) current = refits_.Better(current, SlowOnes(current), kPairsSettled);
     if (!current.empty())
       current = refits_.Better(current, BeyondThresholds(single, slow_ones), kPairsSettled);
     current = Grown(current);
@@ -172,39 +174,32 @@ class Search {
   static bool Holds(const CandidateSet& set, int i) {
     return std::find(set.begin(), set.end(), i) != set.end();
   }
-  // The candidate without which candidate i hardly shows.
-  std::optional<int> ShowsBeside(int i) const {
-    const Candidate& candidate = naming_.candidates[static_cast<std::size_t>(i)].candidate;
-    for (std::size_t k = 0; k < naming_.candidates.size(); ++k) {
-      const Candidate& other = naming_.candidates[k].candidate;
-      if (other.effect->info.name == candidate.effect->info.shows_beside &&
-          other.only_recording == candidate.only_recording)
-        return static_cast<int>(k);
-    }
-    return std::nullopt;
-  }
   bool IsSlow(std::size_t i) const { return naming_.candidates[i].candidate.effect->info.slow; }
   // The set misses more than noise does, by three of its standard deviations, and no mere detail.
   bool MisfitIsSeen(const CandidateSet& set) const {
     const double noise = 0.5 * null_at_.degrees_of_freedom();
-    return refits_.White(set).cost - noise > std::max(3.0 * std::sqrt(noise), kMuch * Misfit());
+    return Left(set) > std::max(3.0 * std::sqrt(noise), kMuch * Misfit());
   }
   bool SeeksSlowOnes(const CandidateSet& set) const {
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i)
       if (IsSlow(i)) return MisfitIsSeen(set);
     return false;
   }
-  // What is slow and gained nothing by itself is not tried beside others, each a minute and more.
-  bool GainsAlone(int i) const {
-    const CandidateSet alone = {i};
-    return !refits_.Has(alone) ||
-           (refits_.Usable(alone) &&
-            refits_.White({}).cost - refits_.White(alone).cost >= kWorthATry);
+  // What is slow and gained nothing where it was first tried is not tried beside others, each a
+  // minute and more.
+  bool GainedFirst(int i) const {
+    const CandidateSet first = With(slow_beside_, i);
+    return !refits_.Has(first) ||
+           (refits_.Usable(first) &&
+            refits_.White(slow_beside_).cost - refits_.White(first).cost >= kWorthATry);
   }
-  std::vector<CandidateSet> SlowOnes() const {
+  // Beside a set that leaves little: there a look at what is not there is soon over. Else alone,
+  // since what stands in for it may be in the set.
+  std::vector<CandidateSet> SlowOnes(const CandidateSet& set) {
+    slow_beside_ = Left(set) < kLittle * Misfit() ? set : CandidateSet();
     std::vector<CandidateSet> sets;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i)
-      if (IsSlow(i)) sets.push_back({static_cast<int>(i)});
+      if (IsSlow(i)) sets.push_back(With(slow_beside_, static_cast<int>(i)));
     return sets;
   }
   // No linear model promises what has a threshold: it is tried, and taken as far as it gains.
@@ -212,9 +207,9 @@ class Search {
     std::vector<CandidateSet> tried, together, sets;
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
       if (!naming_.candidates[i].has_threshold || Holds(set, i)) continue;
-      if (IsSlow(i) && !(slow_ones && GainsAlone(i))) continue;
+      if (IsSlow(i) && !(slow_ones && GainedFirst(i))) continue;
       tried.push_back(With(set, i));
-      const std::optional<int> other = ShowsBeside(i);
+      const std::optional<int> other = ShowsBeside(naming_, i);
       if (!other || Holds(set, *other)) continue;
       together.push_back(With(tried.back(), *other));
       tried.push_back(With(set, *other));
@@ -232,16 +227,16 @@ class Search {
   double LeastGain() const {
     return std::min(kLeastShare * Misfit(), kLeastPerSample * null_at_.samples);
   }
-  // Beyond noise, of the null fit.
-  double Misfit() const {
-    return std::max(refits_.White({}).cost - 0.5 * null_at_.degrees_of_freedom(), 0.0);
+  // Beyond noise, of the null fit and of a set.
+  double Misfit() const { return std::max(Left({}), 0.0); }
+  double Left(const CandidateSet& set) const {
+    return refits_.White(set).cost - 0.5 * null_at_.degrees_of_freedom();
   }
 
   // More than a detail is left beside the set, and no noise.
   bool LeavesMuch(const CandidateSet& set) const {
     if (set.size() < 2 || Stopped()) return false;
-    const double left = refits_.White(set).cost - 0.5 * null_at_.degrees_of_freedom();
-    return refits_.At(set).evidence.discrepancy_probability() > 0.5 && left > kMuch * Misfit();
+    return refits_.At(set).evidence.discrepancy_probability() > 0.5 && Left(set) > kMuch * Misfit();
   }
 
   // One cause at a time does not lead from stand-ins to the causes they stand in for. So what
@@ -323,7 +318,7 @@ class Search {
         c.status = CandidateStatus::kSupported;
       } else if (c.separable && c.power >= kTestable) {
         c.status = CandidateStatus::kExcluded;
-      } else if (c.has_threshold && c.alone.ok()) {
+      } else if (c.has_threshold && (c.alone.ok() || refits_.Usable(With(slow_beside_, i)))) {
         c.status = CandidateStatus::kNotNeeded;
       }
       if (!members.count(i) && c.separable) Bound(left, i, c);
@@ -336,6 +331,7 @@ class Search {
   const NamingOptions& options_;
   Naming naming_;
   Refits refits_;
+  CandidateSet slow_beside_;  // what slow causes were first tried beside
 };
 
 }  // namespace

@@ -101,4 +101,15 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
     AddLocal(naming, null_at, train, candidates, hypotheses, recordings);
 }
 
+std::optional<int> ShowsBeside(const Naming& naming, int i) {
+  const Candidate& candidate = naming.candidates[static_cast<std::size_t>(i)].candidate;
+  for (std::size_t k = 0; k < naming.candidates.size(); ++k) {
+    const Candidate& other = naming.candidates[k].candidate;
+    if (other.effect->info.name == candidate.effect->info.shows_beside &&
+        other.only_recording == candidate.only_recording)
+      return static_cast<int>(k);
+  }
+  return std::nullopt;
+}
+
 }  // namespace hoplab

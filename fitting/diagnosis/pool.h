@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,5 +12,8 @@ namespace hoplab {
 /// trials that promise nearly as much as in all, and what a parameter of each must gain.
 void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linearisation& null_at,
               const std::vector<TrialProblem>& train, const NamingOptions& options);
+
+/// The candidate without which candidate i hardly shows (EffectInfo::shows_beside).
+std::optional<int> ShowsBeside(const Naming& naming, int i);
 
 }  // namespace hoplab
