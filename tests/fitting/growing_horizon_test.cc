@@ -55,9 +55,8 @@ TEST(GrowingHorizon, ALegStillInTheAirKeepsItsStiffness) {
         "{x_m: 0, y_m: 0.2288, vx_m_per_s: 0.309, vy_m_per_s: -0.043, pitch_rad: 0.0024, "
         "pitch_rate_rad_per_s: -0.164}"}});
   drop.dataset->trials.resize(1);
-  std::erase_if(drop.dataset->channels, [](const ChannelSpec& c) {
-    return NameOf(c.id).starts_with("hip_torque");
-  });
+  std::erase_if(drop.dataset->channels,
+                [](const ChannelSpec& c) { return NameOf(c.id).starts_with("hip_torque"); });
   GenerateOptions options;
   options.seed = 1;
   FitProblem problem = MakeProblem(GenerateDataset(drop, options).dataset, {});
