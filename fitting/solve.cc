@@ -276,7 +276,7 @@ Run RunCeres(const SolveRequest& request, const RunSettings& settings,
   SolveResult& result = run.result;
   const bool stopped = watch.met_bound() || !run.beyond.empty();
   result.status = stopped ? SolveStatus::kIterationLimit : StatusOf(summary);
-  result.cost = summary.final_cost + summary.fixed_cost;
+  result.cost = summary.final_cost;  // what is held fixed counts in it
   result.iterations = static_cast<int>(summary.iterations.size()) - 1;  // the first only looks
   if (result.status == SolveStatus::kFailed) result.message = summary.message;
   Take(request, evaluations, result);

@@ -1,6 +1,7 @@
 #include "fitting/stop_check.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -63,6 +64,17 @@ std::string Text(const char* format, double value) {
 
 bool StopCheck::OnlyPromises() const {
   return complete && at_wall.empty() && faults.size() == 1 && !(promised_nats < kMinimumNats);
+}
+
+std::optional<double> StopCheck::PromisedErrors(const Eigen::VectorXd& std_errors,
+                                                double cost) const {
+  std::optional<double> most;
+  if (!(promised_nats < kShareOfCost * cost)) return most;
+  for (Eigen::Index k = 0; k < std_errors.size(); ++k) {
+    if (!(std_errors[k] > 0.0)) continue;
+    most = std::max(most.value_or(0.0), std::abs(promised_step[k]) / std_errors[k]);
+  }
+  return most;
 }
 
 StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& trials,

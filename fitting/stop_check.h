@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,10 @@ struct StopCheck {
   bool IsMinimum() const { return faults.empty(); }
   /// Nothing else speaks against a minimum than what the linear model promises.
   bool OnlyPromises() const;
+  /// The promised step in standard errors of the values, the largest; absent where more than
+  /// kShareOfCost of the cost is promised, so that the search ended elsewhere, or where no value
+  /// has an error. `std_errors` are those of the shared values, NaN for one that is not determined.
+  std::optional<double> PromisedErrors(const Eigen::VectorXd& std_errors, double cost) const;
 };
 
 /// A gain below this is the tolerance of two searches [nats].
@@ -34,6 +39,8 @@ inline constexpr double kMinimumNats = 0.1;
 
 /// A promised step of fewer standard errors is within what an interval says.
 inline constexpr double kOfNoConsequence = 0.3;
+/// A search that creeps along an edge promises less than this share of the cost.
+inline constexpr double kShareOfCost = 1e-3;
 
 /// Linearises `trials` (of `problem`) at the values where a search has ended.
 StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& trials,

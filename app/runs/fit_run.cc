@@ -96,15 +96,14 @@ void AddTrainFault(FitRun& run) {
 // where it moves no value beyond what its interval says.
 void ForgivePromises(const Uncertainty& uncertainty, FitRun& run) {
   if (run.faults.empty()) return;
-  double most = 0.0;
-  for (int k = 0; k < run.problem.shared_count(); ++k) {
-    const auto& error = uncertainty.parameters[static_cast<std::size_t>(k)].std_error;
-    if (error && *error > 0.0)
-      most = std::max(most, std::abs(run.fit.stop.promised_step[k]) / *error);
-  }
-  if (!(most < kOfNoConsequence)) return;
+  Eigen::VectorXd errors(run.problem.shared_count());
+  for (int k = 0; k < run.problem.shared_count(); ++k)
+    errors[k] =
+        uncertainty.parameters[static_cast<std::size_t>(k)].std_error.value_or(std::nan(""));
+  const std::optional<double> most = run.fit.stop.PromisedErrors(errors, run.fit.cost);
+  if (!most || *most >= kOfNoConsequence) return;
   run.note += fmt::format("{}{}, which moves no value by more than {:.2g} standard errors",
-                          run.note.empty() ? "" : "; ", run.faults.front(), most);
+                          run.note.empty() ? "" : "; ", run.faults.front(), *most);
   run.faults.clear();
 }
 

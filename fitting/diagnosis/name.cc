@@ -29,9 +29,9 @@ constexpr double kLeastShare = 1e-3, kLeastPerSample = 0.01;
 // A set that leaves this share of the misfit beyond noise may be one of stand-ins, and slow causes
 // are sought; so many causes join it at once.
 constexpr double kMuch = 5e-3;
-// One that leaves less than this explains the data by and large.
-constexpr double kLittle = 0.1;
 constexpr int kJoin = 3;
+// A set that leaves less than this share explains the data by and large.
+constexpr double kLittle = 0.1;
 // Rounds in which a set is put in order; each but the last changes it.
 constexpr int kRounds = 8;
 

@@ -91,6 +91,7 @@ Parameters<double> Tripod() {
 struct Kind {
   const char* name;
   Parameters<double> (*robot)();
+  double named;  // least share of the faults that are named with P >= kSure
 };
 class ForeignRobots : public ::testing::TestWithParam<Kind> {};
 
@@ -123,6 +124,13 @@ void Judge(const Diagnosis& d, const std::string& planted, double E, Count& coun
     }
     first = false;
   }
+  ++count.robots;
+  count.faults += !planted.empty();
+  if (!d.refusal.empty()) {
+    std::printf("%-22s refused: %s\n", planted.empty() ? "nothing" : planted.c_str(),
+                d.refusal.c_str());
+    return;
+  }
   const FittedModel& told = d.extension ? d.naming.best : d.null;
   const Uncertainty& u = d.extension ? d.extension->uncertainty : d.uncertainty;
   const double off = told.shared[0] / E - 1.0;
@@ -130,11 +138,9 @@ void Judge(const Diagnosis& d, const std::string& planted, double E, Count& coun
   const bool covered =
       u.parameters[0].ci95 && u.parameters[0].ci95->first <= E && u.parameters[0].ci95->second >= E;
   count.E_covered += covered;
-  ++count.robots;
-  count.faults += !planted.empty();
   std::printf("%-22s %s%s; E %+.2f %%%s\n", planted.empty() ? "nothing" : planted.c_str(),
-              d.refusal.empty() ? std::string(NameOf(d.verdict)).c_str() : d.refusal.c_str(),
-              said.c_str(), 100.0 * off, covered ? "" : " (not in its interval)");
+              std::string(NameOf(d.verdict)).c_str(), said.c_str(), 100.0 * off,
+              covered ? "" : " (not in its interval)");
   std::fflush(stdout);
 }
 
@@ -163,14 +169,17 @@ TEST_P(ForeignRobots, WhatIsWrongIsNamed) {
       "leg, %d other names with P >= %.2f; E within 3 %% in %d, in its interval in %d\n",
       count.robots, count.faults, count.named, kSure, count.first, count.wrong_leg, count.wrong,
       kSure, count.E_within, count.E_covered);
+  EXPECT_GE(count.named, GetParam().named * count.faults);
   EXPECT_EQ(count.wrong_leg, 0);
   EXPECT_GE(count.E_within, count.robots - 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(, ForeignRobots,
-                         ::testing::Values(Kind{"Drops", Dropping}, Kind{"Pronks", Pronking},
-                                           Kind{"Walks", Tripod}),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    , ForeignRobots,
+    ::testing::Values(Kind{"Drops", Dropping, 0.9},
+                      // By a clock a miss that is known, docs/statistics/robot.md.
+                      Kind{"Pronks", Pronking, 0.0}, Kind{"Walks", Tripod, 0.0}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace hoplab::testing
