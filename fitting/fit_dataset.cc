@@ -1,11 +1,16 @@
 #include "fitting/fit_dataset.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <utility>
 
 #include "fitting/apex_segments.h"
 #include "fitting/discrepancy/estimate_discrepancy.h"
+#include "fitting/followed_part.h"
 #include "fitting/trial_evaluator.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 
@@ -92,16 +97,37 @@ FitResult FitWhatCanBeSimulated(FitProblem& problem, const FitOptions& options,
   return fit;
 }
 
+std::string WhyNotWhole(const DatasetFit& whole) {
+  const FitResult& r = whole.result;
+  if (!r.ok || !r.stop.complete)
+    return "no values let the simulation last as long as the traces (" + r.message + ")";
+  if (!r.stop.IsMinimum()) return "whole traces lead to no minimum (" + r.stop.faults.front() + ")";
+  return whole.note;
+}
+
 std::string WhyByHop(const DatasetFit& whole, Segmentation span) {
   if (span == Segmentation::kHops)
     return "fitted hop by hop, as asked: each hop has a start of its own";
-  const std::string so = ", so it was fitted hop by hop, each hop with a start of its own";
-  const FitResult& r = whole.result;
-  if (!r.ok || !r.stop.complete)
-    return "no values let the simulation last as long as the traces (" + r.message + ")" + so;
-  if (!r.stop.IsMinimum())
-    return "whole traces lead to no minimum (" + r.stop.faults.front() + ")" + so;
-  return whole.note + so;
+  return WhyNotWhole(whole) + ", so it was fitted hop by hop, each hop with a start of its own";
+}
+
+// What can be fitted of the trials of a robot.
+std::optional<DatasetFit> FitInPart(const DatasetFit& whole, const FitOptions& options) {
+  std::optional<FollowedPart> part = FitFollowedPart(whole.problem, options);
+  if (!part) return std::nullopt;
+  DatasetFit fit;
+  fit.problem = std::move(part->problem);
+  fit.result = std::move(part->result);
+  fit.followed = part->share;
+  double longest = 0.0;
+  for (const TrialProblem& t : fit.problem.trials) longest = std::max(longest, t.row_times.back());
+  char text[120];
+  std::snprintf(text, sizeof text,
+                ", so that only the first %.0f %% of each trial is fitted and held out, at most "
+                "%.2f s",
+                100.0 * fit.followed, longest);
+  fit.note = WhyNotWhole(whole) + text;
+  return fit;
 }
 
 }  // namespace
@@ -132,6 +158,9 @@ DatasetFit FitUnderWhiteNoise(FitProblem problem, const FitOptions& fit_options,
     // Where whole traces pull a value far from what their hops say, they fit the model's error.
     const bool done = fit.result.ok && fit.result.stop.IsMinimum() && fit.note.empty();
     if (done || fit.result.interrupted || span == Segmentation::kWhole) return fit;
+  }
+  if (span == Segmentation::kAuto && TraitsOf(fit.problem.law).lands_leg_by_leg) {
+    if (std::optional<DatasetFit> part = FitInPart(fit, fit_options)) return std::move(*part);
   }
   DatasetFit pieces;
   pieces.problem = SplitIntoHops(fit.problem);

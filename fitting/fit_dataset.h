@@ -21,15 +21,18 @@ struct DatasetFit {
   FitProblem problem;  // the one that was fitted: trials are hops if `by_hop`
   FitResult result;
   bool by_hop = false;
+  double followed = 1.0;  // share of each trial's time that was fitted
   /// Train hops (or trials) that no values found let be simulated; they are not in `problem`.
   std::vector<std::string> left_out;
-  std::string note;  // why it was fitted hop by hop, or that hops and whole traces disagree
+  /// Why it was fitted hop by hop or in part, or that hops and whole traces disagree.
+  std::string note;
 };
 
 /// Sets up and fits a dataset. A law that cannot carry a simulation through a whole trace (it falls
 /// where the hopper did not, whatever the parameters) is still fitted to single hops, which is
-/// said; hops (or trials without apexes) that it cannot carry either are left out and named. What
-/// a fit's end is worth is `result.stop`. Throws InputError as MakeProblem does.
+/// said; hops (or trials without apexes) that it cannot carry either are left out and named. Of a
+/// robot, whose trials have no such hops, as much of each trial is fitted as the law can follow.
+/// What a fit's end is worth is `result.stop`. Throws InputError as MakeProblem does.
 DatasetFit FitDataset(const Dataset& dataset, const ProblemOptions& problem_options,
                       const FitOptions& fit_options, Segmentation span = Segmentation::kAuto);
 

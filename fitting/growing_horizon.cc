@@ -34,13 +34,7 @@ std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
                                         const std::vector<TrialProblem>& trials,
                                         const Eigen::VectorXd& shared, double fraction) {
   std::vector<TrialProblem> cut;
-  for (const TrialProblem& trial : trials) {
-    const double until = trial.row_times.back() * fraction;
-    int last = 1;
-    while (last < static_cast<int>(trial.row_times.size()) && trial.row_times[last] <= until)
-      ++last;
-    cut.push_back(CutTrial(problem, trial, 0, last));
-  }
+  for (const TrialProblem& trial : trials) cut.push_back(FirstPart(problem, trial, fraction));
   for (int k = 0; k < problem.shared_count(); ++k) {
     const double size =
         std::max(problem.shared[static_cast<std::size_t>(k)].scale, std::abs(shared[k]));

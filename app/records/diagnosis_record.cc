@@ -240,7 +240,7 @@ Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument
   AddChecks(d, record);
   record["mechanism"] =
       FittedMechanismRecord({&d.problem, &d.null.shared, &d.before.trials, "before"});
-  record["fitted"] = d.by_hop ? "single hops" : "whole traces";
+  RecordSpan(d.by_hop, d.followed, record);
   record["notes"] = d.notes;
   record["interrupted"] = d.interrupted;
   record["tools"] = ToolsRecord();

@@ -108,6 +108,11 @@ Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& tri
   return out;
 }
 
+void RecordSpan(bool by_hop, double followed, Json& record) {
+  record["fitted"] = by_hop ? "single hops" : followed < 1.0 ? "first parts" : "whole traces";
+  record["followed"] = followed;
+}
+
 Json MatrixRecord(const FitProblem& problem, const Eigen::MatrixXd& matrix) {
   Json out = Json::object();
   for (int i = 0; i < problem.shared_count(); ++i)

@@ -56,6 +56,10 @@ Json FormulasRecord(const FitProblem& problem);
 Json FormulaRecord(const Effect& effect);
 Json ToolsRecord();
 
+/// What of the trials was fitted: "fitted" ("whole traces", "single hops", "first parts") and
+/// "followed", the share of each trial's time.
+void RecordSpan(bool by_hop, double followed, Json& record);
+
 /// How a problem was set up and fitted.
 struct FitConfiguration {
   std::string dataset_argument;  // as on the command line

@@ -127,7 +127,7 @@ FitStanding FitRun::Standing() const {
   if (interrupted || !has_result) return FitStanding::kFailed;
   if (!faults.empty()) return FitStanding::kStuck;
   if (AllUndetermined()) return FitStanding::kFailed;
-  return left_out.empty() ? FitStanding::kOk : FitStanding::kPartial;
+  return left_out.empty() && followed == 1.0 ? FitStanding::kOk : FitStanding::kPartial;
 }
 
 int FitRun::finished_restarts() const {
@@ -173,7 +173,7 @@ std::string FitRun::Caveat() const {
         "{} of {} train hops are left out, since no values found let them be "
         "simulated: {}",
         left_out.size(), left_out.size() + fit.initial_states.size(), Join(left_out));
-  return "";
+  return why_in_part;
 }
 
 FitRun RunFit(const Dataset& dataset, const FitRunOptions& options) {
@@ -192,7 +192,8 @@ FitRun RunFit(const Dataset& dataset, const FitRunOptions& options) {
   run.problem = std::move(fitted.problem);
   run.fit = std::move(fitted.result);
   run.by_hop = fitted.by_hop;
-  run.note = std::move(fitted.note);
+  run.followed = fitted.followed;
+  (run.followed < 1.0 ? run.why_in_part : run.note) = std::move(fitted.note);
   run.left_out = std::move(fitted.left_out);
   run.interrupted = run.fit.interrupted;
   run.has_result = run.fit.ok && IsFinished(run.fit.records[run.fit.best_start]);

@@ -32,7 +32,8 @@ struct FitRunOptions {
 /// What a fit's values are worth.
 enum class FitStanding {
   kOk,
-  kPartial,  // a minimum, but of a part of the data: some hops cannot be simulated
+  kPartial,  // a minimum, but of a part of the data: some hops cannot be simulated, or
+             // trials can be followed for a while only
   kStuck,    // where a search stopped that is no minimum: its values are no result
   kFailed    // nothing to report
 };
@@ -44,7 +45,9 @@ struct FitRun {
   FitProblem problem;  // trials are single hops if `by_hop`
   CheckReport check;
   bool by_hop = false;
-  std::string note;  // why it was fitted hop by hop, or that hops and whole traces disagree
+  double followed = 1.0;    // share of each trial's time that was fitted
+  std::string why_in_part;  // empty where whole trials were fitted
+  std::string note;         // why it was fitted hop by hop, or that hops and whole traces disagree
   FitResult fit;
   std::vector<std::string> left_out;  // train hops that no values found let be simulated
   /// At least one start ran to its end: there is something to report.

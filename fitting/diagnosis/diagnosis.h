@@ -144,6 +144,7 @@ struct ExtensionReport {
 struct Diagnosis {
   FitProblem problem;  // the null problem; trials are hops if `by_hop`
   bool by_hop = false;
+  double followed = 1.0;           // DatasetFit::followed
   std::vector<std::string> notes;  // what was decided on the way
   FitResult fit;
   Gate gate;

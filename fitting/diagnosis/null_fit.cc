@@ -54,6 +54,7 @@ void FitNull(FitProblem problem, const DiagnosisOptions& options, Diagnosis& d,
   white.discrepancy = Discrepancy::kNone;
   DatasetFit fit = FitTraces(std::move(problem), white, options.span);
   d.by_hop = fit.by_hop;
+  d.followed = fit.followed;
   d.fit = std::move(fit.result);
   d.problem = std::move(fit.problem);
   d.notes.insert(d.notes.begin(), d.problem.notes.begin(), d.problem.notes.end());

@@ -8,8 +8,8 @@ namespace hoplab {
 
 /// The first part of a diagnosis, and of a search for a formula: `problem` corrected, fitted as it
 /// is under white noise and under the noise that suits it, and whether that can be trusted. Fills
-/// problem, by_hop, notes, fit, plain, null, gate and, if it went wrong, refusal; `train` gets the
-/// train trials.
+/// problem, by_hop, followed, notes, fit, plain, null, gate and, if it went wrong, refusal; `train`
+/// gets the train trials.
 void FitNull(FitProblem problem, const DiagnosisOptions& options, Diagnosis& d,
              std::vector<TrialProblem>& train);
 
