@@ -45,8 +45,7 @@ TrialProblem CutTrial(const FitProblem& problem, const TrialProblem& trial, int 
   return cut;
 }
 
-TrialProblem FirstPart(const FitProblem& problem, const TrialProblem& trial, double share) {
-  const double until = trial.row_times.back() * share;
+TrialProblem FirstPart(const FitProblem& problem, const TrialProblem& trial, double until) {
   int last = 1;
   while (last < static_cast<int>(trial.row_times.size()) && trial.row_times[last] <= until) ++last;
   return CutTrial(problem, trial, 0, last);

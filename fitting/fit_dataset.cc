@@ -118,14 +118,10 @@ std::optional<DatasetFit> FitInPart(const DatasetFit& whole, const FitOptions& o
   DatasetFit fit;
   fit.problem = std::move(part->problem);
   fit.result = std::move(part->result);
-  fit.followed = part->share;
-  double longest = 0.0;
-  for (const TrialProblem& t : fit.problem.trials) longest = std::max(longest, t.row_times.back());
-  char text[120];
-  std::snprintf(text, sizeof text,
-                ", so that only the first %.0f %% of each trial is fitted and held out, at most "
-                "%.2f s",
-                100.0 * fit.followed, longest);
+  fit.until = part->until;
+  char text[80];
+  std::snprintf(text, sizeof text, ", so that only the first %.2f s of each trial are fitted",
+                part->until);
   fit.note = WhyNotWhole(whole) + text;
   return fit;
 }

@@ -21,7 +21,7 @@ struct DatasetFit {
   FitProblem problem;  // the one that was fitted: trials are hops if `by_hop`
   FitResult result;
   bool by_hop = false;
-  double followed = 1.0;  // share of each trial's time that was fitted
+  std::optional<double> until;  // s, where trials were fitted up to there only
   /// Train hops (or trials) that no values found let be simulated; they are not in `problem`.
   std::vector<std::string> left_out;
   /// Why it was fitted hop by hop or in part, or that hops and whole traces disagree.

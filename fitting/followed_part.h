@@ -6,17 +6,31 @@
 
 namespace hoplab {
 
+/// All trials cut at `until` [s].
+FitProblem FirstPart(const FitProblem& problem, double until);
+
+/// How long the longest trial lasts [s].
+double LongestTrial(const FitProblem& problem);
+
+/// When, in the simulations at the nominal values, every leg of a robot has stood once in every
+/// trial [s], and a little more: a tenth, or half of the time until the next leg lands. Trials that
+/// fall before are left out; absent where all do.
+std::optional<double> FirstStancesOver(const FitProblem& problem);
+
+/// Each part of the trials that is tried is longer than the last by this.
+inline constexpr double kLonger = 1.5;
+
 /// As much of every trial as a model can be fitted to.
 struct FollowedPart {
-  double share = 1.0;  // of each trial's time
+  double until = 0.0;  // s
   FitProblem problem;  // the one whose trials are cut there
   FitResult result;    // a minimum
 };
 
 /// Fits longer and longer first parts of all trials, up to the longest whose fit is a minimum. A
 /// gait magnifies what is wrong with a model from stride to stride, until its simulation goes
-/// another way than the robot and the least cost lies in no valley; the first stride can still be
-/// fitted. Nothing where not even a fifth of the trials can.
+/// another way than the robot and the least cost lies in no valley; the first stances can still be
+/// fitted. Absent where not even these can.
 std::optional<FollowedPart> FitFollowedPart(const FitProblem& problem, const FitOptions& options);
 
 }  // namespace hoplab

@@ -26,6 +26,19 @@ constexpr double kBehind = 10.0;
 // least of its typical size, about where the round begins. The last round knows nothing.
 constexpr double kRoomOfARound = 0.5;
 
+// The first `known` of the trials was fitted before: rounds are small beyond, since a gait
+// magnifies the errors of what was found.
+constexpr double kBeyond = 1.2, kLastRound = 0.9;
+
+// Shares of the trials' time of all rounds but the last.
+std::vector<double> RoundsFrom(double known) {
+  if (known == 0.0) return {0.12, 0.2, 0.3, 0.45, 0.65, 0.85};
+  std::vector<double> shares;
+  for (double share = kBeyond * known; share < kLastRound; share *= kBeyond)
+    shares.push_back(share);
+  return shares;
+}
+
 bool IsBehind(double cost, double other) { return std::isfinite(cost) && cost > other + kBehind; }
 
 // The trials cut to the first `fraction` of their time, and what a round that begins at `shared`
@@ -34,7 +47,8 @@ std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
                                         const std::vector<TrialProblem>& trials,
                                         const Eigen::VectorXd& shared, double fraction) {
   std::vector<TrialProblem> cut;
-  for (const TrialProblem& trial : trials) cut.push_back(FirstPart(problem, trial, fraction));
+  for (const TrialProblem& trial : trials)
+    cut.push_back(FirstPart(problem, trial, fraction * trial.row_times.back()));
   for (int k = 0; k < problem.shared_count(); ++k) {
     const double size =
         std::max(problem.shared[static_cast<std::size_t>(k)].scale, std::abs(shared[k]));
@@ -43,18 +57,14 @@ std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
   return cut;
 }
 
-}  // namespace
-
-SolveResult GrowHorizon(SolveRequest request) {
-  RoundCosts costs;
-  return GrowHorizonBeside(std::move(request), {}, costs);
-}
-
-SolveResult GrowHorizonBeside(SolveRequest request, const RoundCosts& other, RoundCosts& costs) {
+SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& other,
+                 RoundCosts& costs) {
   const std::vector<TrialProblem>& whole = *request.trials;
+  double longest = 0.0;
+  for (const TrialProblem& trial : whole) longest = std::max(longest, trial.row_times.back());
   const int most = request.max_iterations;
   const double tolerance = request.function_tolerance;
-  for (double fraction : {0.12, 0.2, 0.3, 0.45, 0.65, 0.85}) {
+  for (const double fraction : RoundsFrom(known_until / longest)) {
     const std::vector<TrialProblem> cut =
         CutToFraction(*request.problem, whole, request.shared, fraction);
     request.trials = &cut;
@@ -79,6 +89,17 @@ SolveResult GrowHorizonBeside(SolveRequest request, const RoundCosts& other, Rou
   request.max_iterations = most;
   request.function_tolerance = tolerance;
   return Solve(request);
+}
+
+}  // namespace
+
+SolveResult GrowHorizon(SolveRequest request, double known_until) {
+  RoundCosts costs;
+  return Grow(std::move(request), known_until, {}, costs);
+}
+
+SolveResult GrowHorizonBeside(SolveRequest request, const RoundCosts& other, RoundCosts& costs) {
+  return Grow(std::move(request), 0.0, other, costs);
 }
 
 }  // namespace hoplab

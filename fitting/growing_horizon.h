@@ -7,9 +7,10 @@ namespace hoplab {
 /// Solves on the first rows of the trials, then on more and more of them; each round begins where
 /// the last one ended. What happens late in a trace turns with its start, so that a search over all
 /// rows at once ends in another order of events; over the first rows there is one order.
-/// `request` is that of all rows, with where to begin. The result is that of the last round, or of
+/// `request` is that of all rows, with where to begin: where that was fitted to the rows before
+/// `known_until` [s], the first round goes beyond them. The result is that of the last round, or of
 /// the one that was interrupted.
-SolveResult GrowHorizon(SolveRequest request);
+SolveResult GrowHorizon(SolveRequest request, double known_until = 0.0);
 
 /// Costs of the rounds of a search that ended; infinite where a round came to nothing.
 using RoundCosts = std::vector<double>;

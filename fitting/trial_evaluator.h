@@ -119,7 +119,7 @@ std::vector<double> InitialOf(const TrialProblem& trial, const Eigen::Ref<const 
 /// The trial cut to its rows [first, last), its time starting anew at `first`.
 TrialProblem CutTrial(const FitProblem& problem, const TrialProblem& trial, int first, int last);
 
-/// The trial cut to the first `share` of its time, 0..1.
-TrialProblem FirstPart(const FitProblem& problem, const TrialProblem& trial, double share);
+/// The trial cut at `until` [s].
+TrialProblem FirstPart(const FitProblem& problem, const TrialProblem& trial, double until);
 
 }  // namespace hoplab

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/records/candidate_record.h"
+#include "app/records/carried_on_record.h"
 #include "app/records/cause_record.h"
 #include "app/records/diagnosis_parts.h"
 #include "app/records/diagnosis_words.h"
@@ -240,7 +241,8 @@ Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument
   AddChecks(d, record);
   record["mechanism"] =
       FittedMechanismRecord({&d.problem, &d.null.shared, &d.before.trials, "before"});
-  RecordSpan(d.by_hop, d.followed, record);
+  RecordSpan(d.by_hop, d.until, record);
+  record["whole_trials"] = WholeTrialsRecord(d);
   record["notes"] = d.notes;
   record["interrupted"] = d.interrupted;
   record["tools"] = ToolsRecord();

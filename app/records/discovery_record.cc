@@ -153,7 +153,7 @@ Json DiscoveryRecord(const Dataset& dataset, const std::string& dataset_argument
   record["channels"] = ChannelsRecord(d.base.problem);
   record["known"] = KnownRecord(d.base.problem);
   record["refits"] = d.naming.refits;
-  RecordSpan(d.base.by_hop, d.base.followed, record);
+  RecordSpan(d.base.by_hop, d.base.until, record);
   record["notes"] = d.base.notes;
   record["interrupted"] = d.base.interrupted;
   record["tools"] = ToolsRecord();

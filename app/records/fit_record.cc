@@ -123,7 +123,7 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
   record["mechanism"] =
       run.has_result ? FittedMechanismRecord({&run.problem, &run.fit.shared, &run.trials, ""})
                      : Json(nullptr);
-  RecordSpan(run.by_hop, run.followed, record);
+  RecordSpan(run.by_hop, run.until, record);
   record["left_out"] = run.left_out;
   record["left"] = run.fit.discrepancy ? LeftRecord(run.problem) : Json(nullptr);
   record["stop"] = StopRecord(run);

@@ -108,9 +108,9 @@ Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& tri
   return out;
 }
 
-void RecordSpan(bool by_hop, double followed, Json& record) {
-  record["fitted"] = by_hop ? "single hops" : followed < 1.0 ? "first parts" : "whole traces";
-  record["followed"] = followed;
+void RecordSpan(bool by_hop, std::optional<double> until, Json& record) {
+  record["fitted"] = by_hop ? "single hops" : until ? "first parts" : "whole traces";
+  record["fitted_until_s"] = until ? NumberOrNull(*until) : Json(nullptr);
 }
 
 Json MatrixRecord(const FitProblem& problem, const Eigen::MatrixXd& matrix) {

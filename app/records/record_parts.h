@@ -57,8 +57,8 @@ Json FormulaRecord(const Effect& effect);
 Json ToolsRecord();
 
 /// What of the trials was fitted: "fitted" ("whole traces", "single hops", "first parts") and
-/// "followed", the share of each trial's time.
-void RecordSpan(bool by_hop, double followed, Json& record);
+/// "fitted_until_s", null unless trials were fitted up to there only.
+void RecordSpan(bool by_hop, std::optional<double> until, Json& record);
 
 /// How a problem was set up and fitted.
 struct FitConfiguration {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/records/carried_on_record.h"
 #include "app/records/diagnosis_words.h"
 #include "app/reports/cause_report.h"
 #include "app/reports/discovery_report.h"
@@ -229,6 +230,7 @@ std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, boo
     if (e.after.test.trials > 0) text += HeldOutTable(d, colours) + "\n";
     text += MovedTable(e, colours) + "\n";
     if (!run.energy.hops.empty()) text += EnergyTable(run.energy, colours) + "\n";
+    if (d.carried_on) text += Labelled("whole trials", WholeTrialsSentence(*d.carried_on), colours);
     text += Labelled("gain", GainLine(e), colours);
     text += Labelled("remainder", RemainderLine(e), colours);
     text += DoubtLines(d, colours);

@@ -127,7 +127,7 @@ FitStanding FitRun::Standing() const {
   if (interrupted || !has_result) return FitStanding::kFailed;
   if (!faults.empty()) return FitStanding::kStuck;
   if (AllUndetermined()) return FitStanding::kFailed;
-  return left_out.empty() && followed == 1.0 ? FitStanding::kOk : FitStanding::kPartial;
+  return left_out.empty() && !until ? FitStanding::kOk : FitStanding::kPartial;
 }
 
 int FitRun::finished_restarts() const {
@@ -192,8 +192,8 @@ FitRun RunFit(const Dataset& dataset, const FitRunOptions& options) {
   run.problem = std::move(fitted.problem);
   run.fit = std::move(fitted.result);
   run.by_hop = fitted.by_hop;
-  run.followed = fitted.followed;
-  (run.followed < 1.0 ? run.why_in_part : run.note) = std::move(fitted.note);
+  run.until = fitted.until;
+  (run.until ? run.why_in_part : run.note) = std::move(fitted.note);
   run.left_out = std::move(fitted.left_out);
   run.interrupted = run.fit.interrupted;
   run.has_result = run.fit.ok && IsFinished(run.fit.records[run.fit.best_start]);

@@ -45,9 +45,9 @@ struct FitRun {
   FitProblem problem;  // trials are single hops if `by_hop`
   CheckReport check;
   bool by_hop = false;
-  double followed = 1.0;    // share of each trial's time that was fitted
-  std::string why_in_part;  // empty where whole trials were fitted
-  std::string note;         // why it was fitted hop by hop, or that hops and whole traces disagree
+  std::optional<double> until;  // s, where trials were fitted up to there only
+  std::string why_in_part;      // empty where whole trials were fitted
+  std::string note;  // why it was fitted hop by hop, or that hops and whole traces disagree
   FitResult fit;
   std::vector<std::string> left_out;  // train hops that no values found let be simulated
   /// At least one start ran to its end: there is something to report.

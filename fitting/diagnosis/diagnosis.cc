@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "base/parallel.h"
-#include "datasets/suspect_things.h"
 #include "fitting/diagnosis/believe.h"
 #include "fitting/diagnosis/heterogeneity.h"
 #include "fitting/diagnosis/linearise_at.h"
@@ -43,19 +43,13 @@ bool Has(const FittedModel& e, const Candidate& c) {
 
 class Pipeline {
  public:
-  Pipeline(const Dataset& dataset, const DiagnosisOptions& options)
-      : dataset_(dataset), options_(options) {}
+  Pipeline(const DiagnosisOptions& options, const FittedModel* begin)
+      : options_(options), begin_(begin) {}
 
-  Diagnosis Run() {
-    FitProblem problem = MakeProblem(dataset_, WithLegsAlike(options_.problem));
-    const std::vector<Candidate> candidates = CandidatesOf(problem, options_.candidates);
-    d_.refusal = UnreadableTimes(dataset_);
-    if (!d_.refusal.empty()) {
-      d_.problem = std::move(problem);
-      return Finish();
-    }
-    FitNull(std::move(problem), options_, d_, train_);
+  Diagnosis Run(DatasetFit null) {
+    BeginWith(std::move(null), options_, d_, train_);
     if (!d_.refusal.empty() || Stopped()) return Finish();
+    const std::vector<Candidate> candidates = CandidatesOf(d_.problem, options_.candidates);
     Look(candidates);
     if (Stopped()) return Finish();
     if (d_.detection.p_value <= kDetectionLevel) Name(candidates);
@@ -120,6 +114,7 @@ class Pipeline {
     Stage("refitting with every candidate cause");
     NamingOptions naming;
     naming.max_effects = options_.max_effects;
+    naming.begin = begin_;
     naming.discrepancy = options_.fit.discrepancy;
     naming.jobs = options_.fit.jobs;
     naming.stop = options_.fit.stop;
@@ -233,8 +228,8 @@ class Pipeline {
     d_.free_forces = Reconstruct(at, basis_, Seed(kForcesStream));
   }
 
-  const Dataset& dataset_;
   const DiagnosisOptions& options_;
+  const FittedModel* begin_;
   Diagnosis d_;
   ProbeBasis basis_;
   std::vector<TrialProblem> train_;
@@ -242,8 +237,9 @@ class Pipeline {
 
 }  // namespace
 
-Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
-  return Pipeline(dataset, options).Run();
+Diagnosis DiagnoseFitted(DatasetFit null, const DiagnosisOptions& options,
+                         const FittedModel* begin) {
+  return Pipeline(options, begin).Run(std::move(null));
 }
 
 }  // namespace hoplab

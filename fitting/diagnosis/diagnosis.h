@@ -140,11 +140,20 @@ struct ExtensionReport {
   bool Alone(const Naming& naming) const;
 };
 
+/// The extension that first parts of the trials led to, fitted to the whole trials.
+struct CarriedOn {
+  FittedModel model;
+  /// Whether that is a minimum: else the model does not follow the whole trials.
+  StopCheck stop;
+  Uncertainty uncertainty;  // of a minimum
+  HeldOutErrors errors;     // of a minimum
+};
+
 /// A diagnosis from the gate to the proposed experiment. What was not reached is empty.
 struct Diagnosis {
   FitProblem problem;  // the null problem; trials are hops if `by_hop`
   bool by_hop = false;
-  double followed = 1.0;           // DatasetFit::followed
+  std::optional<double> until;     // DatasetFit::until
   std::vector<std::string> notes;  // what was decided on the way
   FitResult fit;
   Gate gate;
@@ -163,6 +172,7 @@ struct Diagnosis {
   std::optional<ExtensionReport> extension;
   Leftover left;
   std::optional<SeparatingExperiment> experiment;
+  std::optional<CarriedOn> carried_on;    // where causes were named by first parts of the trials
   std::optional<FreeForces> free_forces;  // where the catalogue does not explain the misfit
   Verdict verdict = Verdict::kAdequate;
   std::string reason;  // why the verdict is what it is
@@ -176,7 +186,13 @@ struct Diagnosis {
   bool CausesMayStandIn() const;
 };
 
-/// Diagnoses a dataset. Throws InputError for options that do not suit it.
+/// Diagnoses what a fit of the model as it is leaves. `begin`: NamingOptions::begin.
+Diagnosis DiagnoseFitted(DatasetFit null, const DiagnosisOptions& options,
+                         const FittedModel* begin = nullptr);
+
+/// Diagnoses a dataset. Of a robot the first stances are looked at before whole trials, in which
+/// what is wrong has grown until no small cause looks like itself; what is named there is carried
+/// on to the whole trials. Throws InputError for options that do not suit it.
 Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options);
 
 }  // namespace hoplab

@@ -54,13 +54,8 @@ class Search {
       Judge({});
       return std::move(naming_);
     }
-    const CandidateSet single = refits_.Better({}, Singles(), kSingleWidth, BestScored());
-    CandidateSet current = single;
-    current = refits_.Better(current, Pairs(), kPairsSettled);
-    const bool slow_ones = SeeksSlowOnes(current);
-    if (slow_ones) current = refits_.Better(current, SlowOnes(current), kPairsSettled);
-    if (!current.empty())
-      current = refits_.Better(current, BeyondThresholds(single, slow_ones), kPairsSettled);
+    CandidateSet current = Begun();
+    if (current.empty()) current = OneByOne();
     current = Grown(current);
     if (LeavesMuch(current)) {
       const CandidateSet exchanged = Exchanged(current);
@@ -86,6 +81,23 @@ class Search {
 
  private:
   bool Stopped() const { return options_.stop && *options_.stop; }
+
+  // With what was given, if that is worth more than nothing.
+  CandidateSet Begun() {
+    if (!options_.begin) return {};
+    const CandidateSet given = refits_.Adopt(*options_.begin);
+    return given.empty() ? given : refits_.Better({}, {given}, 1);
+  }
+
+  CandidateSet OneByOne() {
+    const CandidateSet single = refits_.Better({}, Singles(), kSingleWidth, BestScored());
+    CandidateSet current = refits_.Better(single, Pairs(), kPairsSettled);
+    const bool slow_ones = SeeksSlowOnes(current);
+    if (slow_ones) current = refits_.Better(current, SlowOnes(current), kPairsSettled);
+    if (!current.empty())
+      current = refits_.Better(current, BeyondThresholds(single, slow_ones), kPairsSettled);
+    return current;
+  }
 
   // Cause by cause, as long as one more pays.
   CandidateSet Grown(CandidateSet set) {

@@ -23,6 +23,9 @@ struct NamingOptions {
   int picked_from = 0;       // how many the candidates were picked out of; 0: they are all
   /// Nats by which each is less likely beforehand than the others; empty: all are alike.
   std::vector<double> prices = {};
+  /// A model of these trials whose causes the search begins with, instead of one by one; none:
+  /// null.
+  const FittedModel* begin = nullptr;
   Discrepancy discrepancy = Discrepancy::kMatern;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
@@ -90,9 +93,10 @@ struct NullFits {
   const FittedModel* settled = nullptr;
 };
 
-/// Refits every candidate alone, then looks for a second and third by forward steps, pairs,
-/// backward elimination and swaps; models are compared by their evidence. `null_at`
-/// is the linearisation at the settled null fit with the candidates' columns in their order.
+/// Refits every candidate alone, or begins with what is given, then looks for a second and third by
+/// forward steps, pairs, backward elimination and swaps; models are compared by their evidence.
+/// `null_at` is the linearisation at the settled null fit with the candidates' columns in their
+/// order.
 Naming NameCauses(const NullFits& null, std::span<const Candidate> candidates,
                   const Linearisation& null_at, const std::vector<TrialProblem>& train,
                   const NamingOptions& options);

@@ -42,19 +42,21 @@ RefitSettings SettingsOf(const DiagnosisOptions& options, const std::vector<Tria
   return settings;
 }
 
-void FitNull(FitProblem problem, const DiagnosisOptions& options, Diagnosis& d,
-             std::vector<TrialProblem>& train) {
+DatasetFit FitPlain(FitProblem problem, const DiagnosisOptions& options, Segmentation span) {
+  if (options.stage) options.stage("fitting the model as it is");
+  FitOptions white = options.fit;
+  white.discrepancy = Discrepancy::kNone;
+  return FitTraces(std::move(problem), white, span);
+}
+
+void BeginWith(DatasetFit fit, const DiagnosisOptions& options, Diagnosis& d,
+               std::vector<TrialProblem>& train) {
   const auto stopped = [&] { return options.fit.stop && *options.fit.stop; };
   const auto stage = [&](std::string_view text) {
     if (options.stage) options.stage(text);
   };
-  d.notes = CorrectNoise(problem);
-  stage("fitting the model as it is");
-  FitOptions white = options.fit;
-  white.discrepancy = Discrepancy::kNone;
-  DatasetFit fit = FitTraces(std::move(problem), white, options.span);
   d.by_hop = fit.by_hop;
-  d.followed = fit.followed;
+  d.until = fit.until;
   d.fit = std::move(fit.result);
   d.problem = std::move(fit.problem);
   d.notes.insert(d.notes.begin(), d.problem.notes.begin(), d.problem.notes.end());
@@ -84,6 +86,13 @@ void FitNull(FitProblem problem, const DiagnosisOptions& options, Diagnosis& d,
   stage("checking that a diagnosis can be trusted");
   d.gate = CheckGate(d.plain, train, options.fit.jobs);
   d.refusal = d.gate.Refusal();
+}
+
+void FitNull(FitProblem problem, const DiagnosisOptions& options, Diagnosis& d,
+             std::vector<TrialProblem>& train) {
+  const std::vector<std::string> notes = CorrectNoise(problem);
+  BeginWith(FitPlain(std::move(problem), options, options.span), options, d, train);
+  d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
 }
 
 }  // namespace hoplab

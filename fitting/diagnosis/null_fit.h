@@ -6,10 +6,16 @@
 
 namespace hoplab {
 
-/// The first part of a diagnosis, and of a search for a formula: `problem` corrected, fitted as it
-/// is under white noise and under the noise that suits it, and whether that can be trusted. Fills
-/// problem, by_hop, followed, notes, fit, plain, null, gate and, if it went wrong, refusal; `train`
-/// gets the train trials.
+/// The model as it is, fitted under white noise.
+DatasetFit FitPlain(FitProblem problem, const DiagnosisOptions& options, Segmentation span);
+
+/// The first part of a diagnosis, and of a search for a formula: what FitPlain made, the noise that
+/// suits it, and whether that can be trusted. Fills problem, by_hop, until, notes, fit, plain,
+/// null, gate and, if it went wrong, refusal; `train` gets the train trials.
+void BeginWith(DatasetFit fit, const DiagnosisOptions& options, Diagnosis& d,
+               std::vector<TrialProblem>& train);
+
+/// `problem` corrected (CorrectNoise), fitted and begun with.
 void FitNull(FitProblem problem, const DiagnosisOptions& options, Diagnosis& d,
              std::vector<TrialProblem>& train);
 

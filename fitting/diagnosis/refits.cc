@@ -71,6 +71,25 @@ CandidateSet Refits::Better(CandidateSet current, const std::vector<CandidateSet
   return current;
 }
 
+CandidateSet Refits::Adopt(const FittedModel& model) {
+  CandidateSet order;
+  for (const Candidate& member : model.members) {
+    const auto at = std::find_if(naming_.candidates.begin(), naming_.candidates.end(),
+                                 [&](const CandidateResult& c) {
+                                   return c.candidate.effect == member.effect &&
+                                          c.candidate.only_recording == member.only_recording;
+                                 });
+    if (at == naming_.candidates.end()) return {};
+    order.push_back(static_cast<int>(at - naming_.candidates.begin()));
+  }
+  CandidateSet set = order;
+  std::sort(set.begin(), set.end());
+  FittedModel& white = models_[set].white;
+  white = Ordered(model, order, set);
+  white.settled = false;
+  return set;
+}
+
 void Refits::Try(const std::vector<CandidateSet>& sets) {
   std::vector<CandidateSet> missing;
   for (const CandidateSet& set : sets) {

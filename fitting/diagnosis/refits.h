@@ -48,6 +48,9 @@ class Refits {
   /// and gives the best of them and `current`.
   CandidateSet Better(CandidateSet current, const std::vector<CandidateSet>& sets, int width,
                       const std::vector<CandidateSet>& anyway = {});
+  /// Takes in a model that was fitted elsewhere to the same trials; the set of its causes, empty
+  /// where one of them is no candidate.
+  CandidateSet Adopt(const FittedModel& model);
   /// Refits the models not tried yet, in parallel.
   void Try(const std::vector<CandidateSet>& sets);
   void SettleAll(const std::vector<CandidateSet>& sets);

@@ -1,0 +1,69 @@
+#include "app/records/carried_on_record.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "app/records/diagnosis_parts.h"
+#include "app/records/record_parts.h"
+#include "app/terminal/quantity.h"
+#include "base/channel.h"
+#include "base/text.h"
+
+namespace hoplab {
+namespace {
+
+double Chi2PerSample(const FittedModel& model) {
+  long samples = 0;
+  for (const TrialProblem& t : TrialsOf(model.problem, TrialRole::kTrain))
+    samples += t.sample_count;
+  return 2.0 * model.cost / static_cast<double>(samples);
+}
+
+std::string ValueText(const CarriedOn& carried, int k) {
+  const SharedParameter& s = carried.model.problem.shared[static_cast<std::size_t>(k)];
+  const ParameterUncertainty& u = carried.uncertainty.parameters[static_cast<std::size_t>(k)];
+  const double value = carried.model.shared[k];
+  const ReadableUnit unit = ReadableUnitOf(value, s.unit);
+  std::string text = s.name + " " + Significant(value * unit.factor, 4);
+  if (u.ci95)
+    text += fmt::format(" ({} .. {})", Significant(u.ci95->first * unit.factor, 4),
+                        Significant(u.ci95->second * unit.factor, 4));
+  return unit.unit.empty() ? text : text + " " + unit.unit;
+}
+
+}  // namespace
+
+std::string WholeTrialsSentence(const CarriedOn& carried) {
+  if (!carried.stop.IsMinimum())
+    return "with it the simulation does not follow them, so something else may show later: " +
+           carried.stop.faults.front();
+  const FitProblem& problem = carried.model.problem;
+  std::vector<std::string> values, errors;
+  for (int k = 0; k < problem.shared_count(); ++k) values.push_back(ValueText(carried, k));
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    const std::string name(NameOf(problem.channels[c].channel));
+    errors.push_back(WithoutUnit(name) + " " +
+                     ErrorText(carried.errors.test.rmse[c], ChannelUnit(*ChannelFromName(name))));
+  }
+  return fmt::format(
+      "with it the simulation follows them to their end: {}; test error {}; chi2 {:.3g} a sample",
+      Join(values), Join(errors), Chi2PerSample(carried.model));
+}
+
+Json WholeTrialsRecord(const Diagnosis& diagnosis) {
+  if (!diagnosis.carried_on) return nullptr;
+  const CarriedOn& carried = *diagnosis.carried_on;
+  const bool followed = carried.stop.IsMinimum();
+  const FitProblem& problem = carried.model.problem;
+  return {
+      {"followed", followed},
+      {"faults", carried.stop.faults},
+      {"parameters", ParametersRecord({&problem, followed ? &carried.model.shared : nullptr,
+                                       followed ? &carried.uncertainty : nullptr})},
+      {"test", HeldOutRecord(problem, carried.errors)},
+      {"chi2_per_sample", followed ? NumberOrNull(Chi2PerSample(carried.model)) : Json(nullptr)},
+      {"sentence", WholeTrialsSentence(carried)}};
+}
+
+}  // namespace hoplab

@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "datasets/suspect_things.h"
+#include "fitting/diagnosis/diagnosis.h"
+#include "fitting/diagnosis/null_fit.h"
+#include "fitting/followed_part.h"
+#include "fitting/growing_horizon.h"
+#include "fitting/stop_check.h"
+#include "model/mechanism_traits.h"
+
+namespace hoplab {
+namespace {
+
+class StageByStage {
+ public:
+  StageByStage(FitProblem whole, const DiagnosisOptions& options)
+      : whole_(std::move(whole)), options_(options) {}
+
+  // Longer and longer parts, as long as something is seen that has no sure name and longer ones
+  // make it surer, each beginning with what the last one found; where nothing is seen, the whole
+  // trials.
+  Diagnosis Run() {
+    const double end = LongestTrial(whole_);
+    std::optional<Diagnosis> last;
+    for (double until = FirstStancesOver(whole_).value_or(end); until < end; until *= kLonger) {
+      Diagnosis longer = OfFirst(until, last);
+      if (!longer.refusal.empty()) break;
+      const bool nothing_seen = longer.verdict == Verdict::kAdequate;
+      Tell(longer);
+      // A model's own errors grow, too, and make names less sure again.
+      if (last && last->extension && longer.UnlistedProbability() > last->UnlistedProbability())
+        return WithWholeTrials(std::move(*last));
+      last = std::move(longer);
+      if (IsDone(*last)) return WithWholeTrials(std::move(*last));
+      if (nothing_seen && WholeIsMinimum()) break;
+    }
+    if (!last || WholeIsMinimum() || Stopped()) {
+      const std::optional<FittedModel> begin = Beginning(last, whole_);
+      return DiagnoseFitted(std::move(WholeNull()), options_, begin ? &*begin : nullptr);
+    }
+    return WithWholeTrials(std::move(*last));
+  }
+
+ private:
+  bool Stopped() const { return options_.fit.stop && *options_.fit.stop; }
+  void Tell(const Diagnosis& d) const {
+    if (!options_.stage || d.interrupted) return;
+    std::string names;
+    for (const CauseReport* c :
+         d.extension ? d.extension->ToldCauses() : std::vector<const CauseReport*>())
+      names += fmt::format("{}{} (P {:.2f})", names.empty() ? "" : ", ", c->cause.Name(),
+                           c->group_probability);
+    options_.stage(
+        fmt::format("up to there: {}{}{}", NameOf(d.verdict), names.empty() ? "" : ", ", names));
+  }
+  DatasetFit& WholeNull() {
+    if (!whole_null_) whole_null_ = FitPlain(whole_, options_, Segmentation::kWhole);
+    return *whole_null_;
+  }
+  bool WholeIsMinimum() {
+    const FitResult& result = WholeNull().result;
+    return result.ok && result.stop.IsMinimum();
+  }
+  // Names are found, or somebody waits no longer.
+  static bool IsDone(const Diagnosis& d) {
+    return d.interrupted || (d.refusal.empty() && d.verdict == Verdict::kNamed);
+  }
+
+  Diagnosis OfFirst(double until, const std::optional<Diagnosis>& last) const {
+    const std::string what = fmt::format("the first {:.2f} s of each trial", until);
+    if (options_.stage) options_.stage("looking at " + what);
+    const FitProblem part = FirstPart(whole_, until);
+    DatasetFit null = FitPlain(part, options_, Segmentation::kWhole);
+    null.until = until;
+    null.note = "what is told is of " + what +
+                ": a gait magnifies from stride to stride what is wrong with a model";
+    const std::optional<FittedModel> begin = Beginning(last, part);
+    return DiagnoseFitted(std::move(null), options_, begin ? &*begin : nullptr);
+  }
+
+  // What was found in shorter parts, for a search in longer ones.
+  std::optional<FittedModel> Beginning(const std::optional<Diagnosis>& last,
+                                       const FitProblem& problem) const {
+    if (!last || !last->extension || Stopped()) return std::nullopt;
+    FittedModel model = CarriedOver(*last, problem).model;
+    if (!model.ok()) return std::nullopt;
+    return model;
+  }
+
+  // What was found, fitted to longer parts of the same trials, more and more of them: beyond what
+  // is known, and where that leads to no minimum, from the first rows on.
+  CarriedOn CarriedOver(const Diagnosis& last, const FitProblem& problem) const {
+    const double known_until = last.until.value_or(0.0);
+    CarriedOn carried = GrownFrom(last.naming.best, problem, known_until);
+    if (carried.stop.IsMinimum() || Stopped()) return carried;
+    CarriedOn anew = GrownFrom(last.naming.best, problem, 0.0);
+    return anew.model.ok() && (!carried.model.ok() || anew.model.cost < carried.model.cost)
+               ? anew
+               : carried;
+  }
+
+  CarriedOn GrownFrom(const FittedModel& named, const FitProblem& problem,
+                      double known_until) const {
+    CarriedOn carried;
+    FittedModel& model = carried.model;
+    model.members = named.members;
+    model.problem = Extend(problem, model.members);
+    const std::vector<TrialProblem> train = TrialsOf(problem, TrialRole::kTrain);
+    SolveRequest request;
+    request.problem = &model.problem;
+    request.trials = &train;
+    request.shared = named.shared;
+    request.initial_states = named.initial_states;
+    request.loss = options_.fit.loss;
+    request.jobs = options_.fit.jobs;
+    request.stop = options_.fit.stop;
+    SolveResult result = GrowHorizon(std::move(request), known_until);
+    model.status = result.status;
+    if (!IsUsable(result.status)) {
+      carried.stop.faults.push_back(result.message);
+      return carried;
+    }
+    model.shared = std::move(result.shared);
+    model.initial_states = std::move(result.initial_states);
+    model.cost = result.cost;
+    model.complete = result.complete;
+    carried.stop = CheckStop(model.problem, train, model.shared, model.initial_states,
+                             options_.fit.loss, options_.fit.jobs);
+    return carried;
+  }
+
+  Diagnosis WithWholeTrials(Diagnosis d) const {
+    if (!d.extension || Stopped()) return d;
+    if (options_.stage) options_.stage("carrying on to the whole trials");
+    CarriedOn carried = CarriedOver(d, whole_);
+    if (carried.stop.IsMinimum()) {
+      FittedModel& model = carried.model;
+      const std::vector<TrialProblem> train = TrialsOf(whole_, TrialRole::kTrain);
+      Settle(model, SettingsOf(options_, train));
+      carried.uncertainty =
+          AssessUncertainty(model.problem, train, model.shared, model.initial_states,
+                            options_.fit.loss, options_.fit.jobs);
+      carried.errors = MeasureHeldOut(model, options_.fit.jobs);
+    }
+    d.carried_on = std::move(carried);
+    return d;
+  }
+
+  FitProblem whole_;
+  const DiagnosisOptions& options_;
+  std::optional<DatasetFit> whole_null_;
+};
+
+}  // namespace
+
+Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
+  FitProblem problem = MakeProblem(dataset, WithLegsAlike(options.problem));
+  // What is asked for by name is looked at before anything is computed.
+  CandidatesOf(problem, options.candidates);
+  Diagnosis d;
+  d.refusal = UnreadableTimes(dataset);
+  if (!d.refusal.empty()) {
+    d.problem = std::move(problem);
+    return d;
+  }
+  const std::vector<std::string> notes = CorrectNoise(problem);
+  const bool by_stages =
+      TraitsOf(problem.law).lands_leg_by_leg && options.span == Segmentation::kAuto;
+  d = by_stages ? StageByStage(std::move(problem), options).Run()
+                : DiagnoseFitted(FitPlain(std::move(problem), options, options.span), options);
+  d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
+  return d;
+}
+
+}  // namespace hoplab
