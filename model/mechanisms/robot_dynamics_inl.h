@@ -17,22 +17,6 @@ struct Robot<T>::Push {
   std::array<ClampedLoad<T>, kMaxLegs> load;  // of each leg that is down
 };
 
-// M82: the leg as a rigid body that turns with its motor.
-template <class T>
-struct Robot<T>::LegPlace {
-  Hip hip;
-  T x, y;  // from the hip to its centre of mass [m]
-};
-
-template <class T>
-typename Robot<T>::LegPlace Robot<T>::LegOf(const Frame& frame, int leg, const T* z) const {
-  LegPlace at{HipOf(frame, leg, z), T(0.0), T(0.0)};
-  const Vector2<T> centre = leg_[leg].law.Centre(at.hip.angle);
-  at.x = centre.x;
-  at.y = centre.y;
-  return at;
-}
-
 template <class T>
 typename Robot<T>::Push Robot<T>::PushOf(const Frame& frame, const T& t, const T* z) const {
   const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);

@@ -48,16 +48,15 @@ class ClampedArc {
             T((rolling ? 1.0 : 2.0) * r_ * sin(angle)),
             rolling ? T(r_ * (length_ - angle)) : T(0.0)};
   }
-  /// The leg's centre of mass from its hip [m], unloaded, and its inertia about the hip [kg m^2] by
-  /// its mass (M82).
-  Vector2<T> Centre(const T& angle) const {
-    using std::cos;
-    using std::sin;
-    const T c = r_ * cos(angle), s = r_ * sin(angle);
+  /// What its lengths go with [m]; with that as the unit, the leg's centre of mass from its hip,
+  /// unloaded, and its inertia about the hip by its mass (M82).
+  const T& unit_length() const { return r_; }
+  static Vector2<double> Centre(double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
     constexpr double kBehind = 2.0 / std::numbers::pi;
     return {s - kBehind * c, -c - kBehind * s};
   }
-  T Inertia(const T& mass) const { return 2.0 * mass * r_ * r_; }
+  static constexpr double kInertia = 2.0;
 
   /// Where the search for a load starts: the leg as it lands, unloaded.
   void StartAt(double tip) {
