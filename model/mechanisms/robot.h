@@ -103,6 +103,7 @@ class Robot final : public HybridSystem<T> {
   struct Push;  // what legs and air do to body and motors
   Push PushOf(const Frame& frame, const T& t, const T* z) const;
   void Accelerate(const Frame& frame, const Push& push, const T* z, T* dz) const;
+  void AddFirstMass(const Frame& frame, const T* z, T* dz) const;
   void AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z, T* dz) const;
   void LagShortly(const Frame& frame, Push& push, const T* z, T* dz) const;
   void MissJump(int leg, const T& jump, const T* at, T* z) const;
@@ -111,7 +112,7 @@ class Robot final : public HybridSystem<T> {
   struct MovingLegs;  // the masses of all of them
   struct Sides;       // forces or momenta of all motions
   LegInertia InertiaOf(int i, const Hip& hip) const;
-  LegInertia RigidLeg(const Hip& hip) const;
+  LegInertia RigidLeg(const T& angle) const;
   LegInertia StandingLeg(int i, const Hip& hip) const;
   void LetFootMove(const Hip& hip, double slides, LegInertia& leg) const;
   LegMotion<T> MotionUnder(int i, const Hip& hip, const T* rates) const;
@@ -125,6 +126,9 @@ class Robot final : public HybridSystem<T> {
   void AskCones(int except, const T& t, const T* z);
   LegMotion<T> MotionOf(int i, const Hip& hip, const T* z) const;
   Vector2<T> PressOf(int i, const Hip& hip, const T* z) const;
+  template <class S>
+  static LegMotion<S> UnitLoad(const LegInertia& leg, const LegMotion<S>& u, const S& rate,
+                               const S& gx, const S& gy, S& moment);
   LegLoad LoadOf(int i, const Hip& hip, const LegInertia& leg, const T* z) const;
   MotionEquations EquationsOf(const Vector2<T>& com, const MovingLegs& legs) const;
   Sides Left(const Vector2<T>& com, const MovingLegs& legs, const Sides& sides,

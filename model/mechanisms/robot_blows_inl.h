@@ -65,7 +65,7 @@ void Robot<T>::Blow(int i, T* z) {
   const LegMotion<T> taken = leg.Real({taken_by(0), taken_by(1), taken_by(2), T(0.0)});
   now.sides.Add(i, hip, taken);
   if (HasCone()) {
-    const LegInertia rigid = RigidLeg(hip);
+    const LegInertia rigid = RigidLeg(hip.angle);
     const Vector2<T> had{m * rigid.Along(before), m * rigid.Up(before)};
     std::array<T, kMaxStates> rates;
     SolveMotion(now.com, now.legs, now.sides, rates.data());
@@ -91,7 +91,7 @@ void Robot<T>::SpringOff(int i, T* z) {
   const Hip& hip = now.legs.hip[i];
   const LegMotion<T> u = leg.Unit(MotionOf(i, hip, z));
   now.sides.Add(i, hip, leg.Real({leg.Along(u), leg.Up(u), leg.Turn(u), T(0.0)}));
-  leg = RigidLeg(hip);
+  leg = RigidLeg(hip.angle);
   GoOnWith(now, z);
 }
 

@@ -16,62 +16,76 @@ namespace hoplab {
 /// Momenta and forces below are those of a leg of unit mass and length, as are the motions.
 template <class T>
 struct Robot<T>::LegInertia {
+  // The forms are needed with their slopes only where numbers have some.
+  static constexpr int kForms = kJetWidth<T> == 0 ? 2 : 3;
+
   bool foot = false;                           // whether its foot has a speed of its own
   T lean{0.0};                                 // friction under that, against its way
   const T *mass = nullptr, *length = nullptr;  // [kg], [m]
   T off{0.0};                                  // of its angle from that angle's value
-  std::array<LegForm, 3> form;                 // there, and two derivatives by the angle
+  std::array<LegForm, kForms> form;            // there, and its derivatives by the angle
+
+  int motions() const { return foot ? 4 : 3; }
 
   LegMotion<T> Unit(const LegMotion<T>& u) const { return {u[0], u[1], *length * u[2], u[3]}; }
   /// With the leg's mass and length.
   LegMotion<T> Real(const LegMotion<T>& p) const {
-    return {*mass * p[0], *mass * p[1], *mass * *length * p[2], foot ? T(*mass * p[3]) : T(0.0)};
+    const T& m = *mass;
+    return {m * p[0], m * p[1], m * *length * p[2], foot ? T(m * p[3]) : T(0.0)};
   }
 
-  /// Momenta of all motions, `order` times differentiated by the angle.
-  LegMotion<T> Carried(const LegMotion<T>& u, int order = 0) const {
-    LegMotion<T> p;
+  /// Momenta of all motions, `order` times differentiated by the angle. Here and below S is T, or
+  /// double for values alone.
+  template <class S>
+  LegMotion<S> Carried(const LegMotion<S>& u, int order = 0) const {
+    LegMotion<S> p;
     for (int k = 0; k < motions(); ++k)
-      p[k] = Follow(form[order].mass[k], form[order + 1].mass[k], u);
+      p[k] = Follow([k](const LegForm& of) { return of.mass[k]; }, order, u);
     return p;
   }
   /// Momentum of the leg along and up.
-  T Along(const LegMotion<T>& u, int order = 0) const {
-    return Follow(form[order].along.data(), form[order + 1].along.data(), u);
+  template <class S>
+  S Along(const LegMotion<S>& u, int order = 0) const {
+    return Follow([](const LegForm& of) { return of.along.data(); }, order, u);
   }
-  T Up(const LegMotion<T>& u, int order = 0) const {
-    return Follow(form[order].up.data(), form[order + 1].up.data(), u);
+  template <class S>
+  S Up(const LegMotion<S>& u, int order = 0) const {
+    return Follow([](const LegForm& of) { return of.up.data(); }, order, u);
   }
   T Turn(const LegMotion<T>& u) const {
-    return Follow(form[0].turn.data(), form[1].turn.data(), u);
+    return Follow([](const LegForm& of) { return of.turn.data(); }, 0, u);
   }
-  /// What all motions take to move it so, with its mass and length, `sign` times: the row of the
-  /// foot's speed with its friction.
-  LegMotion<T> Momenta(const LegMotion<T>& u, double sign = 1.0) const {
+  /// What all motions take to move it so, with its mass and length: the row of the foot's speed
+  /// with its friction.
+  LegMotion<T> Momenta(const LegMotion<T>& u) const {
     LegMotion<T> p = Carried(u);
     if (foot) p[3] += lean * (Up(u) - p[1]);
-    p = Real(p);
-    if (sign != 1.0)
-      for (T& number : p) number *= sign;
-    return p;
+    return Real(p);
   }
   /// How a force on all of the leg, or its motion as a rigid one, bears on motion k.
-  T Share(int k, const T& along, const T& up) const {
-    return Number(&LegForm::along, k) * along + Number(&LegForm::up, k) * up;
+  template <class S>
+  S Share(int k, const S& along, const S& up) const {
+    return Number<S>(&LegForm::along, k) * along + Number<S>(&LegForm::up, k) * up;
   }
   T Share(int k, const T& along, const T& up, const T& turn) const {
-    return Share(k, along, up) + Number(&LegForm::turn, k) * turn;
+    return Share(k, along, up) + Number<T>(&LegForm::turn, k) * turn;
   }
-  int motions() const { return foot ? 4 : 3; }
 
  private:
-  T Number(LegMotion<double> LegForm::*row, int k) const {
-    return Chain(off, (form[0].*row)[k], (form[1].*row)[k]);
+  template <class S>
+  S Number(LegMotion<double> LegForm::*row, int k) const {
+    if constexpr (kJetWidth<S> == 0)
+      return (form[0].*row)[k];
+    else
+      return Chain(off, (form[0].*row)[k], (form[1].*row)[k]);
   }
-  T Follow(const double* row, const double* by_angle, const LegMotion<T>& u) const {
-    T sum = row[0] * u[0];
+  template <class Row, class S>
+  S Follow(const Row& row_of, int order, const LegMotion<S>& u) const {
+    const double* row = row_of(form[order]);
+    S sum = row[0] * u[0];
     for (int k = 1; k < motions(); ++k) sum += row[k] * u[k];
-    if constexpr (kJetWidth < T >> 0) {
+    if constexpr (kJetWidth < S >> 0) {
+      const double* by_angle = row_of(form[order + 1]);
       double slope = by_angle[0] * u[0].a;
       for (int k = 1; k < motions(); ++k) slope += by_angle[k] * u[k].a;
       sum.v += slope * off.v;
@@ -82,13 +96,13 @@ struct Robot<T>::LegInertia {
 
 // M82: the leg as a rigid body that turns with its motor.
 template <class T>
-typename Robot<T>::LegInertia Robot<T>::RigidLeg(const Hip& hip) const {
+typename Robot<T>::LegInertia Robot<T>::RigidLeg(const T& angle) const {
   const RobotLeg<T>& law = leg_[0].law;
   LegInertia leg;
   leg.mass = &robot_.leg_mass;
   leg.length = &law.unit_length();
-  leg.off = hip.angle - Value(hip.angle);
-  Vector2<double> at = law.Centre(Value(hip.angle));
+  leg.off = angle - Value(angle);
+  Vector2<double> at = law.Centre(Value(angle));
   double whole = 1.0, inertia = law.inertia();
   for (LegForm& form : leg.form) {
     form.SetMass(whole, 0.0, whole, -at.y, at.x, inertia);
@@ -123,7 +137,7 @@ typename Robot<T>::LegInertia Robot<T>::StandingLeg(int i, const Hip& hip) const
   if (rolling) {
     set(leg.form[0], shape.value, 1.0);
     set(leg.form[1], shape.slope, -1.0);
-    set(leg.form[2], shape.bend, 1.0);
+    if constexpr (leg.kForms > 2) set(leg.form[2], shape.bend, 1.0);
     return leg;
   }
   // On its toe the whole leg turns with its base.
@@ -170,7 +184,7 @@ void Robot<T>::LetFootMove(const Hip& hip, double slides, LegInertia& leg) const
 
 template <class T>
 typename Robot<T>::LegInertia Robot<T>::InertiaOf(int i, const Hip& hip) const {
-  if (!follows_feet_ || !IsDown(leg_[i])) return RigidLeg(hip);
+  if (!follows_feet_ || !IsDown(leg_[i])) return RigidLeg(hip.angle);
   LegInertia leg = StandingLeg(i, hip);
   if (FootMoves(i)) LetFootMove(hip, leg_[i].slides, leg);
   return leg;
@@ -211,18 +225,30 @@ struct Robot<T>::LegLoad {
   Vector2<T> born;    // by the ground, the leg's own force on its hip left out [N]
 };
 
+// The same of a leg of unit mass and length; `moment` is what of it turns the base whatever that
+// length.
+template <class T>
+template <class S>
+LegMotion<S> Robot<T>::UnitLoad(const LegInertia& leg, const LegMotion<S>& u, const S& rate,
+                                const S& gx, const S& gy, S& moment) {
+  const LegMotion<S> turned = leg.Carried(u, 1);
+  LegMotion<S> p;
+  S twice = u[0] * turned[0];
+  for (int k = 1; k < leg.motions(); ++k) twice += u[k] * turned[k];
+  for (int k = 0; k < leg.motions(); ++k) p[k] = leg.Share(k, gx, gy) - rate * turned[k];
+  moment = 0.5 * twice;
+  return p;
+}
+
 template <class T>
 typename Robot<T>::LegLoad Robot<T>::LoadOf(int i, const Hip& hip, const LegInertia& leg,
                                             const T* z) const {
-  const LegMotion<T> u = leg.Unit(MotionOf(i, hip, z)), turned = leg.Carried(u, 1);
+  const LegMotion<T> u = leg.Unit(MotionOf(i, hip, z));
   const T &gx = gravity_x_, &gy = gravity_y_, &m = *leg.mass;
-  LegMotion<T> p;
-  for (int k = 0; k < leg.motions(); ++k) p[k] = leg.Share(k, gx, gy) - hip.rate * turned[k];
   LegLoad all;
+  T moment;
+  const LegMotion<T> p = UnitLoad(leg, u, hip.rate, gx, gy, moment);
   all.load = leg.Real(p);
-  T half = u[0] * turned[0];
-  for (int k = 1; k < leg.motions(); ++k) half += u[k] * turned[k];
-  T moment = 0.5 * half;
   if (follows_feet_ && IsDown(leg_[i])) {
     const Vector2<T> press = PressOf(i, hip, z);
     const LegMotion<T> pressed{press.x, press.y, T(0.0), T(0.0)};
@@ -247,7 +273,7 @@ T Robot<T>::Energy(Mode, const T* z) const {
       energy += leg.law.StrainEnergy(FootOf(leg), PlaceOf(leg, i, HipOf(frame, i, z), z));
     if (has_leg_mass_) {
       const Hip hip = HipOf(frame, i, z);
-      const LegInertia inertia = InertiaOf(i, hip), rigid = RigidLeg(hip);
+      const LegInertia inertia = InertiaOf(i, hip), rigid = RigidLeg(hip.angle);
       const LegMotion<T> u = inertia.Unit(MotionOf(i, hip, z)), carried = inertia.Carried(u);
       const LegMotion<T> turns{T(0.0), T(0.0), *rigid.length, T(0.0)};
       T x = z[kX] + hip.x + rigid.Up(turns), y = z[kY] + hip.y - rigid.Along(turns);

@@ -61,7 +61,9 @@ typename Robot<T>::Sides Robot<T>::Left(const Vector2<T>& com, const MovingLegs&
     const LegInertia& leg = legs.inertia[i];
     const LegMotion<T> u = leg.Unit(
         {a.x - a.pitch * hip.y, a.y + a.pitch * hip.x, T(a.pitch + a.motor[i]), T(a.foot[i])});
-    left.Add(i, hip, leg.Momenta(u, -1.0));
+    LegMotion<T> taken = leg.Momenta(u);
+    for (T& number : taken) number = -number;
+    left.Add(i, hip, taken);
     left.motor[i] -= a.motor[i] * hub_[i];
   }
   return left;
@@ -138,6 +140,48 @@ void Robot<T>::GroundForces(const Frame& frame, const T& t, const T* z,
   loads = push.load;
   for (int i = 0; i < legs_; ++i)
     if (IsDown(leg_[i])) ground[i] = GroundForce(frame, i, push, z, rates.data());
+}
+
+// M83 to its first order, of legs that have a derivative by their mass, but none: what a kilogram
+// of each would add to the accelerations, by values.
+template <class T>
+void Robot<T>::AddFirstMass(const Frame& frame, const T* z, T* dz) const {
+  const auto turned = [&](const T& x, const T& y) {
+    const double c = Value(frame.cos_pitch), s = Value(frame.sin_pitch);
+    return Vector2<double>{c * Value(x) - s * Value(y), s * Value(x) + c * Value(y)};
+  };
+  const double turn = Value(z[Pitch() + 1]), ax = Value(dz[kVx]), ay = Value(dz[kVy]),
+               spin = Value(dz[Pitch() + 1]);
+  AllMotions<double> sides;
+  for (int i = 0; i < legs_; ++i) {
+    const Vector2<double> hip = turned(robot_.hip_x[i], robot_.hip_y[i]);
+    const LegInertia leg = RigidLeg(T(Value(frame.pitch) + Value(z[Angle(i)])));
+    const double length = Value(*leg.length), rate = turn + Value(z[Rate(i)]);
+    const LegMotion<double> u{Value(z[kVx]) - turn * hip.y, Value(z[kVy]) + turn * hip.x,
+                              length * rate, 0.0};
+    const LegMotion<double> held{turn * turn * hip.x - ax + spin * hip.y,
+                                 turn * turn * hip.y - ay - spin * hip.x,
+                                 -length * (spin + Value(dz[Rate(i)])), 0.0};
+    double moment;
+    const LegMotion<double> load = UnitLoad(leg, u, rate, Value(gravity_x_), Value(gravity_y_),
+                                            moment),
+                            carried = leg.Carried(held);
+    const double fx = load[0] + carried[0], fy = load[1] + carried[1];
+    moment += length * (load[2] + carried[2]);
+    sides.x += fx;
+    sides.y += fy;
+    sides.pitch += hip.x * fy - hip.y * fx + moment;
+    sides.motor[i] = moment;
+  }
+  const Vector2<double> com = turned(robot_.com_x, robot_.com_y);
+  const double m = Value(p_.m), added = (sides.pitch + com.y * sides.x - com.x * sides.y) /
+                                        Value(robot_.pitch_inertia);
+  dz[kVx] += robot_.leg_mass * (sides.x / m + com.y * added);
+  dz[kVy] += robot_.leg_mass * (sides.y / m - com.x * added);
+  dz[Pitch() + 1] += robot_.leg_mass * added;
+  if (robot_.control == MotorControl::kLocked) return;
+  for (int i = 0; i < legs_; ++i)
+    dz[Rate(i)] += robot_.leg_mass * (sides.motor[i] / Value(hub_[i]));
 }
 
 // M83 with the matrices of M89.
