@@ -17,6 +17,7 @@ using Jet = ceres::Jet<double, N>;
 /// chunks. Measured in docs/decisions/0002-sensitivities.md.
 inline constexpr int kNarrowJet = 4;
 inline constexpr int kWideJet = 8;
+inline constexpr int kWidestJet = 20;
 
 template <class T>
 struct JetWidth : std::integral_constant<int, 0> {};

@@ -204,16 +204,14 @@ void RunChunk(const SimulationRequest& request, const Mechanism& mechanism, int 
 void RunRequest(const SimulationRequest& request, const Mechanism& mechanism, Trajectory& out) {
   const int directions = static_cast<int>(request.directions.size());
   if (directions == 0) return RunChunk<double>(request, mechanism, 0, 0, out);
-  for (int first = 0; first < directions;) {
-    const int left = directions - first;
-    if (left <= kNarrowJet) {
-      RunChunk<Jet<kNarrowJet>>(request, mechanism, first, left, out);
-      first += left;
-    } else {
-      const int count = std::min(left, kWideJet);
+  for (int first = 0; first < directions; first += kWidestJet) {
+    const int count = std::min(directions - first, kWidestJet);
+    if (count <= kNarrowJet)
+      RunChunk<Jet<kNarrowJet>>(request, mechanism, first, count, out);
+    else if (count <= kWideJet)
       RunChunk<Jet<kWideJet>>(request, mechanism, first, count, out);
-      first += count;
-    }
+    else
+      RunChunk<Jet<kWidestJet>>(request, mechanism, first, count, out);
   }
 }
 

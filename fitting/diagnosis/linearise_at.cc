@@ -41,10 +41,10 @@ std::vector<Places> BatchesOf(std::span<const Candidate> tested) {
     classes[static_cast<std::size_t>(CostClass(tested[i]))].push_back(static_cast<int>(i));
   std::vector<Places> batches;
   for (const Places& places : classes) {
-    int directions = kWideJet;
+    int directions = kWidestJet;
     for (const int place : places) {
       const int more = tested[static_cast<std::size_t>(place)].parameter_count();
-      if (directions + more > kWideJet) {
+      if (directions + more > kWidestJet) {
         batches.emplace_back();
         directions = 0;
       }

@@ -35,6 +35,7 @@ struct ChannelReading {
   void (*read0)(const Instant<double>&, ReadValues<double>&);
   void (*read_narrow)(const Instant<Jet<kNarrowJet>>&, ReadValues<Jet<kNarrowJet>>&);
   void (*read_wide)(const Instant<Jet<kWideJet>>&, ReadValues<Jet<kWideJet>>&);
+  void (*read_widest)(const Instant<Jet<kWidestJet>>&, ReadValues<Jet<kWidestJet>>&);
 
   template <class T>
   void Read(const Instant<T>& at, ReadValues<T>& values) const {
@@ -42,8 +43,10 @@ struct ChannelReading {
       read0(at, values);
     else if constexpr (kJetWidth<T> == kNarrowJet)
       read_narrow(at, values);
-    else
+    else if constexpr (kJetWidth<T> == kWideJet)
       read_wide(at, values);
+    else
+      read_widest(at, values);
   }
 };
 
@@ -52,7 +55,7 @@ struct ChannelReading {
 template <class R>
 constexpr ChannelReading MakeChannelReading() {
   return {R::kNames, R::template Read<double>, R::template Read<Jet<kNarrowJet>>,
-          R::template Read<Jet<kWideJet>>};
+          R::template Read<Jet<kWideJet>>, R::template Read<Jet<kWidestJet>>};
 }
 
 /// Where a channel is read: the reading and its place there; none for one the automaton tells.

@@ -150,6 +150,7 @@ struct Effect {
   EffectHooks<Jet<1>> hooks1;
   EffectHooks<Jet<kNarrowJet>> hooks_narrow;
   EffectHooks<Jet<kWideJet>> hooks_wide;
+  EffectHooks<Jet<kWidestJet>> hooks_widest;
   /// What acts in place of the hooks where the effect is a formula (model/formula).
   const Formula* formula = nullptr;
 
@@ -161,8 +162,10 @@ struct Effect {
       return hooks1;
     else if constexpr (kJetWidth<T> == kNarrowJet)
       return hooks_narrow;
-    else
+    else if constexpr (kJetWidth<T> == kWideJet)
       return hooks_wide;
+    else
+      return hooks_widest;
   }
   /// Index of a parameter by name.
   std::optional<int> FindParameter(std::string_view name) const;
@@ -246,8 +249,12 @@ constexpr EffectHooks<T> HooksOf() {
 template <class Physics>
 constexpr Effect MakeEffect() {
   using namespace effect_detail;
-  return {Physics::kInfo, HooksOf<Physics, double>(), HooksOf<Physics, Jet<1>>(),
-          HooksOf<Physics, Jet<kNarrowJet>>(), HooksOf<Physics, Jet<kWideJet>>()};
+  return {Physics::kInfo,
+          HooksOf<Physics, double>(),
+          HooksOf<Physics, Jet<1>>(),
+          HooksOf<Physics, Jet<kNarrowJet>>(),
+          HooksOf<Physics, Jet<kWideJet>>(),
+          HooksOf<Physics, Jet<kWidestJet>>()};
 }
 
 }  // namespace hoplab

@@ -206,6 +206,7 @@ HOPLAB_FORMULA_IN(double)
 HOPLAB_FORMULA_IN(Jet<1>)
 HOPLAB_FORMULA_IN(Jet<kNarrowJet>)
 HOPLAB_FORMULA_IN(Jet<kWideJet>)
+HOPLAB_FORMULA_IN(Jet<kWidestJet>)
 #undef HOPLAB_FORMULA_IN
 // NOLINTEND(bugprone-macro-parentheses)
 

@@ -314,5 +314,6 @@ template class Engine<double>;
 template class Engine<Jet<1>>;
 template class Engine<Jet<kNarrowJet>>;
 template class Engine<Jet<kWideJet>>;
+template class Engine<Jet<kWidestJet>>;
 
 }  // namespace hoplab

@@ -34,8 +34,9 @@ struct Automaton {
 
 /// Runs a hybrid automaton: modes integrated by a stepper (or in closed form), guards located to
 /// solver accuracy, resets with the derivative of the event time (M16) and the saltation (M17).
-/// Compiled for the scalar types double, Jet<1>, Jet<kNarrowJet> and Jet<kWideJet>. What the
-/// stepper integrates is the flat vector of flat_state.h: dS/dt = f_x S + f_p by duals.
+/// Compiled for the scalar types double, Jet<1>, Jet<kNarrowJet>, Jet<kWideJet> and
+/// Jet<kWidestJet>. What the stepper integrates is the flat vector of flat_state.h: dS/dt = f_x S +
+/// f_p by duals.
 template <class T>
 class Engine {
  public:

@@ -2,6 +2,7 @@
 
 #include "model/hybrid/automaton.h"
 #include "model/integrators/integrator_options.h"
+#include "model/jet.h"
 
 namespace hoplab {
 
@@ -12,7 +13,8 @@ struct FlatSystem {
   int size;        // of the whole vector, at most kMaxFlatSize
   int controlled;  // leading components that steer the step: the state
 };
-inline constexpr int kMaxFlatSize = (kMaxStates * (1 + 8) + 3) / 4 * 4;  // whole packs of four
+inline constexpr int kMaxFlatSize =
+    (kMaxStates * (1 + kWidestJet) + 3) / 4 * 4;  // whole packs of four
 
 /// Steps a flat system. The system outlives the stepper.
 class Stepper {

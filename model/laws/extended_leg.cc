@@ -224,5 +224,6 @@ template class ExtendedLeg<double>;
 template class ExtendedLeg<Jet<1>>;
 template class ExtendedLeg<Jet<kNarrowJet>>;
 template class ExtendedLeg<Jet<kWideJet>>;
+template class ExtendedLeg<Jet<kWidestJet>>;
 
 }  // namespace hoplab

@@ -73,6 +73,7 @@ struct LegLaw {
   void (*make1)(const Parameters<Jet<1>>& p, LegStorage<Jet<1>>& leg);
   void (*make_narrow)(const Parameters<Jet<kNarrowJet>>& p, LegStorage<Jet<kNarrowJet>>& leg);
   void (*make_wide)(const Parameters<Jet<kWideJet>>& p, LegStorage<Jet<kWideJet>>& leg);
+  void (*make_widest)(const Parameters<Jet<kWidestJet>>& p, LegStorage<Jet<kWidestJet>>& leg);
 
   template <class T>
   void Make(const Parameters<T>& p, LegStorage<T>& leg) const {
@@ -82,8 +83,10 @@ struct LegLaw {
       make1(p, leg);
     else if constexpr (kJetWidth<T> == kNarrowJet)
       make_narrow(p, leg);
-    else
+    else if constexpr (kJetWidth<T> == kWideJet)
       make_wide(p, leg);
+    else
+      make_widest(p, leg);
   }
 };
 

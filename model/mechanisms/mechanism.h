@@ -18,6 +18,8 @@ struct Mechanism {
                       SystemStorage<Jet<kNarrowJet>>& system);
   void (*make_wide)(const MechanismSetup<Jet<kWideJet>>& setup,
                     SystemStorage<Jet<kWideJet>>& system);
+  void (*make_widest)(const MechanismSetup<Jet<kWidestJet>>& setup,
+                      SystemStorage<Jet<kWidestJet>>& system);
 
   template <class T>
   void Make(const MechanismSetup<T>& setup, SystemStorage<T>& system) const {
@@ -27,8 +29,10 @@ struct Mechanism {
       make1(setup, system);
     else if constexpr (kJetWidth<T> == kNarrowJet)
       make_narrow(setup, system);
-    else
+    else if constexpr (kJetWidth<T> == kWideJet)
       make_wide(setup, system);
+    else
+      make_widest(setup, system);
   }
 };
 
@@ -37,7 +41,8 @@ constexpr Mechanism MakeMechanism() {
   return {[](const auto& setup, auto& to) { to.template Emplace<System<double>>(setup); },
           [](const auto& setup, auto& to) { to.template Emplace<System<Jet<1>>>(setup); },
           [](const auto& setup, auto& to) { to.template Emplace<System<Jet<kNarrowJet>>>(setup); },
-          [](const auto& setup, auto& to) { to.template Emplace<System<Jet<kWideJet>>>(setup); }};
+          [](const auto& setup, auto& to) { to.template Emplace<System<Jet<kWideJet>>>(setup); },
+          [](const auto& setup, auto& to) { to.template Emplace<System<Jet<kWidestJet>>>(setup); }};
 }
 
 }  // namespace hoplab

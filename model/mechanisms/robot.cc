@@ -254,5 +254,6 @@ template class Robot<double>;
 template class Robot<Jet<1>>;
 template class Robot<Jet<kNarrowJet>>;
 template class Robot<Jet<kWideJet>>;
+template class Robot<Jet<kWidestJet>>;
 
 }  // namespace hoplab

@@ -4,16 +4,14 @@
 
 #include "model/hybrid/hybrid_system.h"
 #include "model/mechanisms/gear.h"
+#include "model/mechanisms/leg_form.h"
 #include "model/mechanisms/mechanism_setup.h"
+#include "model/mechanisms/motion_equations.h"
 #include "model/mechanisms/motor_clock.h"
 #include "model/mechanisms/robot_leg.h"
 #include "model/mechanisms/robot_leg_shape.h"
 
 namespace hoplab {
-
-/// Motion of a leg: of its hip along and up, its base's rate, its foot's speed over the ground.
-template <class T>
-using LegMotion = std::array<T, 4>;
 
 /// A rigid body with pitch on up to four legs, arcs or straight ones, each clamped to a motor at
 /// its hip (section 8 of the equation sheet). State: x, y, vx, vy of the body's reference point,
@@ -102,21 +100,21 @@ class Robot final : public HybridSystem<T> {
   Hip ClampOf(const Hip& hip) const;
   struct Frame;  // sine and cosine of the body's pitch over the ground
   Hip HipOf(const Frame& frame, int leg, const T* z) const;
-  struct Push;      // what legs and air do to body and motors
-  struct LegPlace;  // where the centre of mass of a leg is
-  LegPlace LegOf(const Frame& frame, int leg, const T* z) const;
+  struct Push;  // what legs and air do to body and motors
   Push PushOf(const Frame& frame, const T& t, const T* z) const;
   void Accelerate(const Frame& frame, const Push& push, const T* z, T* dz) const;
+  void AddFirstMass(const Frame& frame, const T* z, T* dz) const;
   void AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z, T* dz) const;
   void LagShortly(const Frame& frame, Push& push, const T* z, T* dz) const;
   void MissJump(int leg, const T& jump, const T* at, T* z) const;
   struct LegInertia;  // the mass of a leg in the way it is now
+  struct LegLoad;     // forces on it
+  struct MovingLegs;  // the masses of all of them
   struct Sides;       // forces or momenta of all motions
-  LegInertia InertiaOf(int i, const LegPlace& at) const;
-  LegInertia RigidLeg(const LegPlace& at) const;
-  LegInertia StandingLeg(int i, const LegPlace& at) const;
-  void LetFootMove(const LegPlace& at, double slides, LegInertia& leg) const;
-  Vector2<T> BornBy(const LegPlace& at, const LegInertia& leg, const LegMotion<T>& u) const;
+  LegInertia InertiaOf(int i, const Hip& hip) const;
+  LegInertia RigidLeg(const T& angle) const;
+  LegInertia StandingLeg(int i, const Hip& hip) const;
+  void LetFootMove(const Hip& hip, double slides, LegInertia& leg) const;
   LegMotion<T> MotionUnder(int i, const Hip& hip, const T* rates) const;
   Vector2<T> GroundForce(const Frame& frame, int i, const Push& push, const T* z,
                          const T* dz) const;
@@ -127,13 +125,15 @@ class Robot final : public HybridSystem<T> {
   void TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& told, const T& t, T* z);
   void AskCones(int except, const T& t, const T* z);
   LegMotion<T> MotionOf(int i, const Hip& hip, const T* z) const;
-  Vector2<T> PressOf(int i, const LegPlace& at, const T* z) const;
-  LegMotion<T> LoadOf(int i, const LegPlace& at, const LegInertia& leg, const T* z) const;
-  struct Rows;  // the equations of motion as they are solved
-  void AddLegRows(int i, const LegPlace& at, const LegInertia& leg, const Sides& sides,
-                  Rows& rows) const;
-  void SolveMotion(const Vector2<T>& com, const std::array<LegPlace, kMaxLegs>& at,
-                   const std::array<LegInertia, kMaxLegs>& legs, const Sides& sides, T* dz) const;
+  Vector2<T> PressOf(int i, const Hip& hip, const T* z) const;
+  template <class S>
+  static LegMotion<S> UnitLoad(const LegInertia& leg, const LegMotion<S>& u, const S& rate,
+                               const S& gx, const S& gy, S& moment);
+  LegLoad LoadOf(int i, const Hip& hip, const LegInertia& leg, const T* z) const;
+  MotionEquations EquationsOf(const Vector2<T>& com, const MovingLegs& legs) const;
+  Sides Left(const Vector2<T>& com, const MovingLegs& legs, const Sides& sides,
+             const AllMotions<double>& a) const;
+  void SolveMotion(const Vector2<T>& com, const MovingLegs& legs, const Sides& sides, T* dz) const;
   struct Impact;  // an instant at which a leg lands, leaves or changes its way
   Impact MomentaOf(const T* z, int without) const;
   void GoOnWith(const Impact& now, T* z) const;

@@ -14,8 +14,7 @@ namespace hoplab {
 template <class T>
 struct Robot<T>::Impact {
   Vector2<T> com;
-  std::array<LegPlace, kMaxLegs> at;
-  std::array<LegInertia, kMaxLegs> legs;
+  MovingLegs legs;
   Sides sides;  // momenta
 };
 
@@ -27,7 +26,6 @@ typename Robot<T>::Impact Robot<T>::MomentaOf(const T* z, int without) const {
   Impact now;
   now.com = frame.Turn(robot_.com_x, robot_.com_y);
   Sides& sides = now.sides;
-  sides.Clear();
   const T& turn = z[Pitch() + 1];
   const T px = p_.m * (z[kVx] - turn * now.com.y), py = p_.m * (z[kVy] + turn * now.com.x);
   sides.x += px;
@@ -35,13 +33,9 @@ typename Robot<T>::Impact Robot<T>::MomentaOf(const T* z, int without) const {
   sides.pitch += robot_.pitch_inertia * turn + now.com.x * py - now.com.y * px;
   for (int i = 0; i < legs_; ++i) {
     sides.motor[i] += hub_[i] * z[Rate(i)];
-    now.at[i] = LegOf(frame, i, z);
-    now.legs[i] = InertiaOf(i, now.at[i]);
-    if (i == without) continue;
-    const LegMotion<T> u = MotionOf(i, now.at[i].hip, z);
-    LegMotion<T> momentum = now.legs[i].mass * u;
-    if (now.legs[i].foot) momentum[3] = Dot(now.legs[i].row, u);
-    sides.Add(i, now.at[i].hip, momentum);
+    const Hip& hip = now.legs.hip[i] = HipOf(frame, i, z);
+    const LegInertia& leg = now.legs.inertia[i] = InertiaOf(i, hip);
+    if (i != without) sides.Add(i, hip, leg.Momenta(leg.Unit(MotionOf(i, hip, z))));
   }
   return now;
 }
@@ -49,7 +43,7 @@ typename Robot<T>::Impact Robot<T>::MomentaOf(const T* z, int without) const {
 template <class T>
 void Robot<T>::GoOnWith(const Impact& now, T* z) const {
   std::array<T, kMaxStates> rates;
-  SolveMotion(now.com, now.at, now.legs, now.sides, rates.data());
+  SolveMotion(now.com, now.legs, now.sides, rates.data());
   z[kVx] = rates[kVx];
   z[kVy] = rates[kVy];
   z[Pitch() + 1] = rates[Pitch() + 1];
@@ -63,28 +57,26 @@ void Robot<T>::GoOnWith(const Impact& now, T* z) const {
 template <class T>
 void Robot<T>::Blow(int i, T* z) {
   Impact now = MomentaOf(z, i);
-  LegInertia& leg = now.legs[i];
-  const LegPlace& at = now.at[i];
-  const LegMotion<T> before = MotionOf(i, at.hip, z);
-  LegMotion<T> taken{};
-  for (int k = 0; k < 4; ++k)
-    taken[k] = leg.along[k] * before[0] + leg.up[k] * before[1] + leg.turn[k] * before[2];
-  now.sides.Add(i, at.hip, taken);
+  LegInertia& leg = now.legs.inertia[i];
+  const Hip& hip = now.legs.hip[i];
+  const T& m = *leg.mass;
+  const LegMotion<T> before = leg.Unit(MotionOf(i, hip, z));
+  const auto taken_by = [&](int k) { return leg.Share(k, before[0], before[1], before[2]); };
+  const LegMotion<T> taken = leg.Real({taken_by(0), taken_by(1), taken_by(2), T(0.0)});
+  now.sides.Add(i, hip, taken);
   if (HasCone()) {
-    const Vector2<T> had{robot_.leg_mass * (before[0] - at.y * before[2]),
-                         robot_.leg_mass * (before[1] + at.x * before[2])};
+    const LegInertia rigid = RigidLeg(hip.angle);
+    const Vector2<T> had{m * rigid.Along(before), m * rigid.Up(before)};
     std::array<T, kMaxStates> rates;
-    SolveMotion(now.com, now.at, now.legs, now.sides, rates.data());
-    const LegMotion<T> u = MotionUnder(i, at.hip, rates.data());
-    const LegMotion<T> carried = leg.mass * u;
-    const double along = Value(Dot(leg.along, u) - carried[0] + taken[0] - had.x),
-                 up = Value(Dot(leg.up, u) - carried[1] + taken[1] - had.y);
+    SolveMotion(now.com, now.legs, now.sides, rates.data());
+    const LegMotion<T> u = leg.Unit(MotionUnder(i, hip, rates.data())), carried = leg.Carried(u);
+    const double along = Value(m * (leg.Along(u) - carried[0]) + taken[0] - had.x),
+                 up = Value(m * (leg.Up(u) - carried[1]) + taken[1] - had.y);
     if (!(std::abs(along) <= Value(robot_.friction) * up)) {
       leg_[i].slides = along > 0.0 ? -1.0 : 1.0;
-      LetFootMove(at, leg_[i].slides, leg);
+      LetFootMove(hip, leg_[i].slides, leg);
       // What it takes up of the motion along, and the friction of the blow.
-      now.sides.foot[i] = leg.along[3] * before[0] + leg.up[3] * before[1] +
-                          leg.turn[3] * before[2] + leg.lean * (had.y - taken[1]);
+      now.sides.foot[i] = m * taken_by(3) + leg.lean * (had.y - taken[1]);
     }
   }
   GoOnWith(now, z);
@@ -95,10 +87,11 @@ void Robot<T>::Blow(int i, T* z) {
 template <class T>
 void Robot<T>::SpringOff(int i, T* z) {
   Impact now = MomentaOf(z, i);
-  LegInertia& leg = now.legs[i];
-  const LegMotion<T> u = MotionOf(i, now.at[i].hip, z);
-  now.sides.Add(i, now.at[i].hip, {Dot(leg.along, u), Dot(leg.up, u), Dot(leg.turn, u), T(0.0)});
-  leg = RigidLeg(now.at[i]);
+  LegInertia& leg = now.legs.inertia[i];
+  const Hip& hip = now.legs.hip[i];
+  const LegMotion<T> u = leg.Unit(MotionOf(i, hip, z));
+  now.sides.Add(i, hip, leg.Real({leg.Along(u), leg.Up(u), leg.Turn(u), T(0.0)}));
+  leg = RigidLeg(hip.angle);
   GoOnWith(now, z);
 }
 
@@ -107,7 +100,7 @@ template <class T>
 void Robot<T>::ChangeStance(int i, Stance to, T* z) {
   Impact now = MomentaOf(z, /*without=*/-1);
   leg_[i].stance = to;
-  now.legs[i] = InertiaOf(i, now.at[i]);
+  now.legs.inertia[i] = InertiaOf(i, now.legs.hip[i]);
   GoOnWith(now, z);
 }
 

@@ -17,22 +17,6 @@ struct Robot<T>::Push {
   std::array<ClampedLoad<T>, kMaxLegs> load;  // of each leg that is down
 };
 
-// M82: the leg as a rigid body that turns with its motor.
-template <class T>
-struct Robot<T>::LegPlace {
-  Hip hip;
-  T x, y;  // from the hip to its centre of mass [m]
-};
-
-template <class T>
-typename Robot<T>::LegPlace Robot<T>::LegOf(const Frame& frame, int leg, const T* z) const {
-  LegPlace at{HipOf(frame, leg, z), T(0.0), T(0.0)};
-  const Vector2<T> centre = leg_[leg].law.Centre(at.hip.angle);
-  at.x = centre.x;
-  at.y = centre.y;
-  return at;
-}
-
 template <class T>
 typename Robot<T>::Push Robot<T>::PushOf(const Frame& frame, const T& t, const T* z) const {
   const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
@@ -95,7 +79,7 @@ void Robot<T>::Accelerate(const Frame& frame, const Push& push, const T* z, T* d
   for (int i = 0; i < legs_; ++i)
     if (leg_[i].geared())
       dz[RotorRate(leg_[i])] = push.on_rotor[i] / (robot_.rotor_inertia - hub_[i]);
-  if (has_leg_mass_) return AccelerateWithLegMass(frame, push, z, dz);
+  if (Value(robot_.leg_mass) != 0.0) return AccelerateWithLegMass(frame, push, z, dz);
   const bool locked = robot_.control == MotorControl::kLocked;
   const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
   const T& turn = z[Pitch() + 1];
@@ -104,6 +88,7 @@ void Robot<T>::Accelerate(const Frame& frame, const Push& push, const T* z, T* d
   dz[kVy] = push.force_y / p_.m + gravity_y_ - spin * com.x + turn * turn * com.y;
   dz[Pitch() + 1] = spin;
   for (int i = 0; i < legs_; ++i) dz[Rate(i)] = locked ? T(0.0) : T(push.on_motor[i] / hub_[i]);
+  if (has_leg_mass_) AddFirstMass(frame, z, dz);
 }
 
 // M86: a lag too short to integrate, to its first order: what a motor gives is behind by the lag

@@ -59,11 +59,14 @@ class RobotLeg {
   ClampedLanding<T> LandsAs(const T& angle) const {
     return Ask([&](const auto& leg) { return leg.LandsAs(angle); });
   }
-  Vector2<T> Centre(const T& angle) const {
+  const T& unit_length() const {
+    return Ask([](const auto& leg) -> const T& { return leg.unit_length(); });
+  }
+  Vector2<double> Centre(double angle) const {
     return Ask([&](const auto& leg) { return leg.Centre(angle); });
   }
-  T Inertia(const T& mass) const {
-    return Ask([&](const auto& leg) { return leg.Inertia(mass); });
+  double inertia() const {
+    return Ask([](const auto& leg) { return leg.kInertia; });
   }
 
   ClampedLoad<T> At(const Footing& foot, const ClampedPlace<T>& place, bool damping = true,

@@ -12,138 +12,181 @@
 
 namespace hoplab {
 
-/// Symmetric 4 x 4, upper triangle by rows.
+/// A leg's mass in the way it is on the ground or in the air now: forms are functions of its angle.
+/// Momenta and forces below are those of a leg of unit mass and length, as are the motions.
 template <class T>
-struct LegMatrix {
-  T xx, xy, xb, xf, yy, yb, yf, bb, bf, ff;
+struct Robot<T>::LegInertia {
+  // The forms are needed with their slopes only where numbers have some.
+  static constexpr int kForms = kJetWidth<T> == 0 ? 2 : 3;
 
-  LegMotion<T> operator*(const LegMotion<T>& u) const {
-    return {xx * u[0] + xy * u[1] + xb * u[2] + xf * u[3],
-            xy * u[0] + yy * u[1] + yb * u[2] + yf * u[3],
-            xb * u[0] + yb * u[1] + bb * u[2] + bf * u[3],
-            xf * u[0] + yf * u[1] + bf * u[2] + ff * u[3]};
+  bool foot = false;                           // whether its foot has a speed of its own
+  T lean{0.0};                                 // friction under that, against its way
+  const T *mass = nullptr, *length = nullptr;  // [kg], [m]
+  T off{0.0};                                  // of its angle from that angle's value
+  std::array<LegForm, kForms> form;            // there, and its derivatives by the angle
+
+  int motions() const { return foot ? 4 : 3; }
+
+  LegMotion<T> Unit(const LegMotion<T>& u) const { return {u[0], u[1], *length * u[2], u[3]}; }
+  /// With the leg's mass and length.
+  LegMotion<T> Real(const LegMotion<T>& p) const {
+    const T& m = *mass;
+    return {m * p[0], m * p[1], m * *length * p[2], foot ? T(m * p[3]) : T(0.0)};
+  }
+
+  /// Momenta of all motions, `order` times differentiated by the angle. Here and below S is T, or
+  /// double for values alone.
+  template <class S>
+  LegMotion<S> Carried(const LegMotion<S>& u, int order = 0) const {
+    LegMotion<S> p;
+    for (int k = 0; k < motions(); ++k)
+      p[k] = Follow([k](const LegForm& of) { return of.mass[k]; }, order, u);
+    return p;
+  }
+  /// Momentum of the leg along and up.
+  template <class S>
+  S Along(const LegMotion<S>& u, int order = 0) const {
+    return Follow([](const LegForm& of) { return of.along.data(); }, order, u);
+  }
+  template <class S>
+  S Up(const LegMotion<S>& u, int order = 0) const {
+    return Follow([](const LegForm& of) { return of.up.data(); }, order, u);
+  }
+  T Turn(const LegMotion<T>& u) const {
+    return Follow([](const LegForm& of) { return of.turn.data(); }, 0, u);
+  }
+  /// What all motions take to move it so, with its mass and length: the row of the foot's speed
+  /// with its friction.
+  LegMotion<T> Momenta(const LegMotion<T>& u) const {
+    LegMotion<T> p = Carried(u);
+    if (foot) p[3] += lean * (Up(u) - p[1]);
+    return Real(p);
+  }
+  /// How a force on all of the leg, or its motion as a rigid one, bears on motion k.
+  template <class S>
+  S Share(int k, const S& along, const S& up) const {
+    return Number<S>(&LegForm::along, k) * along + Number<S>(&LegForm::up, k) * up;
+  }
+  T Share(int k, const T& along, const T& up, const T& turn) const {
+    return Share(k, along, up) + Number<T>(&LegForm::turn, k) * turn;
+  }
+
+ private:
+  template <class S>
+  S Number(LegMotion<double> LegForm::*row, int k) const {
+    if constexpr (kJetWidth<S> == 0)
+      return (form[0].*row)[k];
+    else
+      return Chain(off, (form[0].*row)[k], (form[1].*row)[k]);
+  }
+  template <class Row, class S>
+  S Follow(const Row& row_of, int order, const LegMotion<S>& u) const {
+    const double* row = row_of(form[order]);
+    S sum = row[0] * u[0];
+    for (int k = 1; k < motions(); ++k) sum += row[k] * u[k];
+    if constexpr (kJetWidth < S >> 0) {
+      const double* by_angle = row_of(form[order + 1]);
+      double slope = by_angle[0] * u[0].a;
+      for (int k = 1; k < motions(); ++k) slope += by_angle[k] * u[k].a;
+      sum.v += slope * off.v;
+    }
+    return sum;
   }
 };
 
+// M82: the leg as a rigid body that turns with its motor.
 template <class T>
-T Dot(const LegMotion<T>& a, const LegMotion<T>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-}
-
-/// A leg's mass in the way it is on the ground or in the air now.
-template <class T>
-struct Robot<T>::LegInertia {
-  bool foot = false;                 // whether its foot has a speed of its own
-  T lean{0.0};                       // friction under that, against its way
-  LegMotion<T> row;                  // the equation of that speed, friction included
-  LegMatrix<T> mass, slope;          // its mass matrix [kg, m], and along beta
-  LegMotion<T> along, up;            // momentum along and up by its motion [kg, m]
-  LegMotion<T> along_turn, up_turn;  // their slopes along beta
-  LegMotion<T> turn;                 // M90: by the rate of a rigid leg
-};
-
-// M82.
-template <class T>
-typename Robot<T>::LegInertia Robot<T>::RigidLeg(const LegPlace& at) const {
-  const T &m = robot_.leg_mass, zero(0.0);
-  const T x = m * at.x, y = m * at.y;
+typename Robot<T>::LegInertia Robot<T>::RigidLeg(const T& angle) const {
+  const RobotLeg<T>& law = leg_[0].law;
   LegInertia leg;
-  leg.mass = {m, zero, -y, zero, m, x, zero, leg_[0].law.Inertia(m), zero, zero};
-  leg.slope = {zero, zero, -x, zero, zero, -y, zero, zero, zero, zero};
-  leg.along = {m, zero, -y, zero};
-  leg.up = {zero, m, x, zero};
-  leg.along_turn = {zero, zero, -x, zero};
-  leg.up_turn = {zero, zero, -y, zero};
-  leg.turn = {-y, x, leg.mass.bb, zero};
+  leg.mass = &robot_.leg_mass;
+  leg.length = &law.unit_length();
+  leg.off = angle - Value(angle);
+  Vector2<double> at = law.Centre(Value(angle));
+  double whole = 1.0, inertia = law.inertia();
+  for (LegForm& form : leg.form) {
+    form.SetMass(whole, 0.0, whole, -at.y, at.x, inertia);
+    form.along = {whole, 0.0, -at.y, 0.0};
+    form.up = {0.0, whole, at.x, 0.0};
+    form.turn = {-at.y, at.x, inertia, 0.0};
+    at = {-at.y, at.x};
+    whole = inertia = 0.0;
+  }
   return leg;
 }
 
 // M89, of a foot that holds.
 template <class T>
-typename Robot<T>::LegInertia Robot<T>::StandingLeg(int i, const LegPlace& at) const {
-  using std::cos;
-  using std::sin;
+typename Robot<T>::LegInertia Robot<T>::StandingLeg(int i, const Hip& hip) const {
   using F = LegShape;
   const Leg& own = leg_[i];
-  const T zero(0.0), &r = p_.r;
-  const bool rolling = own.stance == Stance::kRolling;
-  const T angle = at.hip.angle - 2.0 * kPi * own.turns;
-  // On its toe the whole leg turns with its base.
-  const F shape = LegShapeAt(rolling ? kPi - Value(angle) : kPi);
-  const T off = rolling ? T(Value(angle) - angle) : zero;  // of Psi
-  const auto of = [&](int k) { return T(shape.value[k] + shape.slope[k] * off); };
-  const auto by = [&](int k) { return T(-shape.slope[k] - shape.bend[k] * off); };
   LegInertia leg;
-  const T m = robot_.leg_mass, mr = m * r, mr2 = mr * r;
+  leg.mass = &robot_.leg_mass;
+  leg.length = &own.law.unit_length();
+  leg.off = hip.angle - Value(hip.angle);
+  const double angle = Value(hip.angle) - 2.0 * kPi * own.turns;
+  const bool rolling = own.stance == Stance::kRolling;
+  const F shape = LegShapeAt(rolling ? kPi - angle : kPi);
+  const auto set = [](LegForm& form, const auto& v, double sign) {
+    form.SetMass(sign * v[F::kXX], sign * v[F::kXY], sign * v[F::kYY], sign * v[F::kXB],
+                 sign * v[F::kYB], sign * v[F::kBB]);
+    form.along = {sign * v[F::kAlongX], sign * v[F::kAlongY], sign * v[F::kAlongB], 0.0};
+    form.up = {sign * v[F::kUpX], sign * v[F::kUpY], sign * v[F::kUpB], 0.0};
+    form.turn = {sign * v[F::kTurnX], sign * v[F::kTurnY], sign * v[F::kTurnB], 0.0};
+  };
   if (rolling) {
-    leg.mass = {m * of(F::kXX),  m * of(F::kXY), mr * of(F::kXB),  zero, m * of(F::kYY),
-                mr * of(F::kYB), zero,           mr2 * of(F::kBB), zero, zero};
-    leg.slope = {m * by(F::kXX),  m * by(F::kXY), mr * by(F::kXB),  zero, m * by(F::kYY),
-                 mr * by(F::kYB), zero,           mr2 * by(F::kBB), zero, zero};
-    leg.along = {m * of(F::kAlongX), m * of(F::kAlongY), mr * of(F::kAlongB), zero};
-    leg.up = {m * of(F::kUpX), m * of(F::kUpY), mr * of(F::kUpB), zero};
-    leg.along_turn = {m * by(F::kAlongX), m * by(F::kAlongY), mr * by(F::kAlongB), zero};
-    leg.up_turn = {m * by(F::kUpX), m * by(F::kUpY), mr * by(F::kUpB), zero};
-    leg.turn = {mr * of(F::kTurnX), mr * of(F::kTurnY), mr2 * of(F::kTurnB), zero};
+    set(leg.form[0], shape.value, 1.0);
+    set(leg.form[1], shape.slope, -1.0);
+    if constexpr (leg.kForms > 2) set(leg.form[2], shape.bend, 1.0);
     return leg;
   }
+  // On its toe the whole leg turns with its base.
   const auto& v = shape.value;
-  const T c = cos(angle), s = sin(angle);
-  const T cc = c * c, ss = s * s, cs = c * s;
-  LegMatrix<T>& k = leg.mass;
-  k.xx = m * (cc * v[F::kXX] - 2.0 * cs * v[F::kXY] + ss * v[F::kYY]);
-  k.yy = m * (ss * v[F::kXX] + 2.0 * cs * v[F::kXY] + cc * v[F::kYY]);
-  k.xy = m * (cs * (v[F::kXX] - v[F::kYY]) + (cc - ss) * v[F::kXY]);
-  k.xb = mr * (c * v[F::kXB] - s * v[F::kYB]);
-  k.yb = mr * (s * v[F::kXB] + c * v[F::kYB]);
-  k.bb = mr2 * v[F::kBB];
-  k.xf = k.yf = k.bf = k.ff = zero;
-  leg.slope = {-2.0 * k.xy, k.xx - k.yy, -k.yb, zero, 2.0 * k.xy, k.xb, zero, zero, zero, zero};
+  const double c = std::cos(angle), s = std::sin(angle), c2 = c * c - s * s, s2 = 2.0 * c * s;
+  const double mean = 0.5 * (v[F::kXX] + v[F::kYY]), half = 0.5 * (v[F::kXX] - v[F::kYY]);
   const double even = 0.5 * (v[F::kAlongX] + v[F::kUpY]), odd = 0.5 * (v[F::kUpX] - v[F::kAlongY]),
                p = 0.5 * (v[F::kAlongX] - v[F::kUpY]), q = 0.5 * (v[F::kUpX] + v[F::kAlongY]);
-  const T c2 = cc - ss, s2 = 2.0 * cs;
-  const T pr = m * (p * c2 - q * s2), qr = m * (q * c2 + p * s2);
-  const T along_b = mr * (c * v[F::kAlongB] - s * v[F::kUpB]),
-          up_b = mr * (s * v[F::kAlongB] + c * v[F::kUpB]);
-  leg.along = {m * even + pr, qr - m * odd, along_b, zero};
-  leg.up = {qr + m * odd, m * even - pr, up_b, zero};
-  leg.along_turn = {-2.0 * qr, 2.0 * pr, -up_b, zero};
-  leg.up_turn = {2.0 * pr, 2.0 * qr, along_b, zero};
-  leg.turn = {mr * (c * v[F::kTurnX] - s * v[F::kTurnY]),
-              mr * (s * v[F::kTurnX] + c * v[F::kTurnY]), mr2 * v[F::kTurnB], zero};
+  // A turning pair of numbers.
+  const auto turned = [](double cosine, double sine, double x, double y) {
+    return Vector2<double>{cosine * x - sine * y, sine * x + cosine * y};
+  };
+  Vector2<double> mass = turned(c2, s2, half, v[F::kXY]), sum = turned(c2, s2, p, q),
+                  base = turned(c, s, v[F::kXB], v[F::kYB]),
+                  centre = turned(c, s, v[F::kAlongB], v[F::kUpB]),
+                  spin = turned(c, s, v[F::kTurnX], v[F::kTurnY]);
+  double stays = 1.0;  // of what does not turn
+  for (LegForm& form : leg.form) {
+    form.SetMass(stays * mean + mass.x, mass.y, stays * mean - mass.x, base.x, base.y,
+                 stays * v[F::kBB]);
+    form.along = {stays * even + sum.x, sum.y - stays * odd, centre.x, 0.0};
+    form.up = {sum.y + stays * odd, stays * even - sum.x, centre.y, 0.0};
+    form.turn = {spin.x, spin.y, stays * v[F::kTurnB], 0.0};
+    for (Vector2<double>* twice : {&mass, &sum}) *twice = {-2.0 * twice->y, 2.0 * twice->x};
+    for (Vector2<double>* once : {&base, &centre, &spin}) *once = {-once->y, once->x};
+    stays = 0.0;
+  }
   return leg;
 }
 
-// M92: a foot that slides moves the whole leg along with it; its friction goes with what the ground
-// bears.
+// M92: its friction goes with what the ground bears.
 template <class T>
-void Robot<T>::LetFootMove(const LegPlace& at, double slides, LegInertia& leg) const {
-  const T &m = robot_.leg_mass, zero(0.0);
-  const auto add = [](LegMatrix<T>& k, const LegMotion<T>& along, const T& mass) {
-    k.xf = along[0] - k.xx;
-    k.yf = along[1] - k.xy;
-    k.bf = along[2] - k.xb;
-    k.ff = mass - along[0] - k.xf;
-  };
-  add(leg.mass, leg.along, m);
-  add(leg.slope, leg.along_turn, zero);
-  leg.along[3] = m - leg.along[0];
-  leg.up[3] = -leg.up[0];
-  leg.along_turn[3] = -leg.along_turn[0];
-  leg.up_turn[3] = -leg.up_turn[0];
-  leg.turn[3] = -m * at.y - leg.turn[0];
+void Robot<T>::LetFootMove(const Hip& hip, double slides, LegInertia& leg) const {
+  Vector2<double> at = leg_[0].law.Centre(Value(hip.angle));
+  double whole = 1.0;
+  for (LegForm& form : leg.form) {
+    form.LetFootMove(whole, -at.y);
+    at = {-at.y, at.x};
+    whole = 0.0;
+  }
   leg.foot = true;
   leg.lean = slides * robot_.friction;
-  const LegMatrix<T>& k = leg.mass;
-  leg.row = {k.xf + leg.lean * (leg.up[0] - k.xy), k.yf + leg.lean * (leg.up[1] - k.yy),
-             k.bf + leg.lean * (leg.up[2] - k.yb), k.ff + leg.lean * (leg.up[3] - k.yf)};
 }
 
 template <class T>
-typename Robot<T>::LegInertia Robot<T>::InertiaOf(int i, const LegPlace& at) const {
-  if (!follows_feet_ || !IsDown(leg_[i])) return RigidLeg(at);
-  LegInertia leg = StandingLeg(i, at);
-  if (FootMoves(i)) LetFootMove(at, leg_[i].slides, leg);
+typename Robot<T>::LegInertia Robot<T>::InertiaOf(int i, const Hip& hip) const {
+  if (!follows_feet_ || !IsDown(leg_[i])) return RigidLeg(hip.angle);
+  LegInertia leg = StandingLeg(i, hip);
+  if (FootMoves(i)) LetFootMove(hip, leg_[i].slides, leg);
   return leg;
 }
 
@@ -154,47 +197,67 @@ LegMotion<T> Robot<T>::MotionOf(int i, const Hip& hip, const T* z) const {
 
 // M89: where the hip is from where it would be over its foot with the leg unloaded.
 template <class T>
-Vector2<T> Robot<T>::PressOf(int i, const LegPlace& at, const T* z) const {
+Vector2<T> Robot<T>::PressOf(int i, const Hip& hip, const T* z) const {
   using std::cos;
   using std::sin;
   const Leg& leg = leg_[i];
-  const T angle = at.hip.angle - 2.0 * kPi * leg.turns;
+  const T angle = hip.angle - 2.0 * kPi * leg.turns;
   const T c = p_.r * cos(angle), s = p_.r * sin(angle);
   T lead = 2.0 * s, height = 2.0 * c;
   if (leg.stance == Stance::kRolling) {
     lead = s - p_.r * (leg.law.length() - angle);
     height = p_.r + c;
   }
-  return {z[kX] + at.hip.x + lead - z[Contact(i)], z[kY] + at.hip.y - height};
+  return {z[kX] + hip.x + lead - z[Contact(i)], z[kY] + hip.y - height};
 }
 
-// What does not come of the accelerations: the change of the mass matrix, and the weight.
+/// The legs of a robot as their masses are now.
 template <class T>
-LegMotion<T> Robot<T>::LoadOf(int i, const LegPlace& at, const LegInertia& leg, const T* z) const {
-  const LegMotion<T> u = MotionOf(i, at.hip, z), turned = leg.slope * u;
-  const T &gx = gravity_x_, &gy = gravity_y_;
-  LegMotion<T> load;
-  for (int k = 0; k < 4; ++k)
-    load[k] = gx * leg.along[k] + gy * leg.up[k] - at.hip.rate * turned[k];
-  load[2] += 0.5 * Dot(u, turned);
+struct Robot<T>::MovingLegs {
+  std::array<Hip, kMaxLegs> hip;
+  std::array<LegInertia, kMaxLegs> inertia;
+};
+
+/// What of a leg's forces does not come of the accelerations.
+template <class T>
+struct Robot<T>::LegLoad {
+  LegMotion<T> load;  // the change of the mass matrix, and the weight [N, N m]
+  Vector2<T> born;    // by the ground, the leg's own force on its hip left out [N]
+};
+
+// The same of a leg of unit mass and length; `moment` is what of it turns the base whatever that
+// length.
+template <class T>
+template <class S>
+LegMotion<S> Robot<T>::UnitLoad(const LegInertia& leg, const LegMotion<S>& u, const S& rate,
+                                const S& gx, const S& gy, S& moment) {
+  const LegMotion<S> turned = leg.Carried(u, 1);
+  LegMotion<S> p;
+  S twice = u[0] * turned[0];
+  for (int k = 1; k < leg.motions(); ++k) twice += u[k] * turned[k];
+  for (int k = 0; k < leg.motions(); ++k) p[k] = leg.Share(k, gx, gy) - rate * turned[k];
+  moment = 0.5 * twice;
+  return p;
+}
+
+template <class T>
+typename Robot<T>::LegLoad Robot<T>::LoadOf(int i, const Hip& hip, const LegInertia& leg,
+                                            const T* z) const {
+  const LegMotion<T> u = leg.Unit(MotionOf(i, hip, z));
+  const T &gx = gravity_x_, &gy = gravity_y_, &m = *leg.mass;
+  LegLoad all;
+  T moment;
+  const LegMotion<T> p = UnitLoad(leg, u, hip.rate, gx, gy, moment);
+  all.load = leg.Real(p);
   if (follows_feet_ && IsDown(leg_[i])) {
-    const Vector2<T> press = PressOf(i, at, z);
-    load[2] += gx * (leg.along_turn[0] * press.x + leg.along_turn[1] * press.y) +
-               gy * (leg.up_turn[0] * press.x + leg.up_turn[1] * press.y);
+    const Vector2<T> press = PressOf(i, hip, z);
+    const LegMotion<T> pressed{press.x, press.y, T(0.0), T(0.0)};
+    moment += gx * leg.Along(pressed, 1) + gy * leg.Up(pressed, 1);
+    all.born = {m * (p[0] + hip.rate * leg.Along(u, 1) - gx),
+                m * (p[1] + hip.rate * leg.Up(u, 1) - gy)};
   }
-  return load;
-}
-
-// What of the ground's force on a foot does not come of the accelerations, the leg's own force on
-// its hip left out.
-template <class T>
-Vector2<T> Robot<T>::BornBy(const LegPlace& at, const LegInertia& leg,
-                            const LegMotion<T>& u) const {
-  const LegMotion<T> turned = leg.slope * u;
-  const T &gx = gravity_x_, &gy = gravity_y_, &m = robot_.leg_mass;
-  return {
-      at.hip.rate * (Dot(leg.along_turn, u) - turned[0]) + gx * (leg.along[0] - m) + gy * leg.up[0],
-      at.hip.rate * (Dot(leg.up_turn, u) - turned[1]) + gx * leg.along[1] + gy * (leg.up[1] - m)};
+  all.load[2] += m * moment;
+  return all;
 }
 
 template <class T>
@@ -209,17 +272,20 @@ T Robot<T>::Energy(Mode, const T* z) const {
     if (IsDown(leg))
       energy += leg.law.StrainEnergy(FootOf(leg), PlaceOf(leg, i, HipOf(frame, i, z), z));
     if (has_leg_mass_) {
-      const LegPlace at = LegOf(frame, i, z);
-      const LegInertia inertia = InertiaOf(i, at);
-      const LegMotion<T> u = MotionOf(i, at.hip, z);
-      T x = robot_.leg_mass * (z[kX] + at.hip.x + at.x),
-        y = robot_.leg_mass * (z[kY] + at.hip.y + at.y);
+      const Hip hip = HipOf(frame, i, z);
+      const LegInertia inertia = InertiaOf(i, hip), rigid = RigidLeg(hip.angle);
+      const LegMotion<T> u = inertia.Unit(MotionOf(i, hip, z)), carried = inertia.Carried(u);
+      const LegMotion<T> turns{T(0.0), T(0.0), *rigid.length, T(0.0)};
+      T x = z[kX] + hip.x + rigid.Up(turns), y = z[kY] + hip.y - rigid.Along(turns);
       if (follows_feet_ && IsDown(leg)) {
-        const Vector2<T> press = PressOf(i, at, z);
-        x += (inertia.along[0] - robot_.leg_mass) * press.x + inertia.along[1] * press.y;
-        y += inertia.up[0] * press.x + (inertia.up[1] - robot_.leg_mass) * press.y;
+        const Vector2<T> press = PressOf(i, hip, z);
+        const LegMotion<T> pressed{press.x, press.y, T(0.0), T(0.0)};
+        x += inertia.Along(pressed) - press.x;
+        y += inertia.Up(pressed) - press.y;
       }
-      energy += 0.5 * Dot(u, inertia.mass * u) - gravity_x_ * x - gravity_y_ * y;
+      T twice = u[0] * carried[0];
+      for (int k = 1; k < inertia.motions(); ++k) twice += u[k] * carried[k];
+      energy += *inertia.mass * (0.5 * twice - gravity_x_ * x - gravity_y_ * y);
     }
     if (robot_.control == MotorControl::kLocked) continue;
     energy += 0.5 * hub_[i] * z[Rate(i)] * z[Rate(i)];

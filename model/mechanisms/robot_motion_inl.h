@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "model/mechanisms/motion_equations.h"
 #include "model/mechanisms/robot_legs_inl.h"
 
 // How a robot whose legs have mass moves: Lagrange's equations of body, motors and feet, leg by leg
@@ -9,124 +10,96 @@
 
 namespace hoplab {
 
-/// Right side of the equations of motion, or momenta: of (x, y, pitch), the motors, the feet.
+/// Right side of the equations of motion, or momenta.
 template <class T>
-struct Robot<T>::Sides {
-  T x{0.0}, y{0.0}, pitch{0.0};
-  std::array<T, kMaxLegs> motor, foot;
-
+struct Robot<T>::Sides : AllMotions<T> {
   // What acts on a leg's motion, at its hip.
   void Add(int i, const Hip& hip, const LegMotion<T>& load) {
-    x += load[0];
-    y += load[1];
-    pitch += hip.x * load[1] - hip.y * load[0] + load[2];
-    motor[i] += load[2];
-    foot[i] += load[3];
-  }
-  void Clear() {
-    x = y = pitch = T(0.0);
-    motor.fill(T(0.0));
-    foot.fill(T(0.0));
+    this->x += load[0];
+    this->y += load[1];
+    this->pitch += hip.x * load[1] - hip.y * load[0] + load[2];
+    this->motor[i] += load[2];
+    this->foot[i] += load[3];
   }
 };
 
-/// Rows of x, y, pitch and of the motors; the last column is the right side.
+// Legs' feet and motors are eliminated by values.
 template <class T>
-struct Robot<T>::Rows {
-  T a[3][4];
-  T motor[kMaxLegs][4], over[kMaxLegs];
-};
-
-// A leg's foot and motor are eliminated, each from its own row.
-template <class T>
-void Robot<T>::AddLegRows(int i, const LegPlace& at, const LegInertia& leg, const Sides& sides,
-                          Rows& rows) const {
-  const bool locked = robot_.control == MotorControl::kLocked;
-  const T zero(0.0);
-  const Hip& p = at.hip;
-  const LegMatrix<T>& k = leg.mass;
-  // Of the hip along and up and the base; the last column is the right side.
-  T e[3][4] = {{k.xx, k.xy, k.xb, zero}, {k.xy, k.yy, k.yb, zero}, {k.xb, k.yb, k.bb, zero}};
-  if (leg.foot) {
-    const LegMotion<T>& row = leg.row;
-    const T of = 1.0 / row[3];
-    const T share[3] = {k.xf * of, k.yf * of, k.bf * of};
-    for (int j = 0; j < 3; ++j) {
-      for (int l = 0; l < 3; ++l) e[j][l] -= share[j] * row[l];
-      e[j][3] = -share[j] * sides.foot[i];
-    }
+MotionEquations Robot<T>::EquationsOf(const Vector2<T>& com, const MovingLegs& legs) const {
+  MotionEquations equations(Value(p_.m), Value(com.x), Value(com.y), Value(robot_.pitch_inertia));
+  for (int i = 0; i < legs_; ++i) {
+    const LegInertia& leg = legs.inertia[i];
+    const LegForm& form = leg.form[0];
+    const double m = Value(*leg.mass), scale[4] = {1.0, 1.0, Value(*leg.length), 1.0};
+    double mass[4][4];
+    for (int j = 0; j < leg.motions(); ++j)
+      for (int k = 0; k < leg.motions(); ++k)
+        mass[j][k] = m * scale[j] * scale[k] * form.mass[j][k];
+    LegMotion<double> foot;
+    if (leg.foot)
+      for (int k = 0; k < 4; ++k)
+        foot[k] = mass[3][k] + Value(leg.lean) * (m * scale[k] * form.up[k] - mass[1][k]);
+    const double hub = Value(hub_[i]);
+    equations.Add(Value(legs.hip[i].x), Value(legs.hip[i].y), mass, leg.foot ? &foot : nullptr,
+                  robot_.control == MotorControl::kLocked ? nullptr : &hub);
   }
-  const T own = locked ? T(1.0) : T(1.0 / (hub_[i] + e[2][2]));
-  rows.over[i] = own;
-  // The pitch moves hip and base.
-  for (int j = 0; j < 3; ++j) {
-    const T base = e[j][2];
-    e[j][2] += p.x * e[j][1] - p.y * e[j][0];
-    const T share = locked ? zero : T(base * own);
-    if (j < 2) {
-      for (int l = 0; l < 4; ++l) rows.a[j][l] += e[j][l];
-      for (int l = 0; l < 4; ++l) rows.a[2][l] += (j == 0 ? T(-p.y) : p.x) * e[j][l];
-    } else {
-      for (int l = 0; l < 4; ++l) rows.a[2][l] += e[2][l];
-    }
-    rows.motor[i][j] = share;
-  }
-  if (locked) return;
-  // The motor's row, and what it takes from the others.
-  const T turn = p.x * rows.motor[i][1] - p.y * rows.motor[i][0] + rows.motor[i][2];
-  const T right = e[2][3] + sides.motor[i];
-  const T share_x = rows.motor[i][0], share_y = rows.motor[i][1];
-  const T row[4] = {e[2][0], e[2][1], e[2][2], right};
-  for (int l = 0; l < 4; ++l) {
-    rows.a[0][l] -= share_x * row[l];
-    rows.a[1][l] -= share_y * row[l];
-    rows.a[2][l] -= turn * row[l];
-    rows.motor[i][l] = row[l];
-  }
+  equations.Eliminate();
+  return equations;
 }
 
-// Three equations are left, of the reference point and the pitch. Gives what the sides do to the
-// rates, in the places of dz.
+// What the accelerations (or rates) `a` leave of the sides.
 template <class T>
-void Robot<T>::SolveMotion(const Vector2<T>& com, const std::array<LegPlace, kMaxLegs>& at,
-                           const std::array<LegInertia, kMaxLegs>& legs, const Sides& sides,
+typename Robot<T>::Sides Robot<T>::Left(const Vector2<T>& com, const MovingLegs& legs,
+                                        const Sides& sides, const AllMotions<double>& a) const {
+  Sides left = sides;
+  const T fx = p_.m * (a.x - a.pitch * com.y), fy = p_.m * (a.y + a.pitch * com.x);
+  left.x -= fx;
+  left.y -= fy;
+  left.pitch -= a.pitch * robot_.pitch_inertia + com.x * fy - com.y * fx;
+  for (int i = 0; i < legs_; ++i) {
+    const Hip& hip = legs.hip[i];
+    const LegInertia& leg = legs.inertia[i];
+    const LegMotion<T> u = leg.Unit(
+        {a.x - a.pitch * hip.y, a.y + a.pitch * hip.x, T(a.pitch + a.motor[i]), T(a.foot[i])});
+    LegMotion<T> taken = leg.Momenta(u);
+    for (T& number : taken) number = -number;
+    left.Add(i, hip, taken);
+    left.motor[i] -= a.motor[i] * hub_[i];
+  }
+  return left;
+}
+
+// Gives what the sides do to the rates, in the places of dz. The masses' own derivatives come in by
+// what the solution leaves of the sides.
+template <class T>
+void Robot<T>::SolveMotion(const Vector2<T>& com, const MovingLegs& legs, const Sides& sides,
                            T* dz) const {
-  const bool locked = robot_.control == MotorControl::kLocked;
-  const T& m = p_.m;
-  const T zero(0.0);
-  Rows rows{{{m, zero, -m * com.y, sides.x},
-             {zero, m, m * com.x, sides.y},
-             {-m * com.y, m * com.x, robot_.pitch_inertia + m * (com.x * com.x + com.y * com.y),
-              sides.pitch}},
-            {},
-            {}};
-  for (int i = 0; i < legs_; ++i) AddLegRows(i, at[i], legs[i], sides, rows);
-  for (int j = 0; j < 2; ++j) {
-    const T of = 1.0 / rows.a[j][j];
-    for (int k = j + 1; k < 3; ++k) {
-      const T share = rows.a[k][j] * of;
-      for (int l = j + 1; l < 4; ++l) rows.a[k][l] -= share * rows.a[j][l];
+  const MotionEquations equations = EquationsOf(com, legs);
+  AllMotions<T> a;
+  if constexpr (kJetWidth<T> == 0) {
+    a = equations.Solve(sides);
+  } else {
+    AllMotions<double> values{sides.x.a, sides.y.a, sides.pitch.a};
+    for (int i = 0; i < legs_; ++i) {
+      values.motor[i] = sides.motor[i].a;
+      values.foot[i] = sides.foot[i].a;
+    }
+    values = equations.Solve(values);
+    a = equations.template Solve<T>(Left(com, legs, sides, values));
+    a.x += values.x;
+    a.y += values.y;
+    a.pitch += values.pitch;
+    for (int i = 0; i < legs_; ++i) {
+      a.motor[i] += values.motor[i];
+      a.foot[i] += values.foot[i];
     }
   }
-  const T spin = rows.a[2][3] / rows.a[2][2],
-          ay = (rows.a[1][3] - rows.a[1][2] * spin) / rows.a[1][1],
-          ax = (rows.a[0][3] - rows.a[0][1] * ay - rows.a[0][2] * spin) / rows.a[0][0];
-  dz[kVx] = ax;
-  dz[kVy] = ay;
-  dz[Pitch() + 1] = spin;
+  dz[kVx] = a.x;
+  dz[kVy] = a.y;
+  dz[Pitch() + 1] = a.pitch;
   for (int i = 0; i < legs_; ++i) {
-    const T turn = locked ? zero
-                          : T((rows.motor[i][3] - rows.motor[i][0] * ax - rows.motor[i][1] * ay -
-                               rows.motor[i][2] * spin) *
-                              rows.over[i]);
-    dz[Rate(i)] = turn;
-    if (!foot_has_inertia_) continue;
-    const LegMotion<T>& row = legs[i].row;
-    const Hip& p = at[i].hip;
-    dz[FootSpeed(i)] = legs[i].foot ? T((sides.foot[i] - row[0] * (ax - spin * p.y) -
-                                         row[1] * (ay + spin * p.x) - row[2] * (spin + turn)) /
-                                        row[3])
-                                    : zero;
+    dz[Rate(i)] = a.motor[i];
+    if (foot_has_inertia_) dz[FootSpeed(i)] = a.foot[i];
   }
 }
 
@@ -142,17 +115,18 @@ LegMotion<T> Robot<T>::MotionUnder(int i, const Hip& hip, const T* rates) const 
 template <class T>
 Vector2<T> Robot<T>::GroundForce(const Frame& frame, int i, const Push& push, const T* z,
                                  const T* dz) const {
-  const LegPlace at = LegOf(frame, i, z);
-  const LegInertia leg = InertiaOf(i, at);
+  const Hip hip = HipOf(frame, i, z);
+  const LegInertia leg = InertiaOf(i, hip);
   const T turn2 = z[Pitch() + 1] * z[Pitch() + 1];
-  LegMotion<T> a = MotionUnder(i, at.hip, dz);
-  a[0] -= turn2 * at.hip.x;
-  a[1] -= turn2 * at.hip.y;
-  const LegMotion<T> carried = leg.mass * a;
-  const Vector2<T> born = BornBy(at, leg, MotionOf(i, at.hip, z));
+  LegMotion<T> a = MotionUnder(i, hip, dz);
+  a[0] -= turn2 * hip.x;
+  a[1] -= turn2 * hip.y;
+  a = leg.Unit(a);
+  const LegMotion<T> carried = leg.Carried(a);
+  const Vector2<T> born = LoadOf(i, hip, leg, z).born;
   const ClampedLoad<T>& load = push.load[i];
-  return {load.fx + load.damped_x + Dot(leg.along, a) - carried[0] + born.x,
-          load.fy + load.damped_y + Dot(leg.up, a) - carried[1] + born.y};
+  return {load.fx + load.damped_x + *leg.mass * (leg.Along(a) - carried[0]) + born.x,
+          load.fy + load.damped_y + *leg.mass * (leg.Up(a) - carried[1]) + born.y};
 }
 
 template <class T>
@@ -168,6 +142,48 @@ void Robot<T>::GroundForces(const Frame& frame, const T& t, const T* z,
     if (IsDown(leg_[i])) ground[i] = GroundForce(frame, i, push, z, rates.data());
 }
 
+// M83 to its first order, of legs that have a derivative by their mass, but none: what a kilogram
+// of each would add to the accelerations, by values.
+template <class T>
+void Robot<T>::AddFirstMass(const Frame& frame, const T* z, T* dz) const {
+  const auto turned = [&](const T& x, const T& y) {
+    const double c = Value(frame.cos_pitch), s = Value(frame.sin_pitch);
+    return Vector2<double>{c * Value(x) - s * Value(y), s * Value(x) + c * Value(y)};
+  };
+  const double turn = Value(z[Pitch() + 1]), ax = Value(dz[kVx]), ay = Value(dz[kVy]),
+               spin = Value(dz[Pitch() + 1]);
+  AllMotions<double> sides;
+  for (int i = 0; i < legs_; ++i) {
+    const Vector2<double> hip = turned(robot_.hip_x[i], robot_.hip_y[i]);
+    const LegInertia leg = RigidLeg(T(Value(frame.pitch) + Value(z[Angle(i)])));
+    const double length = Value(*leg.length), rate = turn + Value(z[Rate(i)]);
+    const LegMotion<double> u{Value(z[kVx]) - turn * hip.y, Value(z[kVy]) + turn * hip.x,
+                              length * rate, 0.0};
+    const LegMotion<double> held{turn * turn * hip.x - ax + spin * hip.y,
+                                 turn * turn * hip.y - ay - spin * hip.x,
+                                 -length * (spin + Value(dz[Rate(i)])), 0.0};
+    double moment;
+    const LegMotion<double> load = UnitLoad(leg, u, rate, Value(gravity_x_), Value(gravity_y_),
+                                            moment),
+                            carried = leg.Carried(held);
+    const double fx = load[0] + carried[0], fy = load[1] + carried[1];
+    moment += length * (load[2] + carried[2]);
+    sides.x += fx;
+    sides.y += fy;
+    sides.pitch += hip.x * fy - hip.y * fx + moment;
+    sides.motor[i] = moment;
+  }
+  const Vector2<double> com = turned(robot_.com_x, robot_.com_y);
+  const double m = Value(p_.m), added = (sides.pitch + com.y * sides.x - com.x * sides.y) /
+                                        Value(robot_.pitch_inertia);
+  dz[kVx] += robot_.leg_mass * (sides.x / m + com.y * added);
+  dz[kVy] += robot_.leg_mass * (sides.y / m - com.x * added);
+  dz[Pitch() + 1] += robot_.leg_mass * added;
+  if (robot_.control == MotorControl::kLocked) return;
+  for (int i = 0; i < legs_; ++i)
+    dz[Rate(i)] += robot_.leg_mass * (sides.motor[i] / Value(hub_[i]));
+}
+
 // M83 with the matrices of M89.
 template <class T>
 void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z,
@@ -175,32 +191,27 @@ void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const
   const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
   const T& turn = z[Pitch() + 1];
   const T turn2 = turn * turn;
-  std::array<LegPlace, kMaxLegs> at;
-  std::array<LegInertia, kMaxLegs> legs;
+  MovingLegs legs;
   Sides sides;
-  sides.Clear();
   const T fx = push.force_x + p_.m * gravity_x_, fy = push.force_y + p_.m * gravity_y_;
   sides.x = fx + p_.m * turn2 * com.x;
   sides.y = fy + p_.m * turn2 * com.y;
   sides.pitch = push.moment + com.x * fy - com.y * fx;
   for (int i = 0; i < legs_; ++i) {
-    at[i] = LegOf(frame, i, z);
-    legs[i] = InertiaOf(i, at[i]);
-    LegMotion<T> load = LoadOf(i, at[i], legs[i], z);
+    const Hip& hip = legs.hip[i] = HipOf(frame, i, z);
+    const LegInertia& leg = legs.inertia[i] = InertiaOf(i, hip);
+    const LegLoad own = LoadOf(i, hip, leg, z);
     // The hip is drawn towards the reference point as it turns about it.
-    const LegMotion<T> drawn{turn2 * at[i].hip.x, turn2 * at[i].hip.y, T(0.0), T(0.0)};
-    const LegMotion<T> held = legs[i].mass * drawn;
-    for (int k = 0; k < 3; ++k) load[k] += held[k];
-    if (legs[i].foot) {
-      const Vector2<T> born = BornBy(at[i], legs[i], MotionOf(i, at[i].hip, z));
-      const ClampedLoad<T>& own = push.load[i];
-      load[3] += Dot(legs[i].row, drawn) - own.fx - own.damped_x -
-                 legs[i].lean * (own.fy + own.damped_y + born.y);
+    LegMotion<T> load = leg.Momenta({turn2 * hip.x, turn2 * hip.y, T(0.0), T(0.0)});
+    for (int k = 0; k < leg.motions(); ++k) load[k] += own.load[k];
+    if (leg.foot) {
+      const ClampedLoad<T>& bent = push.load[i];
+      load[3] -= bent.fx + bent.damped_x + leg.lean * (bent.fy + bent.damped_y + own.born.y);
     }
-    sides.Add(i, at[i].hip, load);
+    sides.Add(i, hip, load);
     sides.motor[i] += push.on_motor[i];
   }
-  SolveMotion(com, at, legs, sides, dz);
+  SolveMotion(com, legs, sides, dz);
 }
 
 }  // namespace hoplab

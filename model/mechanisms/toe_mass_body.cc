@@ -265,5 +265,6 @@ template class ToeMassBody<double>;
 template class ToeMassBody<Jet<1>>;
 template class ToeMassBody<Jet<kNarrowJet>>;
 template class ToeMassBody<Jet<kWideJet>>;
+template class ToeMassBody<Jet<kWidestJet>>;
 
 }  // namespace hoplab

@@ -147,9 +147,10 @@ TEST(ClampedRod, IsAUniformRod) {
     y -= at * std::cos(beta) / points;
     inertia += mass * at * at / points;
   }
-  EXPECT_NEAR(Rod().Centre(beta).x, x, 1e-12);
-  EXPECT_NEAR(Rod().Centre(beta).y, y, 1e-12);
-  EXPECT_NEAR(Rod().Inertia(mass), inertia, 1e-10);
+  const double length = Rod().unit_length();
+  EXPECT_NEAR(length * Rod().Centre(beta).x, x, 1e-12);
+  EXPECT_NEAR(length * Rod().Centre(beta).y, y, 1e-12);
+  EXPECT_NEAR(mass * length * length * Rod().kInertia, inertia, 1e-10);
   EXPECT_DOUBLE_EQ(Rod().Reach(beta), kLength * std::cos(beta));
   EXPECT_LT(Rod().Reach(2.0), 0.0);  // one that points up does not reach
 }

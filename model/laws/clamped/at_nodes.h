@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 
 #include "model/laws/clamped/rule.h"
 
@@ -16,6 +17,12 @@ struct LaneOf {
 };
 template <int N>
 using Lane = typename LaneOf<N>::Type;
+template <int N>
+Lane<N> LaneFrom(const double* x) {
+  Lane<N> z;
+  std::memcpy(&z, x, sizeof(z));
+  return z;
+}
 
 // The same with its slopes by the last W of (tip, base, fx, fy).
 template <int N, int W>
@@ -97,24 +104,42 @@ AtNodes<N, W> InverseRoot(const AtNodes<N, W>& x) {
   for (int k = 0; k < W; ++k) z.d[k] = slope * x.d[k];
   return z;
 }
-// Sum over the nodes, in one order.
+// Sum over the nodes: of halves, of halves of them, and so on, in this order on every processor.
+template <int N>
+double Sum(const Lane<N>& x) {
+  if constexpr (N == 2) {
+    return x[0] + x[1];
+  } else {
+    Lane<N / 2> half[2];
+    static_assert(sizeof(half) == sizeof(x));
+    std::memcpy(half, &x, sizeof(x));
+    return Sum<N / 2>(half[0] + half[1]);
+  }
+}
 template <int N, int W>
 Number<W> Sum(const AtNodes<N, W>& x) {
   Number<W> z;
-  for (int i = 0; i < N; ++i) z.a += x.a[i];
-  for (int k = 0; k < W; ++k)
-    for (int i = 0; i < N; ++i) z.d[k] += x.d[k][i];
+  z.a = Sum<N>(x.a);
+  for (int k = 0; k < W; ++k) z.d[k] = Sum<N>(x.d[k]);
   return z;
+}
+// The least at any node.
+template <int N>
+double Least(const Lane<N>& x) {
+  if constexpr (N == 1) {
+    return x[0];
+  } else {
+    Lane<N / 2> half[2];
+    std::memcpy(half, &x, sizeof(x));
+    for (int i = 0; i < N / 2; ++i) half[0][i] = half[1][i] < half[0][i] ? half[1][i] : half[0][i];
+    return Least<N / 2>(half[0]);
+  }
 }
 // The integrals from each node to the end of the arc.
 template <int N>
 Lane<N> TailsOf(const Tails<N>& tails, const Lane<N>& x) {
   Lane<N> z = {};
-  for (int j = 0; j < N; ++j) {
-    Lane<N> tail;
-    for (int i = 0; i < N; ++i) tail[i] = tails.of[j][i];
-    z += tail * x[j];
-  }
+  for (int j = 0; j < N; ++j) z += LaneFrom<N>(tails.of[j]) * x[j];
   return z;
 }
 template <int N, int W>

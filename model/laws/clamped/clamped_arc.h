@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -48,16 +49,15 @@ class ClampedArc {
             T((rolling ? 1.0 : 2.0) * r_ * sin(angle)),
             rolling ? T(r_ * (length_ - angle)) : T(0.0)};
   }
-  /// The leg's centre of mass from its hip [m], unloaded, and its inertia about the hip [kg m^2] by
-  /// its mass (M82).
-  Vector2<T> Centre(const T& angle) const {
-    using std::cos;
-    using std::sin;
-    const T c = r_ * cos(angle), s = r_ * sin(angle);
+  /// What its lengths go with [m]; with that as the unit, the leg's centre of mass from its hip,
+  /// unloaded, and its inertia about the hip by its mass (M82).
+  const T& unit_length() const { return r_; }
+  static Vector2<double> Centre(double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
     constexpr double kBehind = 2.0 / std::numbers::pi;
     return {s - kBehind * c, -c - kBehind * s};
   }
-  T Inertia(const T& mass) const { return 2.0 * mass * r_ * r_; }
+  static constexpr double kInertia = 2.0;
 
   /// Where the search for a load starts: the leg as it lands, unloaded.
   void StartAt(double tip) {
@@ -105,10 +105,15 @@ class ClampedArc {
     const T tip = foot.rolling ? T(0.0)
                                : T(e.at.tip + e.tip_miss + e.by_tip * length_d + e.turn_x * dx +
                                    e.turn_y * dy + e.turn_base * base_d);
-    const T c0 = foot.rolling ? T(1.0) : T(cos(tip)), s0 = foot.rolling ? T(0.0) : T(sin(tip));
-    const T cb = e.at.cos_base - e.at.sin_base * base_d,
-            sb = e.at.sin_base + e.at.cos_base * base_d;
-    const T kappa = sqrt(1.0 + 2.0 * (fx * (c0 - cb) + fy * (sb - s0)));
+    const double c0 = foot.rolling ? 1.0 : cos(Value(tip));
+    const double s0 = foot.rolling ? 0.0 : sin(Value(tip));
+    const double cb = e.at.cos_base, sb = e.at.sin_base, x = Value(fx), y = Value(fy);
+    const double root = sqrt(1.0 + 2.0 * (x * (c0 - cb) + y * (sb - s0))), by = 1.0 / root;
+    T kappa(root);
+    Follow(fx, by * (c0 - cb), kappa);
+    Follow(fy, by * (sb - s0), kappa);
+    Follow(place.base, by * (x * sb + y * cb), kappa);
+    if (!foot.rolling) Follow(tip, -by * (x * s0 + y * c0), kappa);
     ClampedLoad<T> load;
     load.fx = unit_ * fx;
     load.fy = unit_ * fy;
@@ -124,7 +129,7 @@ class ClampedArc {
     if ((damping && damped_) || with_slip) {
       const clamped::Tangents at =
           foot.rolling ? e.at : clamped::Tangents(Value(tip), Value(place.base));
-      Move(foot, place, at, {tip, fx, fy}, damping && damped_, with_slip, load);
+      Move(foot, place, at, {&tip, &place.base, &fx, &fy}, damping && damped_, with_slip, load);
     }
     return load;
   }
@@ -180,66 +185,99 @@ class ClampedArc {
                                root_);
   }
 
-  // A number that depends on (tip, base, fx, fy), known with its slopes at their values.
-  struct Moved {
-    T tip, fx, fy;
-  };
-  static T Follow(double value, const T&, const Moved&) { return T(value); }
-  static T Follow(const Jet<4>& value, const T& base, const Moved& m) {
-    return value.a + value.v[0] * (m.tip - Value(m.tip)) + value.v[1] * (base - Value(base)) +
-           value.v[2] * (m.fx - Value(m.fx)) + value.v[3] * (m.fy - Value(m.fy));
+  // `of` changes with x by `slope`.
+  static void Follow(const T& x, double slope, T& of) {
+    if constexpr (kJetWidth < T >> 0) of.v += slope * x.v;
+  }
+
+  // What the hip's motion q = (-vx/r, -vy/r, dPsi/dt) does, linear in it: the dissipation's force
+  // and moment in units, and the foot's slip velocity over r without the hip's. The yield is one of
+  // C.
+  enum { kX, kY, kMoment, kSlip, kYield, kAnswers };
+  template <class S>
+  using Answers = std::array<S, kAnswers>;
+  template <class C, class L>
+  static auto AnswersTo(const std::array<double, 3>& q, const clamped::Response<C>& c, bool slides,
+                        const L& lean, bool dissipates) {
+    using S = decltype(C(0.0) * L(0.0));
+    Answers<S> out{S(0.0), S(0.0), S(0.0), S(0.0), S(1.0)};
+    const C x = q[0] + c.h1 * q[2], y = q[1] + c.h2 * q[2];
+    const auto resist = [&](const S& rate_x, const S& rate_y) {
+      return std::array<S, 3>{S(c.D[0] * rate_x + c.D[1] * rate_y + c.D[2] * q[2]),
+                              S(c.D[1] * rate_x + c.D[3] * rate_y + c.D[4] * q[2]),
+                              S(c.D[2] * rate_x + c.D[4] * rate_y + c.D[5] * q[2])};
+    };
+    if (slides) {
+      const S stiff = 1.0 / (c.c22 + lean * c.c12), rate_y = y * stiff, rate_x = lean * rate_y;
+      out[kSlip] = c.c11 * rate_x + c.c12 * rate_y - c.h1 * q[2];
+      out[kYield] = 1.0 + lean * c.c12 / c.c22;
+      if (!dissipates) return out;
+      const auto [wx, wy, wb] = resist(rate_x, rate_y);
+      out[kY] = (lean * wx + wy) * stiff;
+      out[kMoment] = c.h2 * out[kY] + wb;
+      return out;
+    }
+    const C over = 1.0 / (c.c11 * c.c22 - c.c12 * c.c12);
+    const auto [wx, wy, wb] =
+        resist(S((c.c22 * x - c.c12 * y) * over), S((c.c11 * y - c.c12 * x) * over));
+    out[kX] = (c.c22 * wx - c.c12 * wy) * over;
+    out[kY] = (c.c11 * wy - c.c12 * wx) * over;
+    out[kMoment] = c.h1 * out[kX] + c.h2 * out[kY] + wb;
+    return out;
+  }
+
+  // The same with the slopes of all it depends on: of the response by `moved`, tip, base, fx and
+  // fy; of the friction under a foot that slides; of the hip's motion.
+  Answers<T> AnswersAt(const Footing& foot, const clamped::Tangents& at,
+                       const std::array<const T*, 4>& moved, const std::array<T, 3>& q,
+                       bool dissipates) const {
+    const std::array<double, 3> motion = {Value(q[0]), Value(q[1]), Value(q[2])};
+    const double fx = Value(*moved[2]), fy = Value(*moved[3]);
+    const bool slides = foot.slides != 0.0;
+    const T lean = -foot.slides * mu_;
+    if constexpr (kJetWidth<T> == 0) {
+      return AnswersTo(motion, clamped::ResponseOf(at, fx, fy, foot.rolling, dissipates), slides,
+                       lean, dissipates);
+    } else {
+      const clamped::Response<Jet<4>> c =
+          clamped::ResponseTo1(at, fx, fy, foot.rolling, dissipates);
+      const clamped::Response<double> still = c.Values();
+      const double leans = Value(lean);
+      const Answers<Jet<4>> here = AnswersTo(motion, c, slides, leans, dissipates);
+      Answers<double> by_motion[3];
+      for (int j = 0; j < 3; ++j)
+        by_motion[j] = AnswersTo({j == 0 ? 1.0 : 0.0, j == 1 ? 1.0 : 0.0, j == 2 ? 1.0 : 0.0},
+                                 still, slides, leans, dissipates);
+      Answers<Jet<1>> by_lean;
+      if (slides)
+        by_lean = AnswersTo(motion, still, true, Seeded<Jet<1>>(leans, 0, 1.0), dissipates);
+      Answers<T> out;
+      // A foot that holds has no slip.
+      for (int k = 0; k < (slides ? kAnswers : kSlip); ++k) {
+        out[k] = T(Value(here[k]));
+        for (int j = foot.rolling ? 1 : 0; j < 4; ++j) Follow(*moved[j], Slope(here[k], j), out[k]);
+        for (int j = 0; j < 3 && k != kYield; ++j) Follow(q[j], by_motion[j][k], out[k]);
+        if (slides) Follow(lean, Slope(by_lean[k], 0), out[k]);
+      }
+      return out;
+    }
   }
 
   // The damping of the material, M71, and the slip velocity, M70: what rates do.
   void Move(const Footing& foot, const ClampedPlace<T>& place, const clamped::Tangents& at,
-            const Moved& moved, bool dissipates, bool with_slip, ClampedLoad<T>& load) const {
-    const double fx = Value(moved.fx), fy = Value(moved.fy);
-    const auto answer = [&] {
-      if constexpr (kJetWidth<T> == 0)
-        return clamped::ResponseOf(at, fx, fy, foot.rolling, dissipates);
-      else
-        return clamped::ResponseTo1(at, fx, fy, foot.rolling, dissipates);
-    }();
-    const auto follow = [&](const auto& value) { return Follow(value, place.base, moved); };
-    const T c11 = follow(answer.c11), c12 = follow(answer.c12), c22 = follow(answer.c22);
-    const T h1 = follow(answer.h1), h2 = follow(answer.h2);
-    const T x = -place.vx / r_ + h1 * place.base_rate, y = -place.vy / r_ + h2 * place.base_rate;
-    T rate_x, rate_y;  // of fx, fy
-    if (foot.slides != 0.0) {
-      const T lean = -foot.slides * mu_, stiff = 1.0 / (c22 + lean * c12);
-      rate_y = y * stiff;
-      rate_x = lean * rate_y;
-      if (with_slip) {
-        load.slip = r_ * (c11 * rate_x + c12 * rate_y - h1 * place.base_rate) + place.vx;
-        load.yield = 1.0 + lean * c12 / c22;
-      }
-      if (!dissipates) return;
-      const auto [wx, wy, wb] = Resist(answer.D, follow, rate_x, rate_y, place.base_rate);
-      const T along = (lean * wx + wy) * stiff;
-      load.damped_y = tau_ * unit_ * along;
-      load.damped_moment = tau_ * unit_ * r_ * (h2 * along + wb);
-      return;
+            const std::array<const T*, 4>& moved, bool dissipates, bool with_slip,
+            ClampedLoad<T>& load) const {
+    const Answers<T> out = AnswersAt(
+        foot, at, moved, {T(-place.vx / r_), T(-place.vy / r_), place.base_rate}, dissipates);
+    if (with_slip && foot.slides != 0.0) {
+      load.slip = r_ * out[kSlip] + place.vx;
+      load.yield = out[kYield];
     }
-    const T over = 1.0 / (c11 * c22 - c12 * c12);
-    rate_x = (c22 * x - c12 * y) * over;
-    rate_y = (c11 * y - c12 * x) * over;
-    const auto [wx, wy, wb] = Resist(answer.D, follow, rate_x, rate_y, place.base_rate);
-    const T ux = (c22 * wx - c12 * wy) * over, uy = (c11 * wy - c12 * wx) * over;
-    load.damped_x = tau_ * unit_ * ux;
-    load.damped_y = tau_ * unit_ * uy;
-    load.damped_moment = tau_ * unit_ * r_ * (h1 * ux + h2 * uy + wb);
-  }
-
-  // D times the rates of (fx, fy, Psi).
-  struct Resistance {
-    T x, y, base;
-  };
-  template <class S, class F>
-  static Resistance Resist(const std::array<S, 6>& D, const F& follow, const T& x, const T& y,
-                           const T& base) {
-    const T xx = follow(D[0]), xy = follow(D[1]), xb = follow(D[2]), yy = follow(D[3]),
-            yb = follow(D[4]), bb = follow(D[5]);
-    return {xx * x + xy * y + xb * base, xy * x + yy * y + yb * base, xb * x + yb * y + bb * base};
+    if (!dissipates) return;
+    const T damping = tau_ * unit_;
+    if (foot.slides == 0.0) load.damped_x = damping * out[kX];
+    load.damped_y = damping * out[kY];
+    load.damped_moment = damping * r_ * out[kMoment];
   }
 
   T r_{1.0}, unit_{1.0}, tau_{0.0}, mu_{0.0}, length_{std::numbers::pi};

@@ -47,14 +47,13 @@ class ClampedRod {
     using std::sin;
     return {false, 0.0, std::numbers::pi - Value(angle), T(length_ * sin(angle)), T(0.0)};
   }
-  /// The leg's centre of mass from its hip [m], unloaded, and its inertia about the hip [kg m^2] by
-  /// its mass (M82).
-  Vector2<T> Centre(const T& angle) const {
-    using std::cos;
-    using std::sin;
-    return {0.5 * length_ * sin(angle), -0.5 * length_ * cos(angle)};
+  /// What its lengths go with [m]; with that as the unit, the leg's centre of mass from its hip,
+  /// unloaded, and its inertia about the hip by its mass (M82).
+  const T& unit_length() const { return length_; }
+  static Vector2<double> Centre(double angle) {
+    return {0.5 * std::sin(angle), -0.5 * std::cos(angle)};
   }
-  T Inertia(const T& mass) const { return mass * length_ * length_ / 3.0; }
+  static constexpr double kInertia = 1.0 / 3.0;
 
   /// M97; the slip velocity (M70) where `with_slip`, of a sliding foot.
   ClampedLoad<T> At(const Footing& foot, const ClampedPlace<T>& place, bool damping = true,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/laws/clamped/at_nodes.h"
 #include "model/laws/clamped/on_each_cpu.h"
 #include "model/laws/clamped/rule.h"
 
@@ -32,35 +33,29 @@ Tangents::Tangents(double tip_angle, double base_angle) : tip(tip_angle), base(b
 }
 
 HOPLAB_ON_EACH_CPU Integrals IntegralsOf(const Tangents& at, double fx, double fy) {
+  using Nodes = Lane<kNodes>;
   const double half = 0.5 * (at.base - at.tip), x2 = 2.0 * fx, y2 = 2.0 * fy;
   const double level = 1.0 + x2 * at.cos_tip - y2 * at.sin_tip;
-  double square[kNodes], over[kNodes], weight[kNodes], cube[kNodes];
-  for (int i = 0; i < kNodes; ++i) square[i] = level + (y2 * at.s[i] - x2 * at.c[i]);
-  double least = square[0];
-  for (double q : square) least = q < least ? q : least;
+  const Nodes c = LaneFrom<kNodes>(at.c), s = LaneFrom<kNodes>(at.s);
+  AtNodes<kNodes, 0> square;
+  square.a = level + (y2 * s - x2 * c);
   Integrals sum{};
-  if (!(least > kLeastCurvature2)) {
+  if (!(Least<kNodes>(square.a) > kLeastCurvature2)) {
     sum.one = std::numeric_limits<double>::quiet_NaN();
     return sum;
   }
-  // Roots and quotients by themselves, so that they are taken in pairs.
-  for (int i = 0; i < kNodes; ++i) over[i] = 1.0 / std::sqrt(square[i]);
-  for (int i = 0; i < kNodes; ++i) {
-    weight[i] = kRule<kNodes>.weight[i] * half * over[i];
-    cube[i] = weight[i] * over[i] * over[i];
-  }
-  for (int i = 0; i < kNodes; ++i) {
-    const double c = at.c[i], s = at.s[i], w = weight[i], w3 = cube[i];
-    sum.one += w;
-    sum.c += w * c;
-    sum.s += w * s;
-    sum.k1 += w3;
-    sum.kc += w3 * c;
-    sum.ks += w3 * s;
-    sum.kcc += w3 * c * c;
-    sum.kcs += w3 * c * s;
-    sum.kss += w3 * s * s;
-  }
+  const Nodes over = InverseRoot(square).a;
+  const Nodes w = LaneFrom<kNodes>(kRule<kNodes>.weight) * half * over;
+  const Nodes w3 = w * over * over, w3c = w3 * c, w3s = w3 * s;
+  sum.one = Sum<kNodes>(w);
+  sum.c = Sum<kNodes>(w * c);
+  sum.s = Sum<kNodes>(w * s);
+  sum.k1 = Sum<kNodes>(w3);
+  sum.kc = Sum<kNodes>(w3c);
+  sum.ks = Sum<kNodes>(w3s);
+  sum.kcc = Sum<kNodes>(w3c * c);
+  sum.kcs = Sum<kNodes>(w3c * s);
+  sum.kss = Sum<kNodes>(w3s * s);
   return sum;
 }
 

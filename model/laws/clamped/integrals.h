@@ -47,6 +47,12 @@ struct Response {
   S c11, c12, c22;
   S h1, h2;
   std::array<S, 6> D;
+
+  Response<double> Values() const {
+    const auto v = [](const S& x) { return Value(x); };
+    return {v(c11), v(c12), v(c22),
+            v(h1),  v(h2),  {v(D[0]), v(D[1]), v(D[2]), v(D[3]), v(D[4]), v(D[5])}};
+  }
 };
 
 /// Rolling: the tangent at the contact is held along the ground. Else the toe: the length is held.

@@ -40,21 +40,15 @@ struct Bending {
   // Slopes of kappa^2/2 by fx and fy, and 1/kappa; psi of a node moves with both ends of the arc.
   void Fill(const double* cosine, const double* sine) {
     AtNodes<N, W> square;
-    Lane<N> rule;
-    for (int i = 0; i < N; ++i) {
-      c.a[i] = cosine[i];
-      s.a[i] = sine[i];
-      rule[i] = kRule<N>.weight[i];
-    }
+    const Lane<N> rule = LaneFrom<N>(kRule<N>.weight);
+    c.a = LaneFrom<N>(cosine);
+    s.a = LaneFrom<N>(sine);
     by_x.a = c0.a - c.a;
     by_y.a = s.a - s0.a;
     square.a = 1.0 + 2.0 * (fx.a * by_x.a + fy.a * by_y.a);
     if constexpr (W > 0) {
-      Lane<N> by_end[2];  // of psi, by tip and base
-      for (int i = 0; i < N; ++i) {
-        by_end[0][i] = 0.5 * (1.0 - kRule<N>.node[i]);
-        by_end[1][i] = 0.5 * (1.0 + kRule<N>.node[i]);
-      }
+      const Lane<N> node = LaneFrom<N>(kRule<N>.node);
+      const Lane<N> by_end[2] = {0.5 * (1.0 - node), 0.5 * (1.0 + node)};  // of psi, by tip, base
       for (int k = 0; k < W; ++k) c.d[k] = s.d[k] = by_x.d[k] = by_y.d[k] = Lane<N>{};
       for (int k = 0; k <= kBase; ++k) {
         const Lane<N>& turns = by_end[k == kBase ? 1 : 0];

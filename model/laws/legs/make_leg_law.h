@@ -19,11 +19,15 @@ constexpr LegLaw MakeLegLaw(const LawInfo& info) {
            },
            [](const auto& setup, auto& to) {
              to.template Emplace<LeggedBody<Jet<kWideJet>, LegT<Jet<kWideJet>>>>(setup);
+           },
+           [](const auto& setup, auto& to) {
+             to.template Emplace<LeggedBody<Jet<kWidestJet>, LegT<Jet<kWidestJet>>>>(setup);
            }},
           [](const auto& p, auto& leg) { leg.template Emplace<LegT<double>>(p); },
           [](const auto& p, auto& leg) { leg.template Emplace<LegT<Jet<1>>>(p); },
           [](const auto& p, auto& leg) { leg.template Emplace<LegT<Jet<kNarrowJet>>>(p); },
-          [](const auto& p, auto& leg) { leg.template Emplace<LegT<Jet<kWideJet>>>(p); }};
+          [](const auto& p, auto& leg) { leg.template Emplace<LegT<Jet<kWideJet>>>(p); },
+          [](const auto& p, auto& leg) { leg.template Emplace<LegT<Jet<kWidestJet>>>(p); }};
 }
 
 }  // namespace hoplab
