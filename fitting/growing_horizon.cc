@@ -68,8 +68,9 @@ SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& oth
     const std::vector<TrialProblem> cut =
         CutToFraction(*request.problem, whole, request.shared, fraction);
     request.trials = &cut;
-    request.max_iterations = kIterations;
-    if (TraitsOf(request.problem->law).has_costly_runs)
+    // Beyond what is known a round ends at its minimum: what it leaves the next one magnifies.
+    if (known_until == 0.0) request.max_iterations = kIterations;
+    if (known_until == 0.0 && TraitsOf(request.problem->law).has_costly_runs)
       request.function_tolerance = std::max(tolerance, kRobotRound);
     SolveResult next = Solve(request);
     if (next.status == SolveStatus::kInterrupted) return next;

@@ -1,8 +1,11 @@
-#include <fmt/format.h>
-
+#include <algorithm>
+#include <cstdio>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
+#include "base/random.h"
 #include "datasets/suspect_things.h"
 #include "fitting/diagnosis/diagnosis.h"
 #include "fitting/diagnosis/null_fit.h"
@@ -13,6 +16,12 @@
 
 namespace hoplab {
 namespace {
+
+std::string WithTwoDecimals(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
 
 class StageByStage {
  public:
@@ -48,13 +57,11 @@ class StageByStage {
   bool Stopped() const { return options_.fit.stop && *options_.fit.stop; }
   void Tell(const Diagnosis& d) const {
     if (!options_.stage || d.interrupted) return;
-    std::string names;
+    std::string text = "up to there: " + std::string(NameOf(d.verdict));
     for (const CauseReport* c :
          d.extension ? d.extension->ToldCauses() : std::vector<const CauseReport*>())
-      names += fmt::format("{}{} (P {:.2f})", names.empty() ? "" : ", ", c->cause.Name(),
-                           c->group_probability);
-    options_.stage(
-        fmt::format("up to there: {}{}{}", NameOf(d.verdict), names.empty() ? "" : ", ", names));
+      text += ", " + c->cause.Name() + " (P " + WithTwoDecimals(c->group_probability) + ")";
+    options_.stage(text);
   }
   DatasetFit& WholeNull() {
     if (!whole_null_) whole_null_ = FitPlain(whole_, options_, Segmentation::kWhole);
@@ -70,7 +77,7 @@ class StageByStage {
   }
 
   Diagnosis OfFirst(double until, const std::optional<Diagnosis>& last) const {
-    const std::string what = fmt::format("the first {:.2f} s of each trial", until);
+    const std::string what = "the first " + WithTwoDecimals(until) + " s of each trial";
     if (options_.stage) options_.stage("looking at " + what);
     const FitProblem part = FirstPart(whole_, until);
     DatasetFit null = FitPlain(part, options_, Segmentation::kWhole);
@@ -91,15 +98,32 @@ class StageByStage {
   }
 
   // What was found, fitted to longer parts of the same trials, more and more of them: beyond what
-  // is known, and where that leads to no minimum, from the first rows on.
+  // is known; where that leads to no minimum, from the first rows on, and from values that are as
+  // likely. A search ends where a step would change the order of events, and begun elsewhere it
+  // passes.
   CarriedOn CarriedOver(const Diagnosis& last, const FitProblem& problem) const {
+    constexpr int kMoreSearches = 3;
+    const FittedModel& named = last.naming.best;
     const double known_until = last.until.value_or(0.0);
-    CarriedOn carried = GrownFrom(last.naming.best, problem, known_until);
-    if (carried.stop.IsMinimum() || Stopped()) return carried;
-    CarriedOn anew = GrownFrom(last.naming.best, problem, 0.0);
-    return anew.model.ok() && (!carried.model.ok() || anew.model.cost < carried.model.cost)
-               ? anew
-               : carried;
+    CarriedOn best = GrownFrom(named, problem, known_until);
+    const auto take = [&](CarriedOn other) {
+      const bool fits =
+          other.model.ok() && (!best.model.ok() || other.model.cost < best.model.cost);
+      if (fits) best = std::move(other);
+    };
+    if (!best.stop.IsMinimum() && !Stopped()) take(GrownFrom(named, problem, 0.0));
+    RandomStream random(options_.fit.seed, 0);
+    for (int k = 0; k < kMoreSearches && !best.stop.IsMinimum() && !Stopped(); ++k) {
+      FittedModel beside = named;
+      for (int i = 0; i < beside.shared.size(); ++i) {
+        const auto place = static_cast<std::size_t>(i);
+        const SharedParameter& s = named.problem.shared[place];
+        const double error = last.extension->uncertainty.parameters[place].std_error.value_or(0.0);
+        beside.shared[i] = std::clamp(beside.shared[i] + error * random.Normal(), s.lower, s.upper);
+      }
+      take(GrownFrom(beside, problem, known_until));
+    }
+    return best;
   }
 
   CarriedOn GrownFrom(const FittedModel& named, const FitProblem& problem,

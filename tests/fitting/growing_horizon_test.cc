@@ -22,6 +22,24 @@ TEST(GrowingHorizon, EndsWhereASearchOverAllRowsEnds) {
   EXPECT_GT(grown.cost, costs.back());
 }
 
+TEST(GrowingHorizon, GoesOnFromWhatIsKnown) {
+  const testing::SmallFit fit;
+  SolveRequest request = fit.Request();
+  const SolveResult all = Solve(request);
+  std::vector<int> rounds;
+  request.progress = [&](int iteration, double) {
+    if (iteration == 0) rounds.push_back(0);
+  };
+  const double longest = request.trials->front().row_times.back();
+  const SolveResult from_start = GrowHorizon(request);
+  const std::size_t every_round = rounds.size();
+  rounds.clear();
+  const SolveResult from_late = GrowHorizon(request, 0.8 * longest);
+  EXPECT_NEAR(from_late.cost, all.cost, 1e-6 * all.cost);
+  EXPECT_NEAR(from_start.cost, all.cost, 1e-6 * all.cost);
+  EXPECT_LT(rounds.size(), every_round);
+}
+
 TEST(GrowingHorizon, GoesOnBesideOneThatFitsAsWell) {
   const testing::SmallFit fit;
   RoundCosts costs, again;

@@ -67,6 +67,35 @@ TEST(NameCauses, FindsTwoEffectsAtOnce) {
   EXPECT_TRUE(Holds(first, "sensor_delay") || Holds(second, "sensor_delay"));
 }
 
+// From what was found elsewhere it finds the same, without every cause tried alone.
+TEST(NameCauses, BeginsWithWhatIsGiven) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03),
+                                 EffectOfSize("sensor_delay", 0.006)}});
+  const Naming from_nothing = NameSix(fit);
+  ASSERT_EQ(from_nothing.best.members.size(), 2u);
+  NamingOptions options;
+  options.begin = &from_nothing.best;
+  const Naming again = NameSix(fit, options);
+  EXPECT_EQ(again.best_set, from_nothing.best_set);
+  EXPECT_NEAR(again.best.cost, from_nothing.best.cost, 0.1);
+  EXPECT_LT(again.refits, from_nothing.refits);
+
+  const std::vector<Candidate> others = testing::CandidatesOf({"sensor_delay", "air_drag"});
+  EXPECT_EQ(MembersOf(NameIn(fit, others, options)), MembersOf(NameIn(fit, others)));
+}
+
+// What is given and acts nowhere does not stay.
+TEST(NameCauses, DropsWhatIsGivenAndDoesNotPay) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}});
+  const std::vector<Candidate> given = testing::CandidatesOf({"air_drag", "touchdown_angle_bias"});
+  const FittedModel both =
+      Refit(fit.null, given, Eigen::VectorXd::Constant(2, std::nan("")), fit.Settings());
+  ASSERT_TRUE(both.ok());
+  NamingOptions options;
+  options.begin = &both;
+  EXPECT_EQ(MembersOf(NameSix(fit, options)), std::vector<std::string>{"touchdown_angle_bias"});
+}
+
 TEST(NameCauses, KeepsNoMemberThatDoesNotPay) {
   for (std::uint64_t seed : {1, 2, 3}) {
     const NullFit fit(

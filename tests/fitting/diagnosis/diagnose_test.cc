@@ -1,0 +1,53 @@
+// A robot's trials by their first stances, then as a whole.
+#include <gtest/gtest.h>
+
+#include "fitting/diagnosis/diagnosis.h"
+#include "fitting/followed_part.h"
+#include "tests/support/robot_pronks.h"
+
+namespace hoplab {
+namespace {
+
+// Half a second later the plain model's pronk goes another way, and no fit of the whole trials is
+// a minimum.
+TEST(Diagnose, NamesByTheFirstStancesWhatWholeTrialsHide) {
+  const Dataset pronks = testing::RobotPronks(0.008, 0.8);
+  DiagnosisOptions options;
+  options.fit.jobs = 2;
+  const DatasetFit whole =
+      FitDataset(pronks, WithLegsAlike(options.problem), options.fit, Segmentation::kWhole);
+  EXPECT_FALSE(whole.result.ok && whole.result.stop.IsMinimum());
+
+  const Diagnosis d = Diagnose(pronks, options);
+  ASSERT_EQ(d.refusal, "");
+  ASSERT_TRUE(d.until);
+  EXPECT_LT(*d.until, 0.8);
+  EXPECT_EQ(d.verdict, Verdict::kNamed);
+  ASSERT_TRUE(d.extension);
+  ASSERT_EQ(d.extension->MainCauses().size(), 1u);
+  EXPECT_EQ(d.extension->MainCauses().front()->cause.Name(), "com_offset");
+  ASSERT_TRUE(d.carried_on);
+  EXPECT_TRUE(d.carried_on->stop.IsMinimum())
+      << (d.carried_on->stop.faults.empty() ? "" : d.carried_on->stop.faults.front());
+  EXPECT_NEAR(d.carried_on->model.shared[0], 22e9, 0.01 * 22e9);
+  EXPECT_NEAR(d.carried_on->model.ValuesOf(0)[0], 0.008, 0.0002);
+}
+
+// The fit alone says how far it goes.
+TEST(FitDataset, FitsAsMuchOfARobotsTrialsAsItFollows) {
+  FitOptions options;
+  options.jobs = 2;
+  const Dataset pronks = testing::RobotPronks(0.008, 0.8);
+  const FitProblem problem = MakeProblem(pronks, WithLegsAlike({}));
+  const DatasetFit part = FitTraces(problem, options);
+  ASSERT_TRUE(part.result.ok);
+  EXPECT_TRUE(part.result.stop.IsMinimum());
+  ASSERT_TRUE(part.until);
+  EXPECT_GE(*part.until, *FirstStancesOver(problem));
+  EXPECT_LT(*part.until, 0.8);
+  EXPECT_LE(LongestTrial(part.problem), *part.until);
+  EXPECT_NE(part.note.find("only the first"), std::string::npos) << part.note;
+}
+
+}  // namespace
+}  // namespace hoplab

@@ -1,0 +1,63 @@
+// Of a robot's trials, as much as a model can follow.
+#include "fitting/followed_part.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fitting/fit_dataset.h"
+#include "fitting/trial_evaluator.h"
+#include "tests/support/robot_pronks.h"
+
+namespace hoplab {
+namespace {
+
+// How many legs of a trial have landed and left again by a time.
+int LegsThatStood(const FitProblem& problem, const TrialProblem& trial, double until) {
+  TrialEvaluation e;
+  TrialEvaluator(problem, trial).Evaluate({InitialShared(problem), trial.start, false}, e);
+  int stood = 0;
+  for (const int leg : {0, 1}) {
+    bool landed = false, left = false;
+    for (const Event& event : e.trajectory.events) {
+      if (event.leg != leg || event.time > until) continue;
+      landed = landed || event.kind == EventKind::kTouchdown;
+      left = left || (landed && event.kind == EventKind::kLiftoff);
+    }
+    stood += left;
+  }
+  return stood;
+}
+
+TEST(FollowedPart, FirstStancesAreOverWhenEveryLegHasStoodOnce) {
+  const FitProblem problem = MakeProblem(testing::RobotPronks(0.0, 0.6), {});
+  const std::optional<double> until = FirstStancesOver(problem);
+  ASSERT_TRUE(until);
+  int stood_before = 0;
+  for (const TrialProblem& trial : problem.trials) {
+    EXPECT_EQ(LegsThatStood(problem, trial, *until), 2) << trial.file;
+    stood_before += LegsThatStood(problem, trial, *until / 1.1 - 1e-9);
+  }
+  // A tenth more at most.
+  EXPECT_LT(stood_before, 2 * static_cast<int>(problem.trials.size()));
+}
+
+TEST(FollowedPart, FirstStancesAreNotSeenInTheAir) {
+  EXPECT_FALSE(FirstStancesOver(MakeProblem(testing::RobotPronks(0.0, 0.02), {})));
+}
+
+TEST(FollowedPart, APartHoldsTheFirstRowsOfEveryTrial) {
+  const FitProblem problem = MakeProblem(testing::RobotPronks(0.0, 0.6), {});
+  const FitProblem part = FirstPart(problem, 0.25);
+  ASSERT_EQ(part.trials.size(), problem.trials.size());
+  for (std::size_t i = 0; i < part.trials.size(); ++i) {
+    const TrialProblem &cut = part.trials[i], &whole = problem.trials[i];
+    EXPECT_LE(cut.row_times.back(), 0.25);
+    EXPECT_GT(whole.row_times[cut.row_times.size()], 0.25);
+    EXPECT_TRUE(std::equal(cut.data.begin(), cut.data.end(), whole.data.begin()));
+  }
+  EXPECT_DOUBLE_EQ(LongestTrial(problem), 0.6);
+}
+
+}  // namespace
+}  // namespace hoplab
