@@ -54,7 +54,10 @@ std::vector<CauseReport> TakeApart(const Naming& naming, const SharesRequest& re
       cause.main = true;
       return;
     }
-    cause.share = fall > 0.0 ? (2.0 * without.cost - request.extended_square) / fall : 0.0;
+    // Without it no more is missed than by the plain model, which is one of the models without it;
+    // a refit that ends above has ended in the wrong place.
+    const double missed = std::min(2.0 * without.cost, request.plain_square);
+    cause.share = fall > 0.0 ? (missed - request.extended_square) / fall : 0.0;
     const HeldOutErrors errors = MeasureHeldOut(without, 1, /*test_only=*/true);
     if (!errors.test.rmse.empty()) cause.rmse_without = errors.test.rmse;
     cause.gain = CompareHeldOut(without, errors, *request.after, request.seed, nullptr);

@@ -103,7 +103,7 @@ int EnvironmentOr(const char* name, int value) {
 // What diagnose made of the robots, added up.
 struct Count {
   int faults = 0, named = 0, first = 0, wrong_leg = 0, wrong = 0, E_within = 0, E_covered = 0,
-      robots = 0;
+      robots = 0, followed = 0;
 };
 
 void Judge(const Diagnosis& d, const std::string& planted, double E, Count& count) {
@@ -131,15 +131,22 @@ void Judge(const Diagnosis& d, const std::string& planted, double E, Count& coun
                 d.refusal.c_str());
     return;
   }
-  const FittedModel& told = d.extension ? d.naming.best : d.null;
-  const Uncertainty& u = d.extension ? d.extension->uncertainty : d.uncertainty;
+  const bool followed = d.carried_on && d.carried_on->stop.IsMinimum();
+  count.followed += followed;
+  const FittedModel& told = followed ? d.carried_on->model : d.extension ? d.naming.best : d.null;
+  const Uncertainty& u = followed      ? d.carried_on->uncertainty
+                         : d.extension ? d.extension->uncertainty
+                                       : d.uncertainty;
   const double off = told.shared[0] / E - 1.0;
   count.E_within += std::abs(off) <= 0.03;
   const bool covered =
       u.parameters[0].ci95 && u.parameters[0].ci95->first <= E && u.parameters[0].ci95->second >= E;
   count.E_covered += covered;
-  std::printf("%-22s %s%s; E %+.2f %%%s\n", planted.empty() ? "nothing" : planted.c_str(),
-              std::string(NameOf(d.verdict)).c_str(), said.c_str(), 100.0 * off,
+  const std::string span = followed  ? ", whole trials followed"
+                           : d.until ? fmt::format(", of the first {:.2f} s", *d.until)
+                                     : "";
+  std::printf("%-22s %s%s%s; E %+.2f %%%s\n", planted.empty() ? "nothing" : planted.c_str(),
+              std::string(NameOf(d.verdict)).c_str(), said.c_str(), span.c_str(), 100.0 * off,
               covered ? "" : " (not in its interval)");
   std::fflush(stdout);
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/diagnosed_hops.h"
+
 namespace hoplab {
 namespace {
 
@@ -55,6 +57,23 @@ TEST(IsMainCause, AGainMustBeAboveZero) {
   HeldOutGain gain;
   gain.ci95 = {0.0, 0.04};
   EXPECT_FALSE(IsMainCause(0.5, 1.0, gain));
+}
+
+// Such a refit has ended in the wrong place: the plain model is a model without the cause, too.
+TEST(TakeApart, ACauseExplainsNoMoreThanAllOfTheMisfit) {
+  const testing::NullFit fit({.effects = {testing::EffectOfSize("touchdown_angle_bias", 0.03)}});
+  const std::vector<Candidate> candidates = testing::CandidatesOf(testing::kSixEffects);
+  Naming naming = NameCauses(fit.fits(), candidates, fit.Linearised(fit.settled, candidates),
+                             fit.train, NamingOptions());
+  ASSERT_EQ(naming.without.size(), 1u);
+  naming.without.front().cost = 100.0 * fit.null.cost;
+  const HeldOutErrors after = MeasureHeldOut(naming.best, 1);
+  const std::vector<CauseReport> causes = TakeApart(naming,
+                                                    {.plain_square = 2.0 * fit.null.cost,
+                                                     .extended_square = 2.0 * naming.best.cost,
+                                                     .after = &after},
+                                                    fit.Settings());
+  EXPECT_DOUBLE_EQ(causes.front().share, 1.0);
 }
 
 }  // namespace
