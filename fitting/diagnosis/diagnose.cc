@@ -82,8 +82,8 @@ class StageByStage {
     const FitProblem part = FirstPart(whole_, until);
     DatasetFit null = FitPlain(part, options_, Segmentation::kWhole);
     null.until = until;
-    null.note = "what is told is of " + what +
-                ": a gait magnifies from stride to stride what is wrong with a model";
+    null.note =
+        "what is told is of " + what + ": what is wrong with a model grows from landing to landing";
     const std::optional<FittedModel> begin = Beginning(last, part);
     return DiagnoseFitted(std::move(null), options_, begin ? &*begin : nullptr);
   }
