@@ -45,6 +45,12 @@ TrialProblem CutTrial(const FitProblem& problem, const TrialProblem& trial, int 
   return cut;
 }
 
+double LongestTrial(const std::vector<TrialProblem>& trials) {
+  double longest = 0.0;
+  for (const TrialProblem& t : trials) longest = std::max(longest, t.row_times.back());
+  return longest;
+}
+
 TrialProblem FirstPart(const FitProblem& problem, const TrialProblem& trial, double until) {
   int last = 1;
   while (last < static_cast<int>(trial.row_times.size()) && trial.row_times[last] <= until) ++last;

@@ -34,12 +34,6 @@ FitProblem FirstPart(const FitProblem& problem, double until) {
   return part;
 }
 
-double LongestTrial(const FitProblem& problem) {
-  double longest = 0.0;
-  for (const TrialProblem& t : problem.trials) longest = std::max(longest, t.row_times.back());
-  return longest;
-}
-
 std::optional<double> FirstStancesOver(const FitProblem& problem) {
   std::optional<double> over;
   std::vector<double> landings;
@@ -60,7 +54,7 @@ std::optional<double> FirstStancesOver(const FitProblem& problem) {
 
 std::optional<FollowedPart> FitFollowedPart(const FitProblem& problem, const FitOptions& options) {
   std::optional<FollowedPart> longest;
-  const double end = LongestTrial(problem);
+  const double end = LongestTrial(problem.trials);
   for (double until = FirstStancesOver(problem).value_or(end); until < end; until *= kLonger) {
     FollowedPart part;
     part.until = until;

@@ -9,9 +9,6 @@ namespace hoplab {
 /// All trials cut at `until` [s].
 FitProblem FirstPart(const FitProblem& problem, double until);
 
-/// How long the longest trial lasts [s].
-double LongestTrial(const FitProblem& problem);
-
 /// When, in the simulations at the nominal values, every leg of a robot has stood once in every
 /// trial [s], and a little more: a tenth, or half of the time until the next leg lands. Trials that
 /// fall before are left out; absent where all do.

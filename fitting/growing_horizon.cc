@@ -60,11 +60,9 @@ std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
 SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& other,
                  RoundCosts& costs) {
   const std::vector<TrialProblem>& whole = *request.trials;
-  double longest = 0.0;
-  for (const TrialProblem& trial : whole) longest = std::max(longest, trial.row_times.back());
   const int most = request.max_iterations;
   const double tolerance = request.function_tolerance;
-  for (const double fraction : RoundsFrom(known_until / longest)) {
+  for (const double fraction : RoundsFrom(known_until / LongestTrial(whole))) {
     const std::vector<TrialProblem> cut =
         CutToFraction(*request.problem, whole, request.shared, fraction);
     request.trials = &cut;

@@ -119,6 +119,9 @@ std::vector<double> InitialOf(const TrialProblem& trial, const Eigen::Ref<const 
 /// The trial cut to its rows [first, last), its time starting anew at `first`.
 TrialProblem CutTrial(const FitProblem& problem, const TrialProblem& trial, int first, int last);
 
+/// How long the longest of the trials lasts [s].
+double LongestTrial(const std::vector<TrialProblem>& trials);
+
 /// The trial cut at `until` [s].
 TrialProblem FirstPart(const FitProblem& problem, const TrialProblem& trial, double until);
 

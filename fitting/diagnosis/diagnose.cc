@@ -12,6 +12,7 @@
 #include "fitting/followed_part.h"
 #include "fitting/growing_horizon.h"
 #include "fitting/stop_check.h"
+#include "fitting/trial_evaluator.h"
 #include "model/mechanism_traits.h"
 
 namespace hoplab {
@@ -32,10 +33,11 @@ class StageByStage {
   // make it surer, each beginning with what the last one found; where nothing is seen, the whole
   // trials.
   Diagnosis Run() {
-    const double end = LongestTrial(whole_);
+    const double end = LongestTrial(whole_.trials);
     std::optional<Diagnosis> last;
     for (double until = FirstStancesOver(whole_).value_or(end); until < end; until *= kLonger) {
       Diagnosis longer = OfFirst(until, last);
+      if (longer.interrupted) return longer;
       if (!longer.refusal.empty()) break;
       const bool nothing_seen = longer.verdict == Verdict::kAdequate;
       Tell(longer);
@@ -43,7 +45,7 @@ class StageByStage {
       if (last && last->extension && longer.UnlistedProbability() > last->UnlistedProbability())
         return WithWholeTrials(std::move(*last));
       last = std::move(longer);
-      if (IsDone(*last)) return WithWholeTrials(std::move(*last));
+      if (last->verdict == Verdict::kNamed) return WithWholeTrials(std::move(*last));
       if (nothing_seen && WholeIsMinimum()) break;
     }
     if (!last || WholeIsMinimum() || Stopped()) {
@@ -56,7 +58,7 @@ class StageByStage {
  private:
   bool Stopped() const { return options_.fit.stop && *options_.fit.stop; }
   void Tell(const Diagnosis& d) const {
-    if (!options_.stage || d.interrupted) return;
+    if (!options_.stage) return;
     std::string text = "up to there: " + std::string(NameOf(d.verdict));
     for (const CauseReport* c :
          d.extension ? d.extension->ToldCauses() : std::vector<const CauseReport*>())
@@ -70,10 +72,6 @@ class StageByStage {
   bool WholeIsMinimum() {
     const FitResult& result = WholeNull().result;
     return result.ok && result.stop.IsMinimum();
-  }
-  // Names are found, or somebody waits no longer.
-  static bool IsDone(const Diagnosis& d) {
-    return d.interrupted || (d.refusal.empty() && d.verdict == Verdict::kNamed);
   }
 
   Diagnosis OfFirst(double until, const std::optional<Diagnosis>& last) const {
@@ -160,6 +158,7 @@ class StageByStage {
     if (!d.extension || Stopped()) return d;
     if (options_.stage) options_.stage("carrying on to the whole trials");
     CarriedOn carried = CarriedOver(d, whole_);
+    if (Stopped()) return d;
     if (carried.stop.IsMinimum()) {
       FittedModel& model = carried.model;
       const std::vector<TrialProblem> train = TrialsOf(whole_, TrialRole::kTrain);

@@ -155,6 +155,16 @@ TEST_F(RobotCli, DiagnosisNamesTheSoftLeg) {
   EXPECT_EQ(cause.at("name"), "leg_stiffness_2");
   EXPECT_NEAR(cause.at("parameters")[0].at("value").get<double>(), 0.2, 0.002);
   EXPECT_GT(cause.at("held_out_gain").at("nats_per_sample").get<double>(), 0.2);
+  // By the first stances, then carried on to the whole trials.
+  EXPECT_EQ(record.at("fitted"), "first parts");
+  EXPECT_GT(record.at("fitted_until_s").get<double>(), 0.0);
+  const auto& whole = record.at("whole_trials");
+  EXPECT_TRUE(whole.at("followed").get<bool>()) << whole.at("sentence");
+  EXPECT_NEAR(whole.at("chi2_per_sample").get<double>(), 1.0, 0.1);
+  EXPECT_EQ(whole.at("parameters")[0].at("name"), "E");
+  EXPECT_NEAR(whole.at("parameters")[0].at("value").get<double>(), 22e9, 0.01 * 22e9);
+  EXPECT_NE(whole.at("sentence").get<std::string>().find("follows them to their end: E 2"),
+            std::string::npos);
   // Runs with play are slow: nothing is left for it, so it is not tried.
   for (const auto& candidate : record.at("candidates"))
     EXPECT_EQ(candidate.at("refit").is_null(), candidate.at("effect") == "backlash_2") << candidate;

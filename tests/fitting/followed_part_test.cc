@@ -56,7 +56,7 @@ TEST(FollowedPart, APartHoldsTheFirstRowsOfEveryTrial) {
     EXPECT_GT(whole.row_times[cut.row_times.size()], 0.25);
     EXPECT_TRUE(std::equal(cut.data.begin(), cut.data.end(), whole.data.begin()));
   }
-  EXPECT_DOUBLE_EQ(LongestTrial(problem), 0.6);
+  EXPECT_DOUBLE_EQ(LongestTrial(problem.trials), 0.6);
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 // A robot's trials by their first stances, then as a whole.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <string>
+#include <string_view>
+
 #include "fitting/diagnosis/diagnosis.h"
 #include "fitting/followed_part.h"
 #include "tests/support/robot_pronks.h"
@@ -33,6 +37,31 @@ TEST(Diagnose, NamesByTheFirstStancesWhatWholeTrialsHide) {
   EXPECT_NEAR(d.carried_on->model.ValuesOf(0)[0], 0.008, 0.0002);
 }
 
+// A name that was found stays where somebody waits for no more.
+TEST(Diagnose, KeepsWhatWasNamedWhereTheWholeTrialsAreNotWaitedFor) {
+  std::atomic<bool> stop = false;
+  DiagnosisOptions options;
+  options.fit.jobs = 2;
+  options.fit.stop = &stop;
+  options.candidates.only = {"com_offset"};
+  options.stage = [&](std::string_view stage) { stop = stage.starts_with("carrying on"); };
+  const Diagnosis d = Diagnose(testing::RobotPronks(0.008, 0.8), options);
+  EXPECT_TRUE(stop);
+  EXPECT_FALSE(d.interrupted);
+  EXPECT_EQ(d.verdict, Verdict::kNamed);
+  EXPECT_FALSE(d.carried_on);
+}
+
+TEST(Diagnose, AnInterruptedStageIsNoVerdict) {
+  std::atomic<bool> stop = false;
+  DiagnosisOptions options;
+  options.fit.stop = &stop;
+  options.stage = [&](std::string_view stage) { stop = stop || stage.starts_with("looking for"); };
+  const Diagnosis d = Diagnose(testing::RobotPronks(0.008, 0.8), options);
+  EXPECT_TRUE(d.interrupted);
+  EXPECT_FALSE(d.carried_on);
+}
+
 // The fit alone says how far it goes.
 TEST(FitDataset, FitsAsMuchOfARobotsTrialsAsItFollows) {
   FitOptions options;
@@ -45,7 +74,7 @@ TEST(FitDataset, FitsAsMuchOfARobotsTrialsAsItFollows) {
   ASSERT_TRUE(part.until);
   EXPECT_GE(*part.until, *FirstStancesOver(problem));
   EXPECT_LT(*part.until, 0.8);
-  EXPECT_LE(LongestTrial(part.problem), *part.until);
+  EXPECT_LE(LongestTrial(part.problem.trials), *part.until);
   EXPECT_NE(part.note.find("only the first"), std::string::npos) << part.note;
 }
 
