@@ -10,17 +10,11 @@ constexpr double kMostOthers = 2.0;      // no more causes were planted together
 constexpr double kMostNatsOfGap = 50.0;  // a gap beyond is no surer
 constexpr double kLeastChance = 1e-10, kLeastShare = 1e-4;
 constexpr double kPlainRarity = 3.0;  // trials that differ this plainly differ
-// Sizes in the trials that spread by this share of their mean are not of one cause. A spread of
-// half a per cent is certain, too, where rows are many, and says nothing.
+// Sizes in the trials that spread by this share of the effect's own are not of one cause. A spread
+// of half a per cent is certain, too, where rows are many, and says nothing.
 constexpr double kUnlikeSizes = 0.5;
 
 double Rarity(double p_value) { return -std::log10(std::max(p_value, kLeastChance)); }
-
-double Disagreement(const Heterogeneity& h) {
-  const double unlike = kUnlikeSizes * std::abs(h.mean);
-  const double spread = h.spread < unlike ? h.spread / unlike : 1.0;
-  return std::min(Rarity(h.p_value), kPlainRarity) * spread;
-}
 
 bool SomeMainIsLikely(const std::vector<CauseReport>& causes) {
   return std::any_of(causes.begin(), causes.end(),
@@ -28,6 +22,22 @@ bool SomeMainIsLikely(const std::vector<CauseReport>& causes) {
 }
 
 }  // namespace
+
+double Disagreement(std::span<const Heterogeneity> sizes, const Candidate& of) {
+  const auto typical = [&](std::size_t k) {
+    return std::abs(of.Parameter(static_cast<int>(k)).typical);
+  };
+  double size = 0.0, most = 0.0;
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    size = std::max(size, std::abs(sizes[k].mean) / typical(k));
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    const Heterogeneity& h = sizes[k];
+    const double unlike = kUnlikeSizes * size * typical(k);
+    const double spread = h.spread < unlike ? h.spread / unlike : 1.0;
+    most = std::max(most, std::min(Rarity(h.p_value), kPlainRarity) * spread);
+  }
+  return most;
+}
 
 void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
              const std::vector<Heterogeneity>& sizes) {
@@ -47,8 +57,7 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
     f.group = static_cast<double>(naming.groups[member].size() - 1);
     const auto first = sizes.begin() + best.PlaceOf(static_cast<int>(member));
     c.sizes.assign(first, first + c.cause.parameter_count());
-    for (const Heterogeneity& h : c.sizes)
-      f.heterogeneity = std::max(f.heterogeneity, Disagreement(h));
+    f.heterogeneity = Disagreement(c.sizes, c.cause);
     c.group_probability = CalibratedProbability(f);
     c.probability = c.group_probability * naming.group_weights[member].front();
   }

@@ -1,8 +1,16 @@
 #pragma once
 
+#include <span>
+
 #include "fitting/diagnosis/diagnosis.h"
 
 namespace hoplab {
+
+/// How plainly the trials disagree about one effect, from the sizes of its parameters in them: the
+/// rarity of that by chance, -lg p and at most 3, times their spread over half the effect's size.
+/// A parameter of several may be zero (a mass ahead of its place, at the right height), so it is
+/// measured, in typical sizes, against the largest of them.
+double Disagreement(std::span<const Heterogeneity> sizes, const Candidate& of);
 
 /// How sure each name of `report` is, by what cases that looked like it turned out to be
 /// (NameFeatures). `sizes`: of the shared values of the extension.

@@ -41,22 +41,25 @@ class StageByStage {
       if (!longer.refusal.empty()) break;
       const bool nothing_seen = longer.verdict == Verdict::kAdequate;
       Tell(longer);
-      // A model's own errors grow, too, and make names less sure again.
-      if (last && last->extension && longer.UnlistedProbability() > last->UnlistedProbability())
-        return WithWholeTrials(std::move(*last));
+      if (IsLessSure(longer, last)) return WithWholeTrials(std::move(*last));
       last = std::move(longer);
       if (last->verdict == Verdict::kNamed) return WithWholeTrials(std::move(*last));
       if (nothing_seen && WholeIsMinimum()) break;
     }
-    if (!last || WholeIsMinimum() || Stopped()) {
-      const std::optional<FittedModel> begin = Beginning(last, whole_);
-      return DiagnoseFitted(std::move(WholeNull()), options_, begin ? &*begin : nullptr);
-    }
-    return WithWholeTrials(std::move(*last));
+    if (last && !WholeIsMinimum() && !Stopped()) return WithWholeTrials(std::move(*last));
+    const std::optional<FittedModel> begin = Beginning(last, whole_);
+    Diagnosis whole = DiagnoseFitted(std::move(WholeNull()), options_, begin ? &*begin : nullptr);
+    const bool less_sure = whole.refusal.empty() && !whole.interrupted && IsLessSure(whole, last);
+    return less_sure ? WithWholeTrials(std::move(*last)) : whole;
   }
 
  private:
   bool Stopped() const { return options_.fit.stop && *options_.fit.stop; }
+  // A model's own errors grow from landing to landing, too, and make names less sure again.
+  static bool IsLessSure(const Diagnosis& longer, const std::optional<Diagnosis>& shorter) {
+    return shorter && shorter->extension &&
+           longer.UnlistedProbability() > shorter->UnlistedProbability();
+  }
   void Tell(const Diagnosis& d) const {
     if (!options_.stage) return;
     std::string text = "up to there: " + std::string(NameOf(d.verdict));

@@ -114,6 +114,7 @@ class Pipeline {
     Stage("refitting with every candidate cause");
     NamingOptions naming;
     naming.max_effects = options_.max_effects;
+    naming.material = options_.material;
     naming.begin = begin_;
     naming.discrepancy = options_.fit.discrepancy;
     naming.jobs = options_.fit.jobs;

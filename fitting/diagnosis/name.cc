@@ -1,17 +1,15 @@
 #include "fitting/diagnosis/name.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
 
-#include "base/nan.h"
+#include "fitting/diagnosis/candidate_status.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/pairs.h"
 #include "fitting/diagnosis/pool.h"
 #include "fitting/diagnosis/refits.h"
-#include "fitting/diagnosis/remainder.h"
 #include "fitting/diagnosis/weigh.h"
 
 namespace hoplab {
@@ -26,8 +24,8 @@ constexpr double kWorthATry = 4.0;
 // the noise's square). What explains less than both is a detail of the model, which the discrepancy
 // stands for.
 constexpr double kLeastShare = 1e-3, kLeastPerSample = 0.01;
-// A set that leaves this share of the misfit beyond noise may be one of stand-ins, and slow causes
-// are sought; so many causes join it at once.
+// A set that leaves this share of the misfit beyond noise may be one of stand-ins; so many causes
+// join it at once.
 constexpr double kMuch = 5e-3;
 constexpr int kJoin = 3;
 // A set that leaves less than this share explains the data by and large.
@@ -187,10 +185,11 @@ class Search {
     return std::find(set.begin(), set.end(), i) != set.end();
   }
   bool IsSlow(std::size_t i) const { return naming_.candidates[i].candidate.effect->info.slow; }
-  // The set misses more than noise does, by three of its standard deviations, and no mere detail.
+  // The set misses more than noise does, by three of its standard deviations, and enough for a main
+  // cause.
   bool MisfitIsSeen(const CandidateSet& set) const {
     const double noise = 0.5 * null_at_.degrees_of_freedom();
-    return Left(set) > std::max(3.0 * std::sqrt(noise), kMuch * Misfit());
+    return Left(set) > std::max(3.0 * std::sqrt(noise), options_.material * Misfit());
   }
   bool SeeksSlowOnes(const CandidateSet& set) const {
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i)
@@ -315,26 +314,10 @@ class Search {
   }
 
   void Judge(const CandidateSet& model) {
-    const Remainder left = LeftBeside(naming_, refits_.At(model), model, train_, options_.jobs);
-    std::set<int> doubtful, members(model.begin(), model.end());
-    for (const std::vector<int>& group : naming_.groups) {
-      if (group.size() > 1) doubtful.insert(group.begin(), group.end());
-    }
-    for (std::size_t n = 0; n < naming_.candidates.size(); ++n) {
-      const int i = static_cast<int>(n);
-      CandidateResult& c = naming_.candidates[n];
-      c.bound95 = Eigen::VectorXd::Constant(c.candidate.parameter_count(), kNaN);
-      if (doubtful.count(i)) {
-        c.status = CandidateStatus::kIndistinguishable;
-      } else if (members.count(i)) {
-        c.status = CandidateStatus::kSupported;
-      } else if (c.separable && c.power >= kTestable) {
-        c.status = CandidateStatus::kExcluded;
-      } else if (c.has_threshold && (c.alone.ok() || refits_.Usable(With(slow_beside_, i)))) {
-        c.status = CandidateStatus::kNotNeeded;
-      }
-      if (!members.count(i) && c.separable) Bound(left, i, c);
-    }
+    std::set<int> looked_at;
+    for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i)
+      if (refits_.Usable(With(slow_beside_, i))) looked_at.insert(i);
+    SetStatuses(refits_.At(model), model, looked_at, train_, options_.jobs, naming_);
   }
 
   const FittedModel& null_;  // settled

@@ -17,8 +17,12 @@ inline constexpr double kTestable = 7.85;
 /// Places of a model's causes among the candidates, ascending; empty: the null fit.
 using CandidateSet = std::vector<int>;
 
+/// Share of the misfit below which a cause, or what is left, is of no consequence.
+inline constexpr double kMaterial = 0.02;
+
 struct NamingOptions {
   int max_effects = 5;
+  double material = kMaterial;
   bool in_one_trial = true;  // a cause may act in one trial only
   int picked_from = 0;       // how many the candidates were picked out of; 0: they are all
   /// Nats by which each is less likely beforehand than the others; empty: all are alike.

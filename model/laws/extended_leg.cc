@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "model/effects/effect.h"
 #include "model/laws/extended_search.h"
@@ -17,23 +18,20 @@ template <class T>
 struct ArcRate {
   T along_u0, along_y, rest;
 };
+// `softened`: by how much tip_turn and F go with the softness.
 template <class T>
-ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const LegConditions<T>& at, const T* z,
-                     const Place<T>& here, const Statics<Tangent<T>>& along) {
-  const Residuals<T> by = ResidualsAt<T>(p, here, z[kY], along);
+ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const T* z, const Place<T>& here,
+                     const Residuals<T>& by, const std::optional<LegForce<T>>& softened) {
   T tip_phi = by.by_phi.tip, ground_phi = by.by_phi.ground;
   if (IsElastic(law)) {
     tip_phi += p.r * by.by_u.tip;
     ground_phi += p.r * by.by_u.ground;
   }
   T tip_rest(0.0), ground_rest = -z[kVy];  // what time does to both with phi, Y and u0 held
-  if (!IsZero(p.law_terms.stiffness_drift)) {
-    using S = Tangent<T>;
-    const T softening = -p.law_terms.stiffness_drift * here.softer * here.softer, l = Chord(here);
-    const Statics<S> leg = StaticsAt<S, T>(
-        p, law, at.torque, {S(here.phi), S(l), S(here.softer, softening, T(0.0)), here.F_near});
-    tip_rest += leg.tip_turn.rate[0];
-    ground_rest -= p.law_terms.ground_compliance * (leg.F.rate[0] * here.Y / l);
+  if (softened) {
+    const T softening = -p.law_terms.stiffness_drift * here.softer * here.softer;
+    tip_rest += softening * softened->tip_turn;
+    ground_rest -= p.law_terms.ground_compliance * (softening * softened->F * here.Y / Chord(here));
   }
   const T determinant = tip_phi * by.by_Y.ground - ground_phi * by.by_Y.tip;
   const auto solved = [&](const T& tip, const T& ground) {
@@ -56,27 +54,26 @@ T Softer(const Parameters<T>& p, const T& time) {
   return 1.0 / (1.0 + p.law_terms.stiffness_drift * (time + p.time_origin));
 }
 
+template <class T>
+StaticsInputs<T> InputsOf(const Place<T>& at, const T& torque) {
+  return {at.phi, Chord(at), torque, at.softer};
+}
+
 // The place of the solution: the residuals at the root in duals, the unknowns held (implicit
 // function theorem).
 template <class T>
-Place<T> PlaceOf(const Parameters<T>& p, Law law, bool rolling, const Solution& solution,
-                 const T& u0, const T& y, const T& torque, const T& softer) {
-  T phi(solution.phi), Y(solution.Y);
-  const bool rolls_on_arc = rolling && IsElastic(law);
-  const auto here = [&] {
-    return Place<T>{phi, rolls_on_arc ? T(u0 + p.r * phi) : u0, Y, softer, solution.F};
-  };
-  if constexpr (kJetWidth < T >> 0) {
-    const Place<T> held = here();
-    const T l = Chord(held);
-    const Statics<T> leg = StaticsAt<T, T>(p, law, torque, {phi, l, softer, solution.F});
-    const T tip = rolling ? T(held.u / l + leg.tip_turn) : T(0.0);
-    const T ground = SinkMiss(p, leg.F, held, l, y);
-    const auto& m = solution.inverse;
-    phi -= m[0][0] * tip + m[0][1] * ground;
-    Y -= m[1][0] * tip + m[1][1] * ground;
-  }
-  return here();
+Place<T> PlaceOf(const Parameters<T>& p, const Solution& solution, const Place<T>& held,
+                 const LegForce<T>& leg, bool rolling, bool rolls_on_arc, const T& y) {
+  const T l = Chord(held);
+  const T tip = rolling ? T(held.u / l + leg.tip_turn) : T(0.0);
+  const T ground = SinkMiss(p, leg.F, held, l, y);
+  const auto& m = solution.inverse;
+  Place<T> there = held;
+  const T turned = m[0][0] * tip + m[0][1] * ground;
+  there.phi -= turned;
+  if (rolls_on_arc) there.u -= p.r * turned;
+  there.Y -= m[1][0] * tip + m[1][1] * ground;
+  return there;
 }
 
 // A leg at a place, before its force is known.
@@ -95,11 +92,17 @@ LegLoad<T> LoadAt(const Place<T>& there, const T* z) {
   return load;
 }
 
+// M38 of a chord that turns about a contact that stays.
+template <class T>
+void SetTurnOfChord(const T* z, LegLoad<T>& load) {
+  load.angle_rate = -(load.y * z[kVx] + load.u * z[kVy]) / (load.l * load.l);
+}
+
 }  // namespace
 
 template <class T>
 LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& at) const {
-  const bool rolling = mode == Mode::kRolling;
+  const bool rolling = mode == Mode::kRolling, rolls_on_arc = rolling && IsElastic(law_);
   const T u0 = z[kContact] - z[kX];
   const T softer = Softer(p_, at.time);
   const Solution solution = Solve(
@@ -108,24 +111,38 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
     const T nan(std::numeric_limits<double>::quiet_NaN());
     return {nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
   }
-  const Place<T> there = PlaceOf(p_, law_, rolling, solution, u0, z[kY], at.torque, softer);
-  LegLoad<T> load = LoadAt(there, z);
+  const T phi(solution.phi);
+  const Place<T> held{phi, rolls_on_arc ? T(u0 + p_.r * phi) : u0, T(solution.Y), softer};
+  const StaticsInputs<double> values{solution.phi, Value(Chord(held)), Value(at.torque),
+                                     Value(softer), solution.F};
+  // The same statics at the place in T's directions, which they give.
+  const auto place = [&](const auto& leg) {
+    if constexpr (kJetWidth < T >> 0)
+      return PlaceOf(p_, solution, held, statics_->Force(leg, InputsOf(held, at.torque)), rolling,
+                     rolls_on_arc, z[kY]);
+    else
+      return held;
+  };
   const bool asked = p_.law_terms.slopes_active;
   const bool turns = rolling && (!IsElastic(law_) || p_.law_terms.rolling_active || asked);
   const bool has_hub = asked && law_ == Law::kElastica;
-  // M38 of a chord that turns about a contact that stays.
-  if (!turns && !rolling && asked)
-    load.angle_rate = -(load.y * z[kVx] + load.u * z[kVy]) / (load.l * load.l);
   if (!turns && !DampsAlongArc() && !has_hub) {
-    const Statics<T> leg =
-        StaticsAt<T, T>(p_, law_, at.torque, {load.phi, load.l, softer, solution.F});
-    load.elastic_force = leg.F;
-    load.tip_miss = load.u / load.l + leg.tip_turn;
+    const auto leg = statics_->At(values);
+    const Place<T> there = place(leg);
+    LegLoad<T> load = LoadAt(there, z);
+    const LegForce<T> force = statics_->Force(leg, InputsOf(there, at.torque));
+    load.elastic_force = force.F;
+    load.tip_miss = load.u / load.l + force.tip_turn;
+    if (!rolling && asked) SetTurnOfChord(z, load);
     return load;
   }
-  const Statics<Tangent<T>> along = StaticsAlong(p_, law_, at.torque, there);
+  const auto leg = statics_->Along(values);
+  const Place<T> there = place(leg);
+  LegLoad<T> load = LoadAt(there, z);
+  const LegForceAlong<T> along = statics_->ForceAlong(leg, InputsOf(there, at.torque));
   load.elastic_force = along.F.value;
   load.tip_miss = load.u / load.l + along.tip_turn.value;
+  if (!rolling && asked) SetTurnOfChord(z, load);
   if (turns) TurnContact(z, at, there, along, load);
   if (has_hub) TurnHub(rolling, z, along, load);
   if (DampsAlongArc()) AddViscousForce(softer, z, along.F, load);
@@ -135,16 +152,20 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
 // M27: dx_c/dt = rho dphi/dt, the foot's creeping added by the caller; M34, M38.
 template <class T>
 void ExtendedLeg<T>::TurnContact(const T* z, const LegConditions<T>& at,
-                                 const extended::Place<T>& there, const Statics<Tangent<T>>& along,
+                                 const extended::Place<T>& there, const LegForceAlong<T>& along,
                                  LegLoad<T>& load) const {
   const T& blend = p_.law_terms.rolling;
   const ThesisReading reading = law_ == Law::kThesis ? p_.reading : ThesisReading();
-  const T full = p_.r, flat = RadiusOfM7(p_.r, reading, along.sin.value, along.cos.value,
+  const T full = p_.r, flat = RadiusOfM7(p_.r, reading, along.sin, along.cos,
                                          load.l);  // M8, M11; M7
   const T rho = law_ == Law::kThesis ? T((1.0 - blend) * flat + blend * full)
                                      : T((1.0 - blend) * full + blend * flat);
   const T beyond = IsElastic(law_) ? T(rho - full) : rho;  // X0 moves by what is not rolled off
-  const ArcRate<T> rate = RateOfArc(p_, law_, at, z, there, along);
+  std::optional<LegForce<T>> softened;
+  if (!IsZero(p_.law_terms.stiffness_drift))
+    softened = statics_->ForceBySoftness(InputsOf(there, at.torque));
+  const ArcRate<T> rate =
+      RateOfArc(p_, law_, z, there, ResidualsAt<T>(p_, there, z[kY], along), softened);
   if (reading.rolling == ThesisReading::Rolling::kImplicit)
     load.slip_gain = 1.0 / (1.0 - beyond * rate.along_u0);
   load.contact_rate = load.slip_gain * beyond * (rate.rest - rate.along_u0 * z[kVx]);
@@ -161,14 +182,14 @@ void ExtendedLeg<T>::TurnContact(const T* z, const LegConditions<T>& at,
     const T w = load.damping_rate;
     T seen = w + load.u * load.contact_rate / load.l;
     if (reading.damping_rate == ThesisReading::DampingRate::kDeflection)
-      seen -= p_.r * along.cos.value * (rate.rest + rate.along_u0 * (load.contact_rate - z[kVx]));
+      seen -= p_.r * along.cos * (rate.rest + rate.along_u0 * (load.contact_rate - z[kVx]));
     load.damping_rate = (1.0 - p_.law_terms.tip) * seen + p_.law_terms.tip * w;
   }
 }
 
 // M93. In: angle_rate of M38; out: that of the hub.
 template <class T>
-void ExtendedLeg<T>::TurnHub(bool rolling, const T* z, const Statics<Tangent<T>>& along,
+void ExtendedLeg<T>::TurnHub(bool rolling, const T* z, const LegForceAlong<T>& along,
                              LegLoad<T>& load) const {
   using std::sqrt;
   const T square = load.l * load.l;
@@ -208,8 +229,7 @@ void ExtendedLeg<T>::AddViscousForce(const T& softer, const T* z, const Tangent<
 
 template <class T>
 T ExtendedLeg<T>::StrainEnergy(Mode, const LegLoad<T>& load, const LegConditions<T>& at) const {
-  const Statics<T> leg =
-      StaticsAt<T, T>(p_, law_, at.torque, {load.phi, load.l, Softer(p_, at.time)});
+  const Statics<T> leg = statics_->Whole({load.phi, load.l, at.torque, Softer(p_, at.time)});
   const T lift = leg.F * load.y / load.l;
   const T ground = 0.5 * p_.law_terms.ground_compliance * lift * lift;
   if (IsElastic(law_))

@@ -1,22 +1,22 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "model/hybrid/automaton.h"
 #include "model/hybrid/discrete_state.h"
 #include "model/laws/leg_load.h"
+#include "model/laws/local_statics.h"
 #include "model/laws/tangent.h"
 #include "model/parameters.h"
 
 namespace hoplab {
 
-// Of extended_search.h and extended_statics.h.
+// Of extended_search.h.
 namespace extended {
 template <class T>
 struct Place;
 }
-template <class S>
-struct Statics;
 
 /// The force along the chord at an arc and a chord, with its slopes: where the search for it begins
 /// near by. F is NaN where none is known.
@@ -64,7 +64,9 @@ class ExtendedLeg {
   ExtendedLeg(const Parameters<T>& parameters, Law law)
       : p_(parameters),
         values_(active() ? ConvertParameters<double>(parameters) : Parameters<double>()),
-        law_(law) {}
+        law_(law) {
+    if (active()) statics_.emplace(p_, law_);
+  }
 
   /// Whether any term is there: else this class is not asked.
   bool active() const { return p_.law_terms.active; }
@@ -85,6 +87,7 @@ class ExtendedLeg {
   void SetRestLength(const T& l0) {
     p_.l0 = l0;
     values_.l0 = Value(l0);
+    if (active()) statics_.emplace(p_, law_);
   }
 
   const ExtendedRoot& root() const { return root_; }
@@ -95,13 +98,14 @@ class ExtendedLeg {
     return law_ == Law::kElastica && p_.law_terms.material_damping_active;
   }
   void TurnContact(const T* z, const LegConditions<T>& at, const extended::Place<T>& there,
-                   const Statics<Tangent<T>>& along, LegLoad<T>& load) const;
-  void TurnHub(bool rolling, const T* z, const Statics<Tangent<T>>& along, LegLoad<T>& load) const;
+                   const LegForceAlong<T>& along, LegLoad<T>& load) const;
+  void TurnHub(bool rolling, const T* z, const LegForceAlong<T>& along, LegLoad<T>& load) const;
   void AddViscousForce(const T& softer, const T* z, const Tangent<T>& F, LegLoad<T>& load) const;
 
   Parameters<T> p_;
   Parameters<double> values_;
   Law law_;
+  std::optional<LocalStatics<T>> statics_;
   mutable ExtendedRoot root_;
 };
 

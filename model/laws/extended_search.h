@@ -28,7 +28,6 @@ struct Residuals {
 template <class T>
 struct Place {
   T phi, u, Y, softer;
-  double F_near = std::numeric_limits<double>::quiet_NaN();
 };
 
 template <class T>
@@ -43,19 +42,9 @@ T SinkMiss(const Parameters<T>& p, const T& F, const Place<T>& at, const T& l, c
   return at.Y - y - p.law_terms.ground_compliance * (F * at.Y / l);
 }
 
-// What the statics know: only phi and l.
-template <class T>
-Statics<Tangent<T>> StaticsAlong(const Parameters<T>& p, Law law, const T& torque,
-                                 const Place<T>& at) {
-  using S = Tangent<T>;
-  const T one(1.0), zero(0.0);
-  return StaticsAt<S, T>(p, law, torque,
-                         {S(at.phi, one, zero), S(Chord(at), zero, one), S(at.softer), at.F_near});
-}
-// By the chain rule through the chord.
-template <class T>
-Residuals<T> ResidualsAt(const Parameters<T>& p, const Place<T>& at, const T& y,
-                         const Statics<Tangent<T>>& leg) {
+// By the chain rule through the chord. `leg`: tip_turn and F along the arc and the chord.
+template <class T, class Leg>
+Residuals<T> ResidualsAt(const Parameters<T>& p, const Place<T>& at, const T& y, const Leg& leg) {
   const T l = Chord(at);
   const T by_l = 1.0 / l, lead = at.u * by_l, height = at.Y * by_l;
   const T& F = leg.F.value;
@@ -100,11 +89,12 @@ inline Solution Solve(const Question& q, ExtendedRoot& root) {
   Solution s;
   for (int round = 0; round < kMaxRounds; ++round) {
     if (q.rolling) phi = std::fmin(std::fmax(phi, 0.05), 2.0 * std::numbers::pi - 0.05);
-    Place<double> here = place();
+    const Place<double> here = place();
     const double l = Chord(here);
-    here.F_near = force.At(phi, l);
+    using S = Tangent<double>;
+    const Situation<S> situation{S(phi, 1.0, 0.0), S(l, 0.0, 1.0), S(q.softer), force.At(phi, l)};
     Residuals<double> at =
-        ResidualsAt<double>(q.p, here, q.y, StaticsAlong<double>(q.p, q.law, q.torque, here));
+        ResidualsAt<double>(q.p, here, q.y, StaticsAt<S, double>(q.p, q.law, q.torque, situation));
     force = {phi, l, at.F.value, at.F.rate[0], at.F.rate[1]};
     at.by_phi.tip += roll * at.by_u.tip;
     at.by_phi.ground += roll * at.by_u.ground;

@@ -63,7 +63,7 @@ class Leg {
 
 /// Room for any leg.
 template <class T>
-using LegStorage = InPlace<Leg<T>, 2048 + 128 * sizeof(T)>;
+using LegStorage = InPlace<Leg<T>, 2048 + 128 * sizeof(T) + sizeof(LocalStatics<T>)>;
 
 /// A law of a leg in every scalar type: what its file registers.
 struct LegLaw {
