@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "datasets/suspect_things.h"
 #include "fitting/diagnosis/diagnosis.h"
+#include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/null_fit.h"
 #include "fitting/followed_part.h"
 #include "fitting/growing_horizon.h"
@@ -47,8 +48,7 @@ class StageByStage {
       if (nothing_seen && WholeIsMinimum()) break;
     }
     if (last && !WholeIsMinimum() && !Stopped()) return WithWholeTrials(std::move(*last));
-    const std::optional<FittedModel> begin = Beginning(last, whole_);
-    Diagnosis whole = DiagnoseFitted(std::move(WholeNull()), options_, begin ? &*begin : nullptr);
+    Diagnosis whole = DiagnoseFitted(std::move(WholeNull()), options_, FoundIn(last, whole_));
     const bool less_sure = whole.refusal.empty() && !whole.interrupted && IsLessSure(whole, last);
     return less_sure ? WithWholeTrials(std::move(*last)) : whole;
   }
@@ -85,17 +85,23 @@ class StageByStage {
     null.until = until;
     null.note =
         "what is told is of " + what + ": what is wrong with a model grows from landing to landing";
-    const std::optional<FittedModel> begin = Beginning(last, part);
-    return DiagnoseFitted(std::move(null), options_, begin ? &*begin : nullptr);
+    return DiagnoseFitted(std::move(null), options_, FoundIn(last, part));
   }
 
   // What was found in shorter parts, for a search in longer ones.
-  std::optional<FittedModel> Beginning(const std::optional<Diagnosis>& last,
-                                       const FitProblem& problem) const {
-    if (!last || !last->extension || Stopped()) return std::nullopt;
+  Beforehand FoundIn(const std::optional<Diagnosis>& last, const FitProblem& problem) const {
+    Beforehand found;
+    if (!last || !last->extension || Stopped()) return found;
+    found.slow_ones_not_needed = SlowOnesAreNotNeeded(last->naming);
     FittedModel model = CarriedOver(*last, problem).model;
-    if (!model.ok()) return std::nullopt;
-    return model;
+    if (model.ok()) found.begin = std::move(model);
+    return found;
+  }
+  static bool SlowOnesAreNotNeeded(const Naming& naming) {
+    return std::all_of(
+        naming.candidates.begin(), naming.candidates.end(), [](const CandidateResult& c) {
+          return !c.candidate.effect->info.slow || c.status == CandidateStatus::kNotNeeded;
+        });
   }
 
   // What was found, fitted to longer parts of the same trials, more and more of them: beyond what
@@ -169,6 +175,10 @@ class StageByStage {
       carried.uncertainty =
           AssessUncertainty(model.problem, train, model.shared, model.initial_states,
                             options_.fit.loss, options_.fit.jobs);
+      const std::vector<Candidate> others =
+          CandidatesBeside(model, CandidatesOf(whole_, options_.candidates));
+      const Linearisation at = LineariseAt(model, others, train, options_.fit.jobs);
+      HoldOtherModels(OtherModelsOf(d.naming, at, others), model, carried.uncertainty);
       carried.errors = MeasureHeldOut(model, options_.fit.jobs);
     }
     d.carried_on = std::move(carried);

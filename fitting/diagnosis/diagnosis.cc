@@ -36,15 +36,10 @@ std::vector<Movement> MovementsOf(const FittedModel& null, const Uncertainty& un
   return movements;
 }
 
-bool Has(const FittedModel& e, const Candidate& c) {
-  return std::any_of(e.members.begin(), e.members.end(),
-                     [&](const Candidate& m) { return m.effect == c.effect; });
-}
-
 class Pipeline {
  public:
-  Pipeline(const DiagnosisOptions& options, const FittedModel* begin)
-      : options_(options), begin_(begin) {}
+  Pipeline(const DiagnosisOptions& options, const Beforehand& beforehand)
+      : options_(options), beforehand_(beforehand) {}
 
   Diagnosis Run(DatasetFit null) {
     BeginWith(std::move(null), options_, d_, train_);
@@ -115,7 +110,8 @@ class Pipeline {
     NamingOptions naming;
     naming.max_effects = options_.max_effects;
     naming.material = options_.material;
-    naming.begin = begin_;
+    naming.begin = beforehand_.begin ? &*beforehand_.begin : nullptr;
+    naming.slow_ones_not_needed = beforehand_.slow_ones_not_needed;
     naming.discrepancy = options_.fit.discrepancy;
     naming.jobs = options_.fit.jobs;
     naming.stop = options_.fit.stop;
@@ -165,10 +161,7 @@ class Pipeline {
     report.gain =
         CompareHeldOut(d_.null, d_.before, report.after, Seed(kBootstrapStream), &report.left_out);
     report.movements = MovementsOf(d_.null, d_.uncertainty, best);
-    std::vector<Candidate> others;
-    for (const Candidate& c : candidates) {
-      if (!Has(best, c)) others.push_back(c);
-    }
+    const std::vector<Candidate> others = CandidatesBeside(best, candidates);
     std::vector<Candidate> all = others;
     all.insert(all.end(), basis_.probes.begin(), basis_.probes.end());
     const Linearisation at = LineariseAt(best, all, train_, options_.fit.jobs);
@@ -230,7 +223,7 @@ class Pipeline {
   }
 
   const DiagnosisOptions& options_;
-  const FittedModel* begin_;
+  const Beforehand& beforehand_;
   Diagnosis d_;
   ProbeBasis basis_;
   std::vector<TrialProblem> train_;
@@ -239,8 +232,8 @@ class Pipeline {
 }  // namespace
 
 Diagnosis DiagnoseFitted(DatasetFit null, const DiagnosisOptions& options,
-                         const FittedModel* begin) {
-  return Pipeline(options, begin).Run(std::move(null));
+                         const Beforehand& beforehand) {
+  return Pipeline(options, beforehand).Run(std::move(null));
 }
 
 }  // namespace hoplab

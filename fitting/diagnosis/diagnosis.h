@@ -186,9 +186,15 @@ struct Diagnosis {
   bool CausesMayStandIn() const;
 };
 
-/// Diagnoses what a fit of the model as it is leaves. `begin`: NamingOptions::begin.
+/// What a diagnosis of shorter parts of the same trials has found: NamingOptions.
+struct Beforehand {
+  std::optional<FittedModel> begin = std::nullopt;
+  bool slow_ones_not_needed = false;
+};
+
+/// Diagnoses what a fit of the model as it is leaves.
 Diagnosis DiagnoseFitted(DatasetFit null, const DiagnosisOptions& options,
-                         const FittedModel* begin = nullptr);
+                         const Beforehand& beforehand = {});
 
 /// Diagnoses a dataset. Of a robot the first stances are looked at before whole trials, in which
 /// what is wrong has grown until no small cause looks like itself; what is named there is carried

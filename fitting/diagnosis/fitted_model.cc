@@ -227,6 +227,17 @@ FittedModel RefitWithout(const FittedModel& base, int i, const FitProblem& null_
   return e;
 }
 
+std::vector<Candidate> CandidatesBeside(const FittedModel& model,
+                                        std::span<const Candidate> candidates) {
+  std::vector<Candidate> others;
+  for (const Candidate& c : candidates) {
+    if (std::none_of(model.members.begin(), model.members.end(),
+                     [&](const Candidate& m) { return m.effect == c.effect; }))
+      others.push_back(c);
+  }
+  return others;
+}
+
 bool EndFit(FittedModel& model, const RefitSettings& settings) {
   const SolveResult found = Solve(RequestFrom(model, settings));
   if (!LedOn(found)) return false;

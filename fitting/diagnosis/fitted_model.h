@@ -39,6 +39,10 @@ struct FittedModel {
   double GainOver(const FittedModel& null) const { return null.cost - cost; }
 };
 
+/// Those of `candidates` whose effect the model does not have.
+std::vector<Candidate> CandidatesBeside(const FittedModel& model,
+                                        std::span<const Candidate> candidates);
+
 /// What every refit of a diagnosis shares.
 struct RefitSettings {
   const std::vector<TrialProblem>* train = nullptr;

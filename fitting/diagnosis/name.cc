@@ -192,6 +192,7 @@ class Search {
     return Left(set) > std::max(3.0 * std::sqrt(noise), options_.material * Misfit());
   }
   bool SeeksSlowOnes(const CandidateSet& set) const {
+    if (options_.slow_ones_not_needed) return false;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i)
       if (IsSlow(i)) return MisfitIsSeen(set);
     return false;
@@ -316,7 +317,8 @@ class Search {
   void Judge(const CandidateSet& model) {
     std::set<int> looked_at;
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i)
-      if (refits_.Usable(With(slow_beside_, i))) looked_at.insert(i);
+      if ((options_.slow_ones_not_needed && IsSlow(i)) || refits_.Usable(With(slow_beside_, i)))
+        looked_at.insert(i);
     SetStatuses(refits_.At(model), model, looked_at, train_, options_.jobs, naming_);
   }
 

@@ -30,6 +30,9 @@ struct NamingOptions {
   /// A model of these trials whose causes the search begins with, instead of one by one; none:
   /// null.
   const FittedModel* begin = nullptr;
+  /// Slow causes were tried on shorter parts of these trials and gained nothing: they are not
+  /// sought.
+  bool slow_ones_not_needed = false;
   Discrepancy discrepancy = Discrepancy::kMatern;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fitting/generate.h"
 #include "tests/support/diagnosed_hops.h"
+#include "tests/support/robot_drops.h"
 
 namespace hoplab {
 namespace {
@@ -94,6 +96,23 @@ TEST(NameCauses, DropsWhatIsGivenAndDoesNotPay) {
   NamingOptions options;
   options.begin = &both;
   EXPECT_EQ(MembersOf(NameSix(fit, options)), std::vector<std::string>{"touchdown_angle_bias"});
+}
+
+// Play in a gear is slow to look for. Where shorter parts of the trials had no need of it, it is
+// not sought again, and told as not needed.
+TEST(NameCauses, SeeksSlowCausesUnlessTheyAreKnownNotToBeNeeded) {
+  const Scenario drops = testing::RobotDrops({{"effects", "{backlash_2: {play: 0.02}}"}});
+  const NullFit fit(GenerateDataset(drops, {}).dataset, WithLegsAlike({}));
+  const std::vector<Candidate> candidates = testing::CandidatesOf({"backlash_2"});
+  const Naming sought = NameIn(fit, candidates);
+  ASSERT_EQ(MembersOf(sought), std::vector<std::string>{"backlash_2"});
+  EXPECT_NEAR(sought.best.ValuesOf(0)[0], 0.02, 0.002);
+  NamingOptions options;
+  options.slow_ones_not_needed = true;
+  const Naming known = NameIn(fit, candidates, options);
+  EXPECT_TRUE(known.best.members.empty());
+  EXPECT_EQ(known.refits, 0);
+  EXPECT_EQ(known.candidates.at(0).status, CandidateStatus::kNotNeeded);
 }
 
 TEST(NameCauses, KeepsNoMemberThatDoesNotPay) {
