@@ -57,8 +57,11 @@ class StageByStage {
   bool Stopped() const { return options_.fit.stop && *options_.fit.stop; }
   // A model's own errors grow from landing to landing, too, and make names less sure again.
   static bool IsLessSure(const Diagnosis& longer, const std::optional<Diagnosis>& shorter) {
-    return shorter && shorter->extension &&
-           longer.UnlistedProbability() > shorter->UnlistedProbability();
+    return shorter && shorter->extension && Sureness(longer) < Sureness(*shorter);
+  }
+  // Of the names; where nothing is named, that nothing is there.
+  static double Sureness(const Diagnosis& d) {
+    return d.extension ? d.extension->ToldProbability() : 1.0 - d.naming.unlisted_probability;
   }
   void Tell(const Diagnosis& d) const {
     if (!options_.stage) return;

@@ -53,7 +53,7 @@ void JudgeWhatIsSeen(Diagnosis& d) {
     d.verdict = Verdict::kUnexplained;
     d.reason =
         "the best extension, " + NamesOf(d.naming.best) + ", needs a size beyond what is physical";
-  } else if (remains && e.explained < kExplained && e.Probability() < kSure) {
+  } else if (remains && e.explained < kExplained && e.Probability() < kProbable) {
     d.verdict = Verdict::kUnexplained;
     char text[96];
     std::snprintf(text, sizeof text, " explains only %.0f %% of the misfit", 100.0 * e.explained);
@@ -138,11 +138,16 @@ bool ExtensionReport::TellsSizesOf(const CauseReport& cause, std::size_t k) cons
   return !sizes->refitted || (sizes->pays && cause.refitted[k]);
 }
 
-double ExtensionReport::Probability() const {
+double ExtensionReport::ToldProbability() const {
   double least = 1.0;
   for (const CauseReport* c : ToldCauses()) least = std::min(least, c->group_probability);
+  return least;
+}
+
+double ExtensionReport::Probability() const {
+  double least = ToldProbability();
   for (const CauseReport& c : causes)
-    if (c.stands_in) least = std::min(least, c.group_probability);
+    if (c.stands_in && OfMisfit(c.share) >= material) least = std::min(least, c.group_probability);
   return least;
 }
 

@@ -65,14 +65,6 @@ TEST(SetAside, DoubtfulAreSmallUnlikelyCausesBesideALikelyOne) {
   EXPECT_TRUE(DoubtfulCorrections(report, best, naming).empty());
 }
 
-TEST(SetAside, AStandInSpoilsTheSurenessOfTheNames) {
-  ExtensionReport report;
-  report.causes = {Cause(0, true, 0.97), Cause(1, true, 0.1)};
-  FindStandIns(report.causes);
-  ASSERT_EQ(report.ToldCauses().size(), 1u);
-  EXPECT_EQ(report.Probability(), 0.1);
-}
-
 // The model told without a correction is the one fitted without it from the beginning.
 TEST(SetAside, TakingAMemberOutGivesTheModelThatNeverHadIt) {
   const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03),

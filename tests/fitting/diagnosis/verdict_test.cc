@@ -1,3 +1,5 @@
+#include "fitting/diagnosis/verdict.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -133,6 +135,53 @@ TEST(Diagnose, AMisfitThatTheOnlyCandidateCannotExplainNamesNobody) {
   }
   const Diagnosis result = Diagnose(d, OptionsWith({"sensor_delay"}));
   EXPECT_EQ(NameOf(result.verdict), "unexplained") << result.reason;
+}
+
+// Something is seen; one main cause has this probability and explains this share, and it is certain
+// that more is left.
+Verdict VerdictOf(double probability, double explained) {
+  Diagnosis d;
+  d.detection.p_value = 0.0;
+  d.naming.best.members = {testing::CandidateOf("air_drag")};
+  d.naming.best.evidence.discrepancy = 100.0;
+  d.naming.groups = {{0}};
+  d.naming.best_set = {0};
+  CauseReport cause;
+  cause.candidate = 0;
+  cause.cause = testing::CandidateOf("air_drag");
+  cause.main = true;
+  cause.probability = cause.group_probability = probability;
+  ExtensionReport& e = d.extension.emplace();
+  e.causes = {cause};
+  e.explained = explained;
+  e.remainder.p_value = 0.0;
+  Judge(d, kMaterial);
+  return d.verdict;
+}
+
+TEST(Verdict, GoesByTheProbabilityOfTheNameBeforeWhatItLeaves) {
+  EXPECT_EQ(VerdictOf(0.97, 0.84), Verdict::kNamed);
+  EXPECT_EQ(VerdictOf(0.94, 0.84), Verdict::kConfounded);
+  EXPECT_EQ(VerdictOf(0.81, 0.4), Verdict::kConfounded);
+  EXPECT_EQ(VerdictOf(0.79, 0.4), Verdict::kUnexplained);
+  EXPECT_EQ(VerdictOf(0.79, 0.96), Verdict::kConfounded);
+  EXPECT_EQ(VerdictOf(0.3, 0.96), Verdict::kUnexplained);
+}
+
+TEST(Verdict, AStandInCastsADoubtOnTheWholeAndOnNoName) {
+  ExtensionReport e;
+  for (const double probability : {0.97, 0.9, 0.3}) {
+    CauseReport& c = e.causes.emplace_back();
+    c.group_probability = probability;
+    c.main = probability > 0.5;
+    c.stands_in = !c.main;
+  }
+  e.explained = 0.99;
+  e.causes[2].share = 0.021;
+  EXPECT_DOUBLE_EQ(e.ToldProbability(), 0.9);
+  EXPECT_DOUBLE_EQ(e.Probability(), 0.3);
+  e.causes[2].share = 0.019;  // of no consequence
+  EXPECT_DOUBLE_EQ(e.Probability(), 0.9);
 }
 
 TEST(Diagnose, StatedNoiseThatIsTooSmallRaisesNoAlarm) {
