@@ -203,6 +203,12 @@ void FillIn(const FitProblem& problem, const Eigen::VectorXd& shared, const Know
 
 }  // namespace
 
+const std::optional<std::pair<double, double>>& ParameterUncertainty::Wider() const {
+  const auto width = [](const auto& interval) { return interval->second - interval->first; };
+  const bool between = ci95_between_trials && (!ci95 || width(ci95_between_trials) > width(ci95));
+  return between ? ci95_between_trials : ci95;
+}
+
 Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                               const Eigen::VectorXd& shared,
                               const std::vector<OwnValues>& initial_states, const Loss& loss,

@@ -22,6 +22,8 @@ struct ParameterUncertainty {
   /// Of a diagnosis: `ci95` if the told model were certain. There `ci95` and `ci95_between_trials`
   /// also hold the value of every model that the data leave nearly as likely (OtherModel).
   std::optional<std::pair<double, double>> ci95_given_model;
+  /// The wider of the two 95 % intervals.
+  const std::optional<std::pair<double, double>>& Wider() const;
   bool at_bound = false;
   /// The square of `std_error` over what white noise alone would give.
   double inflation = 1.0;

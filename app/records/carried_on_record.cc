@@ -26,9 +26,10 @@ std::string ValueText(const CarriedOn& carried, int k) {
   const double value = carried.model.shared[k];
   const ReadableUnit unit = ReadableUnitOf(value, s.unit);
   std::string text = s.name + " " + Significant(value * unit.factor, 4);
-  if (u.ci95)
-    text += fmt::format(" ({} .. {})", Significant(u.ci95->first * unit.factor, 4),
-                        Significant(u.ci95->second * unit.factor, 4));
+  // Where the model misses more than noise the trials say how far a value may be off.
+  if (const auto& interval = carried.uncertainty.misfit ? u.Wider() : u.ci95)
+    text += fmt::format(" ({} .. {})", Significant(interval->first * unit.factor, 4),
+                        Significant(interval->second * unit.factor, 4));
   return unit.unit.empty() ? text : text + " " + unit.unit;
 }
 

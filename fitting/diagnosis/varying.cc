@@ -138,13 +138,8 @@ double LogSpreadIntegral(const SharedParameter& s, const Heterogeneity& h) {
 void AddIntervals(VaryingModel& v, int jobs) {
   const Uncertainty u =
       AssessUncertainty(v.model.problem, v.train, v.model.shared, v.model.initial_states, {}, jobs);
-  const auto width = [](const std::pair<double, double>& i) { return i.second - i.first; };
-  for (VaryingValue& value : v.values) {
-    const ParameterUncertainty& p = u.parameters[static_cast<std::size_t>(value.place)];
-    value.ci95 = p.ci95;
-    const auto& between = p.ci95_between_trials;
-    if (between && (!value.ci95 || width(*between) > width(*value.ci95))) value.ci95 = between;
-  }
+  for (VaryingValue& value : v.values)
+    value.ci95 = u.parameters[static_cast<std::size_t>(value.place)].Wider();
 }
 
 // Squares of data and priors, the deviations' priors being the spreads.

@@ -104,13 +104,6 @@ struct Count {
   double width = 0.0;  // sum of half the intervals of E, relative
 };
 
-// The 95 % interval: the wider of the one from noise and the one between trials.
-std::pair<double, double> IntervalOf(const ParameterUncertainty& of) {
-  const std::pair<double, double> noise = of.ci95.value(),
-                                  trials = of.ci95_between_trials.value_or(noise);
-  return noise.second - noise.first >= trials.second - trials.first ? noise : trials;
-}
-
 void DiagnoseOne(int seed, Count& count) {
   const Drawn drawn = Draw(seed);
   const TempFolder temp;
@@ -144,7 +137,7 @@ void DiagnoseOne(int seed, Count& count) {
   }
   const double truth = drawn.rig.bending_stiffness / StatedSecondMoment();
   const double error = d.naming.best.shared[0] / truth - 1.0;
-  const auto [low, high] = IntervalOf(d.extension->uncertainty.parameters.front());
+  const auto [low, high] = d.extension->uncertainty.parameters.front().Wider().value();
   count.near += std::abs(error) < 0.01;
   count.covered += low <= truth && truth <= high;
   count.width += 0.5 * (high - low) / truth;

@@ -139,8 +139,8 @@ void Judge(const Diagnosis& d, const std::string& planted, double E, Count& coun
                                        : d.uncertainty;
   const double off = told.shared[0] / E - 1.0;
   count.E_within += std::abs(off) <= 0.03;
-  const bool covered =
-      u.parameters[0].ci95 && u.parameters[0].ci95->first <= E && u.parameters[0].ci95->second >= E;
+  const auto& interval = u.parameters[0].Wider();
+  const bool covered = interval && interval->first <= E && interval->second >= E;
   count.E_covered += covered;
   const std::string span = followed  ? ", whole trials followed"
                            : d.until ? fmt::format(", of the first {:.2f} s", *d.until)
