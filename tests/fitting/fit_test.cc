@@ -270,5 +270,16 @@ TEST(TrialErrors, HopsAddUpToTheTrial) {
   for (const HopErrors& hop : e.hops) EXPECT_NEAR(hop.rmse[1], 0.001, 0.0004);
 }
 
+TEST(ParameterUncertainty, TheWiderIntervalIsOfNoiseOrOfTrials) {
+  ParameterUncertainty p;
+  EXPECT_FALSE(p.Wider());
+  p.ci95_between_trials = {1.0, 3.0};
+  EXPECT_EQ(p.Wider(), p.ci95_between_trials);
+  p.ci95 = {1.5, 3.0};
+  EXPECT_EQ(p.Wider(), p.ci95_between_trials);
+  p.ci95 = {0.5, 3.0};
+  EXPECT_EQ(p.Wider(), p.ci95);
+}
+
 }  // namespace
 }  // namespace hoplab
