@@ -116,7 +116,7 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   const StaticsInputs<double> values{solution.phi, Value(Chord(held)), Value(at.torque),
                                      Value(softer), solution.F};
   // The same statics at the place in T's directions, which they give.
-  const auto place = [&](const auto& leg) {
+  const auto place = [&]([[maybe_unused]] const auto& leg) {
     if constexpr (kJetWidth < T >> 0)
       return PlaceOf(p_, solution, held, statics_->Force(leg, InputsOf(held, at.torque)), rolling,
                      rolls_on_arc, z[kY]);
