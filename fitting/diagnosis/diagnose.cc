@@ -95,7 +95,7 @@ class StageByStage {
   Beforehand FoundIn(const std::optional<Diagnosis>& last, const FitProblem& problem) const {
     Beforehand found;
     if (!last || !last->extension || Stopped()) return found;
-    found.slow_ones_not_needed = SlowOnesAreNotNeeded(last->naming);
+    found.slow_ones_only_beside = SlowOnesAreNotNeeded(last->naming);
     FittedModel model = CarriedOver(*last, problem).model;
     if (model.ok()) found.begin = std::move(model);
     return found;

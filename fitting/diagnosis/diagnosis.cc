@@ -109,9 +109,8 @@ class Pipeline {
     Stage("refitting with every candidate cause");
     NamingOptions naming;
     naming.max_effects = options_.max_effects;
-    naming.material = options_.material;
     naming.begin = beforehand_.begin ? &*beforehand_.begin : nullptr;
-    naming.slow_ones_not_needed = beforehand_.slow_ones_not_needed;
+    naming.slow_ones_only_beside = beforehand_.slow_ones_only_beside;
     naming.discrepancy = options_.fit.discrepancy;
     naming.jobs = options_.fit.jobs;
     naming.stop = options_.fit.stop;

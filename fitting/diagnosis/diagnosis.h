@@ -194,7 +194,7 @@ struct Diagnosis {
 /// What a diagnosis of shorter parts of the same trials has found: NamingOptions.
 struct Beforehand {
   std::optional<FittedModel> begin = std::nullopt;
-  bool slow_ones_not_needed = false;
+  bool slow_ones_only_beside = false;
 };
 
 /// Diagnoses what a fit of the model as it is leaves.

@@ -24,8 +24,9 @@ constexpr double kWorthATry = 4.0;
 // the noise's square). What explains less than both is a detail of the model, which the discrepancy
 // stands for.
 constexpr double kLeastShare = 1e-3, kLeastPerSample = 0.01;
-// A set that leaves this share of the misfit beyond noise may be one of stand-ins; so many causes
-// join it at once.
+// A set that leaves this share of the misfit beyond noise may be one of stand-ins, and slow causes
+// are sought; so many causes join it at once. (With 2 % for the slow ones stand-ins took the place
+// of play in a gear beside a soft leg.)
 constexpr double kMuch = 5e-3;
 constexpr int kJoin = 3;
 // A set that leaves less than this share explains the data by and large.
@@ -185,14 +186,14 @@ class Search {
     return std::find(set.begin(), set.end(), i) != set.end();
   }
   bool IsSlow(std::size_t i) const { return naming_.candidates[i].candidate.effect->info.slow; }
-  // The set misses more than noise does, by three of its standard deviations, and enough for a main
-  // cause.
+  // The set misses more than noise does, by three of its standard deviations, and no mere detail.
   bool MisfitIsSeen(const CandidateSet& set) const {
     const double noise = 0.5 * null_at_.degrees_of_freedom();
-    return Left(set) > std::max(3.0 * std::sqrt(noise), options_.material * Misfit());
+    return Left(set) > std::max(3.0 * std::sqrt(noise), kMuch * Misfit());
   }
+  bool LeavesLittle(const CandidateSet& set) const { return Left(set) < kLittle * Misfit(); }
   bool SeeksSlowOnes(const CandidateSet& set) const {
-    if (options_.slow_ones_not_needed) return false;
+    if (options_.slow_ones_only_beside && !LeavesLittle(set)) return false;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i)
       if (IsSlow(i)) return MisfitIsSeen(set);
     return false;
@@ -208,7 +209,7 @@ class Search {
   // Beside a set that leaves little: there a look at what is not there is soon over. Else alone,
   // since what stands in for it may be in the set.
   std::vector<CandidateSet> SlowOnes(const CandidateSet& set) {
-    slow_beside_ = Left(set) < kLittle * Misfit() ? set : CandidateSet();
+    slow_beside_ = LeavesLittle(set) ? set : CandidateSet();
     std::vector<CandidateSet> sets;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i)
       if (IsSlow(i)) sets.push_back(With(slow_beside_, static_cast<int>(i)));
@@ -317,7 +318,7 @@ class Search {
   void Judge(const CandidateSet& model) {
     std::set<int> looked_at;
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i)
-      if ((options_.slow_ones_not_needed && IsSlow(i)) || refits_.Usable(With(slow_beside_, i)))
+      if ((options_.slow_ones_only_beside && IsSlow(i)) || refits_.Usable(With(slow_beside_, i)))
         looked_at.insert(i);
     SetStatuses(refits_.At(model), model, looked_at, train_, options_.jobs, naming_);
   }

@@ -17,12 +17,8 @@ inline constexpr double kTestable = 7.85;
 /// Places of a model's causes among the candidates, ascending; empty: the null fit.
 using CandidateSet = std::vector<int>;
 
-/// Share of the misfit below which a cause, or what is left, is of no consequence.
-inline constexpr double kMaterial = 0.02;
-
 struct NamingOptions {
   int max_effects = 5;
-  double material = kMaterial;
   bool in_one_trial = true;  // a cause may act in one trial only
   int picked_from = 0;       // how many the candidates were picked out of; 0: they are all
   /// Nats by which each is less likely beforehand than the others; empty: all are alike.
@@ -30,9 +26,9 @@ struct NamingOptions {
   /// A model of these trials whose causes the search begins with, instead of one by one; none:
   /// null.
   const FittedModel* begin = nullptr;
-  /// Slow causes were tried on shorter parts of these trials and gained nothing: they are not
-  /// sought.
-  bool slow_ones_not_needed = false;
+  /// Slow causes were tried on shorter parts of these trials and gained nothing: they are sought
+  /// only beside a set that leaves little, which is soon over, and not alone.
+  bool slow_ones_only_beside = false;
   Discrepancy discrepancy = Discrepancy::kMatern;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;

@@ -40,6 +40,9 @@ struct CauseReport {
 /// Trials do not agree on this value for certain.
 bool Differs(const Heterogeneity& sizes);
 
+/// Share of the misfit below which a cause, or what is left, is of no consequence.
+inline constexpr double kMaterial = 0.02;
+
 /// Whether a cause is a main one. It explains a `material` share of the misfit, or some held-out
 /// error is more than a tenth larger without it; and held-out trials confirm it: its gain may be
 /// claimed, or it explains a material share and some held-out error is more than a quarter larger

@@ -108,7 +108,7 @@ TEST(NameCauses, SeeksSlowCausesUnlessTheyAreKnownNotToBeNeeded) {
   ASSERT_EQ(MembersOf(sought), std::vector<std::string>{"backlash_2"});
   EXPECT_NEAR(sought.best.ValuesOf(0)[0], 0.02, 0.002);
   NamingOptions options;
-  options.slow_ones_not_needed = true;
+  options.slow_ones_only_beside = true;
   const Naming known = NameIn(fit, candidates, options);
   EXPECT_TRUE(known.best.members.empty());
   EXPECT_EQ(known.refits, 0);
