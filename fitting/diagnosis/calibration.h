@@ -13,7 +13,7 @@ struct NameFeatures {
   double left_share = -4.0;    // log10 of the share of the misfit that is left, -4..0
   double remainder = 0.0;      // - log10 of the chance of what is left under noise, 0..10
   double heterogeneity = 0.0;  // - log10 of the chance that trials agree on its size, 0..3, times
-                               // their spread in halves of it, 0..1
+                               // their spread in halves of the effect's size, 0..1
   double gain = 0.0;           // log10(1 + nats the extension gains over the null fit)
   double others = 0.0;         // causes in the extension beside it, 0..2
   double group = 0.0;          // names that do as well beside it

@@ -49,8 +49,10 @@ class StageByStage {
     }
     if (last && !WholeIsMinimum() && !Stopped()) return WithWholeTrials(std::move(*last));
     Diagnosis whole = DiagnoseFitted(std::move(WholeNull()), options_, FoundIn(last, whole_));
-    const bool less_sure = whole.refusal.empty() && !whole.interrupted && IsLessSure(whole, last);
-    return less_sure ? WithWholeTrials(std::move(*last)) : whole;
+    const bool keeps_last = !whole.refusal.empty() || IsLessSure(whole, last);
+    if (last && last->extension && keeps_last && !whole.interrupted)
+      return WithWholeTrials(std::move(*last));
+    return whole;
   }
 
  private:
@@ -59,7 +61,8 @@ class StageByStage {
   static bool IsLessSure(const Diagnosis& longer, const std::optional<Diagnosis>& shorter) {
     return shorter && shorter->extension && Sureness(longer) < Sureness(*shorter);
   }
-  // Of the names; where nothing is named, that nothing is there.
+  // Of the names, stand-ins aside: longer parts have more of them, and they are told in any case.
+  // Where nothing is named, that nothing is there.
   static double Sureness(const Diagnosis& d) {
     return d.extension ? d.extension->ToldProbability() : 1.0 - d.naming.unlisted_probability;
   }
@@ -95,12 +98,12 @@ class StageByStage {
   Beforehand FoundIn(const std::optional<Diagnosis>& last, const FitProblem& problem) const {
     Beforehand found;
     if (!last || !last->extension || Stopped()) return found;
-    found.slow_ones_only_beside = SlowOnesAreNotNeeded(last->naming);
+    found.slow_ones_only_beside = SlowOnesWereNotNeeded(last->naming);
     FittedModel model = CarriedOver(*last, problem).model;
     if (model.ok()) found.begin = std::move(model);
     return found;
   }
-  static bool SlowOnesAreNotNeeded(const Naming& naming) {
+  static bool SlowOnesWereNotNeeded(const Naming& naming) {
     return std::all_of(
         naming.candidates.begin(), naming.candidates.end(), [](const CandidateResult& c) {
           return !c.candidate.effect->info.slow || c.status == CandidateStatus::kNotNeeded;
@@ -181,7 +184,9 @@ class StageByStage {
       const std::vector<Candidate> others =
           CandidatesBeside(model, CandidatesOf(whole_, options_.candidates));
       const Linearisation at = LineariseAt(model, others, train, options_.fit.jobs);
-      HoldOtherModels(OtherModelsOf(d.naming, at, others), model, carried.uncertainty);
+      std::vector<OtherModel> more = WithOneMoreOf(d.naming, model, at, others);
+      Doubt(d.extension->set_aside, more);
+      HoldOtherModels(more, model, carried.uncertainty);
       carried.errors = MeasureHeldOut(model, options_.fit.jobs);
     }
     d.carried_on = std::move(carried);

@@ -154,7 +154,6 @@ class Pipeline {
     const FittedModel& best = d_.naming.best;
     ExtensionReport report;
     report.set_aside = set_aside;
-    report.material = options_.material;
     report.uncertainty = AssessUncertainty(best.problem, train_, best.shared, best.initial_states,
                                            options_.fit.loss, options_.fit.jobs);
     report.after = MeasureHeldOut(best, options_.fit.jobs);

@@ -42,7 +42,7 @@ inline constexpr double kSure = 0.95, kLikely = 0.5;
 /// Share of the misfit's excess over noise an extension must explain to name a cause while some
 /// misfit remains: then what remains is seen, but of no consequence. With 0.9 one in five wrong
 /// names of an effect outside the catalogue passed in spite of what it left. A cause with the
-/// probability kProbable, four times that of all that no list holds, is named whatever it leaves:
+/// probability kProbable, four times that of all that no list holds, is told whatever it leaves:
 /// more than one thing is wrong then.
 inline constexpr double kExplained = 0.95, kProbable = 0.8;
 
@@ -114,11 +114,10 @@ struct ExtensionReport {
   HeldOutGain gain;
   std::vector<std::string> left_out;  // held-out trials that could not be compared
   std::vector<Movement> movements;
-  Detection remainder;          // the other candidates and the probes at the extension
-  double explained = 0.0;       // share of the excess chi-square, 0..1
-  double white_square = 0.0;    // squares left when fitted under white noise
-  bool at_bound = false;        // a told cause's size lies on a physical bound
-  double material = kMaterial;  // DiagnosisOptions::material
+  Detection remainder;        // the other candidates and the probes at the extension
+  double explained = 0.0;     // share of the excess chi-square, 0..1
+  double white_square = 0.0;  // squares left when fitted under white noise
+  bool at_bound = false;      // a told cause's size lies on a physical bound
 
   std::vector<CauseReport> causes;   // the members, the largest share first
   std::vector<SetAside> set_aside;   // what the evidence wanted besides
@@ -139,7 +138,7 @@ struct ExtensionReport {
   /// That every told cause is right, or a name that does as well: the least of them, since what
   /// spoils one spoils all.
   double ToldProbability() const;
-  /// The same, and nothing of a `material` share stands in for another.
+  /// The same, and nothing stands in for another.
   double Probability() const;
   /// Nothing does as well in the place of a told cause.
   bool Alone(const Naming& naming) const;

@@ -26,7 +26,7 @@ struct NamingOptions {
   /// A model of these trials whose causes the search begins with, instead of one by one; none:
   /// null.
   const FittedModel* begin = nullptr;
-  /// Slow causes were tried on shorter parts of these trials and gained nothing: they are sought
+  /// Slow causes were tried on shorter parts of these trials and not needed: they are sought
   /// only beside a set that leaves little, which is soon over, and not alone.
   bool slow_ones_only_beside = false;
   Discrepancy discrepancy = Discrepancy::kMatern;

@@ -57,9 +57,9 @@ int PlaceOf(const Naming& naming, const Candidate& candidate) {
   return -1;
 }
 
-std::optional<OtherModel> WithOneMore(const Naming& naming, const Linearisation& at,
-                                      const Candidate& candidate, const Hypothesis& hypothesis) {
-  const FittedModel& told = naming.best;
+std::optional<OtherModel> WithOneMore(const Naming& naming, const FittedModel& told,
+                                      const Linearisation& at, const Candidate& candidate,
+                                      const Hypothesis& hypothesis) {
   const Score score = ScoreOf(at, hypothesis);
   if (score.rank < hypothesis.count || !Possible(candidate, score.size)) return std::nullopt;
   const Eigen::MatrixXd A = at.columns.middleCols(hypothesis.first, hypothesis.count);
@@ -98,6 +98,16 @@ OtherModel Rival(const FittedModel& told, const FittedModel& rival) {
 
 }  // namespace
 
+std::vector<OtherModel> WithOneMoreOf(const Naming& naming, const FittedModel& told,
+                                      const Linearisation& at, std::span<const Candidate> others) {
+  const std::vector<Hypothesis> hypotheses =
+      HypothesesOf(std::vector<Candidate>(others.begin(), others.end()));
+  std::vector<OtherModel> out;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (auto more = WithOneMore(naming, told, at, others[i], hypotheses[i])) out.push_back(*more);
+  return out;
+}
+
 std::vector<OtherModel> OtherModelsOf(const Naming& naming, const Linearisation& at,
                                       std::span<const Candidate> others) {
   std::vector<OtherModel> out;
@@ -119,10 +129,8 @@ std::vector<OtherModel> OtherModelsOf(const Naming& naming, const Linearisation&
       out.push_back(std::move(other));
     }
   }
-  const std::vector<Hypothesis> hypotheses =
-      HypothesesOf(std::vector<Candidate>(others.begin(), others.end()));
-  for (std::size_t i = 0; i < others.size(); ++i)
-    if (auto more = WithOneMore(naming, at, others[i], hypotheses[i])) out.push_back(*more);
+  const std::vector<OtherModel> more = WithOneMoreOf(naming, naming.best, at, others);
+  out.insert(out.end(), more.begin(), more.end());
   std::stable_sort(out.begin(), out.end(), [](const OtherModel& a, const OtherModel& b) {
     return a.log_odds > b.log_odds;
   });

@@ -24,12 +24,15 @@ struct OtherModel {
 /// probability of both.
 inline constexpr double kRuledOut = 1.0 / 19.0;
 
-/// The rivals of told causes, and the told model with one cause more where the evidence of the
-/// linear model for it is not below kRuledOut of the told model's and the data tell its size to
-/// within a typical one. The search leaves out a cause
-/// that explains too little to be named, but such a cause may still move a fitted value.
-/// `at`: the told model linearised with candidates it does not have as its first columns, in the
-/// order of `others`.
+/// `told` with one cause more where the evidence of the linear model for it is not below kRuledOut
+/// of that of `told` and the data tell its size to within a typical one. The search leaves out a
+/// cause that explains too little to be named, but such a cause may still move a fitted value.
+/// `at`: `told` linearised with candidates it does not have as its first columns, in the order of
+/// `others`, all of them candidates of `naming`.
+std::vector<OtherModel> WithOneMoreOf(const Naming& naming, const FittedModel& told,
+                                      const Linearisation& at, std::span<const Candidate> others);
+
+/// The same of `naming.best`, and the rivals of its causes; the likeliest first.
 std::vector<OtherModel> OtherModelsOf(const Naming& naming, const Linearisation& at,
                                       std::span<const Candidate> others);
 

@@ -147,7 +147,7 @@ double ExtensionReport::ToldProbability() const {
 double ExtensionReport::Probability() const {
   double least = ToldProbability();
   for (const CauseReport& c : causes)
-    if (c.stands_in && OfMisfit(c.share) >= material) least = std::min(least, c.group_probability);
+    if (c.stands_in) least = std::min(least, c.group_probability);
   return least;
 }
 

@@ -115,7 +115,7 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   const Place<T> held{phi, rolls_on_arc ? T(u0 + p_.r * phi) : u0, T(solution.Y), softer};
   const StaticsInputs<double> values{solution.phi, Value(Chord(held)), Value(at.torque),
                                      Value(softer), solution.F};
-  // The same statics at the place in T's directions, which they give.
+  // The place in T's directions, by the statics evaluated there.
   const auto place = [&]([[maybe_unused]] const auto& leg) {
     if constexpr (kJetWidth < T >> 0)
       return PlaceOf(p_, solution, held, statics_->Force(leg, InputsOf(held, at.torque)), rolling,
@@ -162,8 +162,11 @@ void ExtendedLeg<T>::TurnContact(const T* z, const LegConditions<T>& at,
                                      : T((1.0 - blend) * full + blend * flat);
   const T beyond = IsElastic(law_) ? T(rho - full) : rho;  // X0 moves by what is not rolled off
   std::optional<LegForce<T>> softened;
-  if (!IsZero(p_.law_terms.stiffness_drift))
-    softened = statics_->ForceBySoftness(InputsOf(there, at.torque));
+  if (!IsZero(p_.law_terms.stiffness_drift)) {
+    StaticsInputs<T> inputs = InputsOf(there, at.torque);
+    inputs.F_near = Value(along.F.value);
+    softened = statics_->ForceBySoftness(inputs);
+  }
   const ArcRate<T> rate =
       RateOfArc(p_, law_, z, there, ResidualsAt<T>(p_, there, z[kY], along), softened);
   if (reading.rolling == ThesisReading::Rolling::kImplicit)

@@ -22,7 +22,8 @@ T Moving(double value, RandomStream& random) {
   return x;
 }
 
-// Every parameter of the leg moves in every direction, also those that its law does not read.
+// Every parameter of the leg that is not zero moves in every direction, also those that its law
+// does not read.
 Parameters<T> MovingParameters(Law law, RandomStream& random) {
   Parameters<T> p = ConvertParameters<T>(ThickLegRequest(law).parameters);
   p.kappa = T(1.2);

@@ -40,14 +40,5 @@ TEST(Disagreement, OfSeveralParametersIsMeasuredAgainstTheLargest) {
               1e-12);
 }
 
-// Units do not count: each is taken in its typical sizes.
-TEST(Disagreement, ComparesParametersInTheirTypicalSizes) {
-  const Candidate boom = CandidateOf("boom_inertia");
-  ASSERT_EQ(boom.parameter_count(), 2);
-  const double x = std::abs(boom.Parameter(0).typical), y = std::abs(boom.Parameter(1).typical);
-  EXPECT_NEAR(Disagreement(std::array{Sizes(4.0 * x, 0.0, 1.0), Sizes(y, y, 1e-6)}, boom),
-              3.0 * 0.5, 1e-12);
-}
-
 }  // namespace
 }  // namespace hoplab
