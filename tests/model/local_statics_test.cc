@@ -87,6 +87,8 @@ TEST_P(LocalStaticsOf, RatesAlongArcAndChordAreTheOnesInAllDirections) {
   const Statics<S> direct = StaticsAt<S, T>(
       p_, GetParam(), at_.torque, {S(at_.phi, one, zero), S(at_.l, zero, one), S(at_.softer)});
   const LegForceAlong<T> local = local_.ForceAlong(local_.Along(values_), at_);
+  ExpectSame(local.sin, direct.sin.value, "sin");
+  ExpectSame(local.cos, direct.cos.value, "cos");
   ExpectSame(local.F.value, direct.F.value, "F");
   ExpectSame(local.tip_turn.value, direct.tip_turn.value, "tip_turn");
   for (std::size_t k = 0; k < 2; ++k) {
@@ -102,6 +104,16 @@ TEST_P(LocalStaticsOf, RatesAlongTheSoftnessAreTheOnesInAllDirections) {
   const LegForce<T> local = local_.ForceBySoftness(at_);
   ExpectSame(local.F, direct.F.rate[0], "F");
   ExpectSame(local.tip_turn, direct.tip_turn.rate[0], "tip_turn");
+}
+
+// A force that is known near by is where the search for it begins, and not what it finds.
+TEST_P(LocalStaticsOf, AForceNearByChangesNothing) {
+  StaticsInputs<double> near = values_;
+  const LegForce<T> alone = local_.Force(local_.At(values_), at_);
+  near.F_near = 1.01 * alone.F.a;
+  const LegForce<T> begun = local_.Force(local_.At(near), at_);
+  ExpectSame(begun.F, alone.F, "F");
+  ExpectSame(begun.tip_turn, alone.tip_turn, "tip_turn");
 }
 
 // The place of a root is polished by rounding after the statics were evaluated there.
