@@ -5,6 +5,7 @@
 
 #include "app/version.h"
 #include "base/input_error.h"
+#include "base/processor.h"
 #include "python/bindings.h"
 #include "python/convert.h"
 
@@ -61,6 +62,9 @@ void BindDataset(py::module_& m) {
 }  // namespace hoplab::python
 
 PYBIND11_MODULE(_core, m) {
+  if (const char* missing = hoplab::MissingOfProcessor())
+    throw pybind11::import_error(std::string("hoplab was built for processors with ") + missing +
+                                 ", and this one has none");
   m.attr("__version__") = hoplab::ProjectVersion();
   hoplab::python::BindErrors(m);
   hoplab::python::BindDataset(m);
