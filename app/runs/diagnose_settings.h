@@ -11,7 +11,7 @@ namespace hoplab {
 
 /// What the command line of `hoplab diagnose` says.
 struct DiagnoseSettings : RunSettings {
-  ProblemSettings problem;
+  ProblemSettings problem{.solver = {.tolerance = kDiagnosisSteps.relative_tolerance}};
   std::vector<std::string> effects, without;
   int max_effects = DiagnosisOptions().max_effects;
   double material = 100.0 * kMaterial;  // [%]

@@ -10,7 +10,7 @@ namespace hoplab {
 
 /// What the command line of `hoplab discover` says.
 struct DiscoverSettings : RunSettings {
-  ProblemSettings problem;
+  ProblemSettings problem{.solver = {.tolerance = kDiagnosisSteps.relative_tolerance}};
   std::uint64_t seed = 1;
   std::string span = "whole_else_hops";
   std::string discrepancy = "matern";

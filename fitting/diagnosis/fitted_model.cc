@@ -89,6 +89,13 @@ std::vector<OwnValues> InitialStatesFor(SolveRequest request) {
   return IsUsable(found.status) ? found.initial_states : request.initial_states;
 }
 
+void ClampToBounds(SolveRequest& request) {
+  for (Eigen::Index k = 0; k < request.shared.size(); ++k) {
+    const SharedParameter& s = request.problem->shared[static_cast<std::size_t>(k)];
+    request.shared[k] = std::clamp(request.shared[k], s.lower, s.upper);
+  }
+}
+
 bool LedOn(const SolveResult& result) { return IsUsable(result.status) && result.complete; }
 
 // Where the search for a model with added candidates begins: their sizes, brought inside the
@@ -225,6 +232,44 @@ FittedModel RefitWithout(const FittedModel& base, int i, const FitProblem& null_
   e.initial_states = base.initial_states;
   Take(e, Solve(RequestFrom(e, settings)));
   return e;
+}
+
+FittedModel LeadOut(const FittedModel& base, int i, const FitProblem& null_problem,
+                    const RefitSettings& settings) {
+  constexpr double kFirstStep = 0.25, kGrowth = 1.5;  // of the size
+  constexpr int kMostSteps = 24;
+  // A search that rises further at a step has lost its way, one that wanders about even sooner.
+  constexpr double kMostRise = 30.0, kWandering = 2.0;
+  const auto member = static_cast<std::size_t>(i);
+  const int place = base.PlaceOf(i), count = base.members[member].parameter_count();
+  const Eigen::VectorXd null = NullValues(std::span(base.members).subspan(member, 1));
+  const Eigen::VectorXd size = base.ValuesOf(i) - null;
+  FittedModel before = base, at = base;
+  double share_before = 1.0, share = 1.0, step = kFirstStep;
+  for (int tries = 0; share > 0.0; ++tries) {
+    if (tries == kMostSteps) return {};
+    const double next = std::max(0.0, share - step);
+    SolveRequest request = RequestFrom(at, settings);
+    // On along the way it went before, if it did.
+    const double on = share < share_before ? (share - next) / (share_before - share) : 0.0;
+    request.shared += on * (at.shared - before.shared);
+    for (std::size_t t = 0; t < at.initial_states.size(); ++t)
+      request.initial_states[t] += on * (at.initial_states[t] - before.initial_states[t]);
+    ClampToBounds(request);
+    request.shared.segment(place, count) = null + next * size;
+    for (int k = 0; k < count; ++k) request.held.push_back(place + k);
+    const SolveResult found = Solve(request);
+    const double most =
+        at.cost * (found.status == SolveStatus::kConverged ? kMostRise : kWandering);
+    const bool follows = LedOn(found) && found.cost < most;
+    step *= follows ? kGrowth : 0.5;
+    if (!follows) continue;
+    before = at;
+    share_before = share;
+    Take(at, found);
+    share = next;
+  }
+  return RefitWithout(at, i, null_problem, settings);
 }
 
 std::vector<Candidate> CandidatesBeside(const FittedModel& model,

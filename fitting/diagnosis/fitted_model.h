@@ -71,6 +71,11 @@ void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
 FittedModel RefitWithout(const FittedModel& base, int i, const FitProblem& null_problem,
                          const RefitSettings& settings);
 
+/// The same by small steps: the member's size falls to nothing, and at each step what is left
+/// follows. No model, where that cannot be done.
+FittedModel LeadOut(const FittedModel& base, int i, const FitProblem& null_problem,
+                    const RefitSettings& settings);
+
 /// Ends the model's fit, seeks the noise that suits what it leaves, and takes its evidence. With
 /// `settings.discrepancy` kNone the noise stays white.
 void Settle(FittedModel& model, const RefitSettings& settings);

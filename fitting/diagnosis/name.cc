@@ -53,13 +53,13 @@ class Search {
       Judge({});
       return std::move(naming_);
     }
-    CandidateSet current = Begun();
-    if (current.empty()) current = OneByOne();
-    current = Grown(current);
+    const CandidateSet begun = Begun();
+    CandidateSet current = Grown(begun.empty() ? OneByOne() : begun);
     if (LeavesMuch(current)) {
       const CandidateSet exchanged = Exchanged(current);
       if (exchanged != current) current = Grown(exchanged);
     }
+    current = Confirmed(current);
     naming_.best = refits_.At(current);
     naming_.best_set = current;
     for (const CandidateSet& less : Eliminations(current))
@@ -106,13 +106,22 @@ class Search {
       if (grown == set) break;
       set = Tidy(grown);
     }
-    return set.empty() ? set : Tidy(set);
+    return Tidy(set);
+  }
+
+  // A set whose members are each needed, by small steps, too.
+  CandidateSet Confirmed(CandidateSet set) {
+    for (int round = 0; round < kRounds && refits_.SettleByLeadingOut(set); ++round) {
+      const CandidateSet tidied = Tidy(set);
+      if (tidied == set) break;
+      set = Grown(tidied);
+    }
+    return set;
   }
 
   bool SameEffect(int i, int j) const {
     return naming_.candidates[i].candidate.effect == naming_.candidates[j].candidate.effect;
   }
-  // ---- steps
   std::vector<CandidateSet> Singles() const {
     std::vector<CandidateSet> sets;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
@@ -284,15 +293,13 @@ class Search {
 
   // Backward elimination and swaps, until neither helps.
   CandidateSet Tidy(CandidateSet set) {
-    for (int round = 0; round < kRounds && !Stopped(); ++round) {
+    for (int round = 0; round < kRounds && !set.empty() && !Stopped(); ++round) {
       CandidateSet best = set;
-      for (const CandidateSet& less : refits_.SettleParts(set)) {
+      for (const CandidateSet& less : refits_.SettleParts(set))
         if (refits_.Settled(less) && refits_.Worth(less) > refits_.Worth(best)) best = less;
-      }
       best = refits_.Better(best, Swaps(best), 2 * kForwardWidth);
       if (best == set) break;
       set = best;
-      if (set.empty()) break;
     }
     return set;
   }

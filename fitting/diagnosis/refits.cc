@@ -17,6 +17,8 @@ constexpr int kTryIterations = 12;
 constexpr double kAtBound = 10.0;
 // A linear forecast worth a second try where its refit falls short [nats].
 constexpr double kForecast = 8.0;
+// Costs nearer to each other are one valley's [nats].
+constexpr double kSame = 0.01;
 
 }  // namespace
 
@@ -211,7 +213,6 @@ std::vector<CandidateSet> Refits::SettleParts(const CandidateSet& set) {
     return parts;
   }
   of_set->second = White(set).cost;
-  constexpr double kSame = 0.01;  // nats
   // A part that was not tried yet, or was tried from elsewhere and fits worse, is refitted from the
   // whole: where that has found a better valley, its parts are in it too.
   std::vector<FittedModel> from_whole(parts.size());
@@ -221,18 +222,42 @@ std::vector<CandidateSet> Refits::SettleParts(const CandidateSet& set) {
     RefitSettings settings = refit_;
     if (Usable(parts[i])) settings.give_up_above = White(parts[i]).cost - kSame;
     from_whole[i] = RefitWithout(White(set), i, plain_.problem, settings);
-    from_whole[i].settled = false;
     Report(parts[i], ", from the whole");
   });
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].empty() || !from_whole[i].ok()) continue;
-    Entry& known = models_[parts[i]];
-    if (known.white.ok() && known.white.cost < from_whole[i].cost + kSame) continue;
-    known.white = std::move(from_whole[i]);
-    known.settled = FittedModel();
-  }
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (!parts[i].empty()) TakeIfBetter(std::move(from_whole[i]), parts[i]);
   SettleAll(parts);
   return parts;
+}
+
+bool Refits::TakeIfBetter(FittedModel found, const CandidateSet& set) {
+  if (!found.ok()) return false;
+  Entry& known = models_[set];
+  if (known.white.ok() && known.white.cost < found.cost + kSame) return false;
+  known.white = std::move(found);
+  known.white.settled = false;
+  known.settled = FittedModel();
+  return true;
+}
+
+bool Refits::SettleByLeadingOut(const CandidateSet& set) {
+  if (set.size() < 2) return false;
+  const std::vector<CandidateSet> parts = Eliminations(set);
+  std::vector<FittedModel> led(parts.size());
+  const auto loses_most = [&](const CandidateSet& part) {
+    return !Usable(part) || Gain(part) < 0.5 * Gain(set);
+  };
+  planned_ += static_cast<int>(std::count_if(parts.begin(), parts.end(), loses_most));
+  ParallelFor(static_cast<int>(parts.size()), options_.jobs, [&](int i) {
+    if (Stopped() || !loses_most(parts[i])) return;
+    led[i] = LeadOut(White(set), i, plain_.problem, refit_);
+    Report(parts[i], ", by small steps");
+  });
+  bool better = false;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    better |= TakeIfBetter(std::move(led[i]), parts[i]);
+  SettleAll(parts);
+  return better;
 }
 
 std::vector<std::pair<CandidateSet, double>> Refits::Visited() const {

@@ -57,6 +57,10 @@ class Refits {
   /// The parts of a model with one member less, from the whole and from what is known of them.
   std::vector<CandidateSet> SettleParts(const CandidateSet& set);
 
+  /// The same of members without which a model loses most of what it gains: such a part may just
+  /// have lost its way, so the member is led out by small steps. Whether a better part came of it.
+  bool SettleByLeadingOut(const CandidateSet& set);
+
   /// Every settled model with its worth.
   std::vector<std::pair<CandidateSet, double>> Visited() const;
 
@@ -68,6 +72,7 @@ class Refits {
   double LogPrior(const CandidateSet& set) const;
   std::string NamesOf(const CandidateSet& set) const;
   FittedModel Refitted(const CandidateSet& set) const;
+  bool TakeIfBetter(FittedModel found, const CandidateSet& set);
   CandidateSet BestPart(const CandidateSet& set) const;
   FittedModel SettledFrom(const FittedModel& white, const CandidateSet& set) const;
   FittedModel Ordered(FittedModel e, const CandidateSet& order, const CandidateSet& set) const;

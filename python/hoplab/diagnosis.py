@@ -112,14 +112,16 @@ def diagnose(
     discrepancy="matern",
     jobs=None,
     integrator="dop853",
-    tolerance=1e-9,
+    tolerance=1e-7,
 ):
     """Name what the simulation lacks, extend it and measure what that brings.
 
     Parameters
     ----------
-    dataset, law, free, fix, with_, span, discrepancy, jobs, integrator, tolerance
+    dataset, law, free, fix, with_, span, discrepancy, jobs, integrator
         As in `fit`.
+    tolerance : float, optional
+        Relative tolerance of a step: hundreds of models are tried.
     effects : sequence of str, optional
         Effects to try; default: all that apply.
     without : sequence of str, optional

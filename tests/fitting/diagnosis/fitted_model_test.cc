@@ -95,6 +95,28 @@ TEST(Refit, WithoutAMemberIsTheModelBefore) {
   EXPECT_NEAR(without_first.cost, fit.RefittedWith(second).cost, kSameCost);
 }
 
+TEST(LeadOut, EndsWhereTheModelWithoutTheMemberIs) {
+  const NullFit fit(Draggy());
+  const FittedModel one = fit.RefittedWith(CandidateOf("air_drag"));
+  const Candidate second = CandidateOf("touchdown_loss");
+  const FittedModel two = Refit(one, std::array{second}, Eigen::VectorXd::Zero(1), fit.Settings());
+  for (int i = 0; i < 2; ++i) {
+    const FittedModel left = LeadOut(two, i, fit.problem, fit.Settings());
+    ASSERT_TRUE(left.ok()) << i;
+    EXPECT_EQ(left.members, std::vector{two.members[static_cast<std::size_t>(1 - i)]});
+    EXPECT_NEAR(left.cost, fit.RefittedWith(left.members[0]).cost, kSameCost);
+  }
+}
+
+TEST(LeadOut, WhereNothingCanFollowThereIsNoModel) {
+  const NullFit fit(Draggy());
+  const FittedModel one = fit.RefittedWith(CandidateOf("air_drag"));
+  const std::atomic<bool> stop = true;
+  RefitSettings stopped = fit.Settings();
+  stopped.stop = &stop;
+  EXPECT_FALSE(LeadOut(one, 0, fit.problem, stopped).ok());
+}
+
 TEST(Refit, OfAnEffectInOneTrialLeavesTheOthersToTheSharedValues) {
   const NullFit fit(Draggy());
   const FittedModel e = fit.RefittedWith({FindEffect("air_drag"), "train-2.csv"},

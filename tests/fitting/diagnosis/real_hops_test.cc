@@ -52,11 +52,13 @@ TEST(RealHops, TheLaminateHopperPushesAndIsNotAllExplained) {
   EXPECT_GT(d->before.test.rmse[0], 5e-3);
   EXPECT_LT(d->extension->after.test.rmse[0], 1.3e-3);
   EXPECT_TRUE(d->extension->gain.IsClaim());
-  // It is driven, and nobody logged the drive: a leg that makes itself longer is most of it. Not
-  // all, so that the verdict does not claim the whole.
-  const CauseReport& first = d->extension->causes.front();
-  EXPECT_EQ(first.cause.Name(), "rest_length_step");
-  EXPECT_GT(first.share, 0.9);
+  // It is driven, and nobody logged the drive. A leg that makes itself longer is among what stands
+  // for that, and so is one that gives back less; led out by small steps, each can be done without.
+  const std::vector<CauseReport>& causes = d->extension->causes;
+  EXPECT_TRUE(std::any_of(causes.begin(), causes.end(), [](const CauseReport& c) {
+    return c.cause.Name() == "rest_length_step";
+  }));
+  for (const CauseReport& c : causes) EXPECT_LT(c.share, 0.05) << c.cause.Name();
   EXPECT_FALSE(d->extension->at_bound);
   EXPECT_EQ(d->verdict, Verdict::kUnexplained);
   EXPECT_TRUE(d->free_forces.has_value());
