@@ -1,6 +1,6 @@
 // Would several stances at once, each in a lane of a wide register, pay? (docs/decisions/0018.) The
-// smooth part of a rolling stance of law `consistent` by DOP853, a thousand different ones: one at
-// a time and two, four and eight at a time, each lane with its own step, a lane that is through
+// smooth part of a rolling stance of law `consistent` by DOP853, thousands of different ones: one
+// at a time and two, four and eight at a time, each lane with its own step, a lane that is through
 // taking the next stance. No events, no samples.
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <vector>
+#include <utility>
 
 #include "model/integrators/dop853_tables.h"
 

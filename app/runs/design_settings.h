@@ -6,12 +6,13 @@
 
 #include "app/runs/design_run.h"
 #include "app/runs/problem_settings.h"
+#include "fitting/diagnosis/diagnosis.h"
 
 namespace hoplab {
 
 /// What the command line of `hoplab design` says.
 struct DesignSettings : RunSettings {
-  ProblemSettings problem;
+  ProblemSettings problem{.solver = {.tolerance = kDiagnosisSteps.relative_tolerance}};
   std::vector<std::string> cause, space;
   std::string sharpen;
   int budget = DesignRunOptions().budget;

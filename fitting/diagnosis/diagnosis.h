@@ -46,8 +46,8 @@ inline constexpr double kSure = 0.95, kLikely = 0.5;
 /// more than one thing is wrong then.
 inline constexpr double kExplained = 0.95, kProbable = 0.8;
 
-/// Steps where hundreds of models are tried. What is left of 5 s of a pronk is 2e-7 m off, of half
-/// a second of a drop 1e-11 m; derivatives are good to 3e-6.
+/// Steps where hundreds of models are tried. After 5 s of a pronk positions are off by 2e-7 m,
+/// after half a second of a drop by 1e-11 m; derivatives are good to 3e-6.
 inline constexpr IntegratorOptions kDiagnosisSteps{.relative_tolerance = 1e-7,
                                                    .absolute_tolerance = 1e-8};
 

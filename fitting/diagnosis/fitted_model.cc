@@ -235,11 +235,12 @@ FittedModel RefitWithout(const FittedModel& base, int i, const FitProblem& null_
 }
 
 FittedModel LeadOut(const FittedModel& base, int i, const FitProblem& null_problem,
-                    const RefitSettings& settings) {
+                    double plain_cost, const RefitSettings& settings) {
   constexpr double kFirstStep = 0.25, kGrowth = 1.5;  // of the size
   constexpr int kMostSteps = 24;
-  // A search that rises further at a step has lost its way, one that wanders about even sooner.
-  constexpr double kMostRise = 30.0, kWandering = 2.0;
+  // What misses the data grows as the square of what is taken out, all of it missing what the plain
+  // model does. A search that rises further has lost its way, one that wanders about even sooner.
+  constexpr double kMostRise = 2.0, kWandering = 2.0;
   const auto member = static_cast<std::size_t>(i);
   const int place = base.PlaceOf(i), count = base.members[member].parameter_count();
   const Eigen::VectorXd null = NullValues(std::span(base.members).subspan(member, 1));
@@ -247,7 +248,7 @@ FittedModel LeadOut(const FittedModel& base, int i, const FitProblem& null_probl
   FittedModel before = base, at = base;
   double share_before = 1.0, share = 1.0, step = kFirstStep;
   for (int tries = 0; share > 0.0; ++tries) {
-    if (tries == kMostSteps) return {};
+    if (tries == kMostSteps || (settings.stop && *settings.stop)) return {};
     const double next = std::max(0.0, share - step);
     SolveRequest request = RequestFrom(at, settings);
     // On along the way it went before, if it did.
@@ -259,9 +260,11 @@ FittedModel LeadOut(const FittedModel& base, int i, const FitProblem& null_probl
     request.shared.segment(place, count) = null + next * size;
     for (int k = 0; k < count; ++k) request.held.push_back(place + k);
     const SolveResult found = Solve(request);
-    const double most =
-        at.cost * (found.status == SolveStatus::kConverged ? kMostRise : kWandering);
-    const bool follows = LedOn(found) && found.cost < most;
+    const double out = 1.0 - next, rise = std::max(0.0, plain_cost - base.cost);
+    const double most = found.status == SolveStatus::kConverged
+                            ? base.cost + kMostRise * out * out * rise
+                            : kWandering * at.cost;
+    const bool follows = LedOn(found) && found.cost < std::max(most, kWandering * at.cost);
     step *= follows ? kGrowth : 0.5;
     if (!follows) continue;
     before = at;

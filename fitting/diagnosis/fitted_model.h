@@ -72,9 +72,9 @@ FittedModel RefitWithout(const FittedModel& base, int i, const FitProblem& null_
                          const RefitSettings& settings);
 
 /// The same by small steps: the member's size falls to nothing, and at each step what is left
-/// follows. No model, where that cannot be done.
+/// follows. No model, where that cannot be done. `plain_cost`: of the model without any member.
 FittedModel LeadOut(const FittedModel& base, int i, const FitProblem& null_problem,
-                    const RefitSettings& settings);
+                    double plain_cost, const RefitSettings& settings);
 
 /// Ends the model's fit, seeks the noise that suits what it leaves, and takes its evidence. With
 /// `settings.discrepancy` kNone the noise stays white.

@@ -250,7 +250,7 @@ bool Refits::SettleByLeadingOut(const CandidateSet& set) {
   planned_ += static_cast<int>(std::count_if(parts.begin(), parts.end(), loses_most));
   ParallelFor(static_cast<int>(parts.size()), options_.jobs, [&](int i) {
     if (Stopped() || !loses_most(parts[i])) return;
-    led[i] = LeadOut(White(set), i, plain_.problem, refit_);
+    led[i] = LeadOut(White(set), i, plain_.problem, plain_.cost, refit_);
     Report(parts[i], ", by small steps");
   });
   bool better = false;

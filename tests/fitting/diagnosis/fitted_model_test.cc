@@ -101,7 +101,7 @@ TEST(LeadOut, EndsWhereTheModelWithoutTheMemberIs) {
   const Candidate second = CandidateOf("touchdown_loss");
   const FittedModel two = Refit(one, std::array{second}, Eigen::VectorXd::Zero(1), fit.Settings());
   for (int i = 0; i < 2; ++i) {
-    const FittedModel left = LeadOut(two, i, fit.problem, fit.Settings());
+    const FittedModel left = LeadOut(two, i, fit.problem, fit.null.cost, fit.Settings());
     ASSERT_TRUE(left.ok()) << i;
     EXPECT_EQ(left.members, std::vector{two.members[static_cast<std::size_t>(1 - i)]});
     EXPECT_NEAR(left.cost, fit.RefittedWith(left.members[0]).cost, kSameCost);
@@ -114,7 +114,7 @@ TEST(LeadOut, WhereNothingCanFollowThereIsNoModel) {
   const std::atomic<bool> stop = true;
   RefitSettings stopped = fit.Settings();
   stopped.stop = &stop;
-  EXPECT_FALSE(LeadOut(one, 0, fit.problem, stopped).ok());
+  EXPECT_FALSE(LeadOut(one, 0, fit.problem, fit.null.cost, stopped).ok());
 }
 
 TEST(Refit, OfAnEffectInOneTrialLeavesTheOthersToTheSharedValues) {
