@@ -1,5 +1,7 @@
 #include "app/export/export_settings.h"
 
+#include "app/terminal/help_text.h"
+
 namespace hoplab {
 
 void AddExportOptions(CLI::App& sub, ExportSettings& settings) {
@@ -13,7 +15,7 @@ void AddExportOptions(CLI::App& sub, ExportSettings& settings) {
       ->check(CLI::Range(4, 80))
       ->option_text("N");
   sub.add_option("--step", settings.mjcf.step, "Of MuJoCo's integrator [s] (default 5e-5)")
-      ->check(CLI::Range(1e-7, 1e-3))
+      ->check(NumberIn(1e-7, 1e-3))
       ->option_text("SECONDS");
   sub.add_option("--leg-mass", settings.mjcf.leg_mass,
                  "Of the MJCF leg [kg] where none was fitted (default a thousandth of the body)")

@@ -22,7 +22,7 @@ void AddDiagnoseOptions(CLI::App& sub, DiagnoseSettings& settings) {
       ->option_text("N");
   sub.add_option("--material", settings.material,
                  "Misfit share below which a cause is small (default 2)")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(NumberIn(0.0, 100.0))
       ->option_text("PERCENT");
   AddDiscrepancyOption(sub, settings.discrepancy);
   sub.add_option("--starts", settings.restarts,

@@ -47,7 +47,7 @@ void AddOptimizeOptions(CLI::App& sub, OptimizeSettings& settings) {
   AddSeedOption(sub, settings.seed, "Of the first search");
   sub.add_option("--weight", settings.weight,
                  "Of the spectral radius where the objective is weighted (default 0.5)")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(NumberIn(0.0, 1.0))
       ->option_text("NUMBER");
   sub.add_option("--map", settings.map_size,
                  "Points a side of the objective's map; 0: none (default 25)")

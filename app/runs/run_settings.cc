@@ -36,7 +36,7 @@ void AddSolverOptions(CLI::App& sub, SolverSettings& settings) {
       ->option_text("NAME");
   sub.add_option("--tolerance", settings.tolerance,
                  "Relative tolerance of a step (default " + PowerText(settings.tolerance) + ")")
-      ->check(CLI::Range(1e-14, 1e-3))
+      ->check(NumberIn(1e-14, 1e-3))
       ->option_text("NUMBER");
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "app/terminal/report_text.h"
 #include "base/text.h"
@@ -43,6 +44,16 @@ CLI::Validator OneOf(const std::vector<std::string>& words) {
                        : Printable(word) + " is none of its values. " + DidYouMean(word, words);
           },
           Join(words, std::string(1, kSeparator)), "OneOf"};
+}
+
+CLI::Validator NumberIn(double least, double most) {
+  return {[least, most](std::string& word) {
+            const std::optional<double> value = ParseDouble(word);
+            if (value && *value >= least && *value <= most) return std::string();
+            return Printable(word) +
+                   fmt::format(" is no number from {:g} to {:g}. Give one.", least, most);
+          },
+          "", "NumberIn"};
 }
 
 std::vector<std::string> ChoicesOf(const CLI::Option& option) {

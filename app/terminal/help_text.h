@@ -24,6 +24,9 @@ class HelpFormatter : public CLI::Formatter {
 /// Accepts one of `words`, and says which was meant where a word is none of them.
 CLI::Validator OneOf(const std::vector<std::string>& words);
 
+/// A number from `least` to `most`.
+CLI::Validator NumberIn(double least, double most);
+
 /// The words of OneOf, or none for an option that takes anything.
 std::vector<std::string> ChoicesOf(const CLI::Option& option);
 

@@ -219,5 +219,14 @@ TEST(SuggestionCli, AMistypedEffectLawKeyParameterOrValueNamesTheOneMeant) {
   }
 }
 
+TEST(SuggestionCli, ANumberOutOfItsRangeIsToldTheRange) {
+  for (const std::string value : {"1", "0", "nan", "tight", "1e-15"}) {
+    const std::string message = MessageOf({"diagnose", "rig-drops", "--tolerance", value}, 64, "/");
+    EXPECT_NE(message.find("--tolerance: " + value + " is no number from 1e-14 to 0.001"),
+              std::string::npos)
+        << message;
+  }
+}
+
 }  // namespace
 }  // namespace hoplab::testing
