@@ -110,7 +110,7 @@ inline constexpr double kAtZero = 1e-11;
 /// Four legs of a robot that roll and slide, their motors limited and geared, have 33.
 inline constexpr int kMaxGuards = 33;
 /// Most states of a mechanism, and of what a stepper integrates: with eight sensitivities of each.
-/// A robot on four legs with mass whose motors lag and have gears has 34.
-inline constexpr int kMaxStates = 34;
+/// A robot on four legs with mass whose motors lag and have gears has 38.
+inline constexpr int kMaxStates = 38;
 
 }  // namespace hoplab

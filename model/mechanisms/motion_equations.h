@@ -7,16 +7,17 @@
 
 namespace hoplab {
 
-/// A number of every motion of a robot: of its reference point, its pitch, its motors, its feet.
+/// A number of every motion of a robot: of its reference point, its pitch, its motors, and of each
+/// leg its own.
 template <class T>
 struct AllMotions {
   T x{0.0}, y{0.0}, pitch{0.0};
-  std::array<T, kMaxLegs> motor{}, foot{};
+  std::array<T, kMaxLegs> motor{}, own{};
 };
 
 /// The equations of motion of a robot whose legs have mass (M83, M92) with the masses as they are
-/// now. Each leg's foot and motor are eliminated, each by its own row. Solved for numbers of any
-/// type.
+/// now. Each leg's own motion and motor are eliminated, each by its own row. Solved for numbers of
+/// any type.
 class MotionEquations {
  public:
   MotionEquations(double mass, double com_x, double com_y, double pitch_inertia)
@@ -25,22 +26,22 @@ class MotionEquations {
            {-mass * com_y, mass * com_x, pitch_inertia + mass * (com_x * com_x + com_y * com_y)}} {}
 
   /// The next leg, its hip at (x, y) from the reference point, its `mass` by the motion of hip,
-  /// base and foot; `foot` is the row of a foot with a speed of its own, else null; `hub` the
+  /// base and its own; `own` is the row of that motion, null of a leg that has none; `hub` the
   /// inertia of the motor, null of one that is locked.
-  void Add(double x, double y, const double (&mass)[4][4], const LegMotion<double>* foot,
+  void Add(double x, double y, const double (&mass)[4][4], const LegMotion<double>* own,
            const double* hub) {
     Leg& leg = leg_[legs_++];
     leg.x = x;
     leg.y = y;
     double e[3][3];
-    leg.has_foot = foot != nullptr;
+    leg.has_own = own != nullptr;
     for (int j = 0; j < 3; ++j)
       for (int k = 0; k < 3; ++k) e[j][k] = mass[j][k];
-    if (foot) {
-      leg.foot = *foot;
+    if (own) {
+      leg.own = *own;
       for (int j = 0; j < 3; ++j) {
-        leg.by_foot[j] = mass[j][3] / leg.foot[3];
-        for (int k = 0; k < 3; ++k) e[j][k] -= leg.by_foot[j] * leg.foot[k];
+        leg.by_own[j] = mass[j][3] / leg.own[3];
+        for (int k = 0; k < 3; ++k) e[j][k] -= leg.by_own[j] * leg.own[k];
       }
     }
     // The pitch moves hip and base.
@@ -75,12 +76,12 @@ class MotionEquations {
     for (int i = 0; i < legs_; ++i) {
       const Leg& leg = leg_[i];
       of.motor[i] = sides.motor[i];
-      if (leg.has_foot) {
-        const T& foot = sides.foot[i];
-        right[0] -= leg.by_foot[0] * foot;
-        right[1] -= leg.by_foot[1] * foot;
-        right[2] -= (leg.x * leg.by_foot[1] - leg.y * leg.by_foot[0] + leg.by_foot[2]) * foot;
-        of.motor[i] -= leg.by_foot[2] * foot;
+      if (leg.has_own) {
+        const T& own = sides.own[i];
+        right[0] -= leg.by_own[0] * own;
+        right[1] -= leg.by_own[1] * own;
+        right[2] -= (leg.x * leg.by_own[1] - leg.y * leg.by_own[0] + leg.by_own[2]) * own;
+        of.motor[i] -= leg.by_own[2] * own;
       }
       for (int j = 0; j < 3; ++j) right[j] -= leg.by_motor[j] * of.motor[i];
     }
@@ -95,11 +96,10 @@ class MotionEquations {
       of.motor[i] =
           (of.motor[i] - leg.motor[0] * of.x - leg.motor[1] * of.y - leg.motor[2] * of.pitch) *
           leg.over;
-      if (!leg.has_foot) continue;
-      of.foot[i] =
-          (sides.foot[i] - leg.foot[0] * (of.x - of.pitch * leg.y) -
-           leg.foot[1] * (of.y + of.pitch * leg.x) - leg.foot[2] * (of.pitch + of.motor[i])) *
-          (1.0 / leg.foot[3]);
+      if (!leg.has_own) continue;
+      of.own[i] = (sides.own[i] - leg.own[0] * (of.x - of.pitch * leg.y) -
+                   leg.own[1] * (of.y + of.pitch * leg.x) - leg.own[2] * (of.pitch + of.motor[i])) *
+                  (1.0 / leg.own[3]);
     }
     return of;
   }
@@ -107,9 +107,9 @@ class MotionEquations {
  private:
   struct Leg {
     double x, y;
-    bool has_foot;
-    LegMotion<double> foot;
-    double by_foot[3];             // what of the foot's row hip and base take
+    bool has_own;
+    LegMotion<double> own;
+    double by_own[3];              // what of its own motion's row hip and base take
     double motor[3], by_motor[3];  // the motor's row, and what of it x, y and pitch take
     double over;
   };

@@ -34,9 +34,9 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
   gravity_x_ = weight.gravity_x;
   gravity_y_ = weight.gravity_y;
   // A straight leg's mass is its hub's (M97).
-  follows_feet_ =
+  follows_legs_ =
       !robot_.straight_legs && Value(robot_.leg_mass) >= robot_detail::kLightestLeg * Value(p_.m);
-  foot_has_inertia_ = follows_feet_ && HasCone();
+  foot_has_inertia_ = follows_legs_ && HasCone();
   using std::cos;
   using std::sin;
   clamp_ = robot_.clamp / p_.r;
@@ -88,7 +88,7 @@ ClampedPlace<T> Robot<T>::PlaceAt(const Leg& leg, int i, const Hip& hip, const T
   return {z[Contact(i)] - z[kX] - hip.x,
           z[kY] + hip.y,
           kPi - hip.angle + 2.0 * kPi * leg.turns,
-          FootMoves(i) ? T(hip.vx - z[FootSpeed(i)]) : hip.vx,
+          FootMoves(i) ? T(hip.vx - z[OwnRate(i)]) : hip.vx,
           hip.vy,
           -hip.rate};
 }
@@ -115,7 +115,7 @@ Mode Robot<T>::Begin(Mode, T* z) {
     leg.slides = 0.0;
     leg.turns = 0;
     leg.piece = leg.clock.PieceAt(0.0);
-    if (foot_has_inertia_) z[FootSpeed(i)] = T(0.0);
+    if (follows_legs_) z[OwnRate(i)] = z[Bent(i)] = T(0.0);
   }
   FindTeeth(z);
   FindLimits(0.0, z);

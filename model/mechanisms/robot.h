@@ -9,6 +9,7 @@
 #include "model/mechanisms/motion_equations.h"
 #include "model/mechanisms/motor_clock.h"
 #include "model/mechanisms/robot_leg.h"
+#include "model/mechanisms/robot_leg_bending.h"
 #include "model/mechanisms/robot_leg_shape.h"
 
 namespace hoplab {
@@ -17,15 +18,17 @@ namespace hoplab {
 /// its hip (section 8 of the equation sheet). State: x, y, vx, vy of the body's reference point,
 /// pitch and its rate, the legs' angles, their rates, of each leg the contact coordinate (X0 while
 /// it rolls, x_c on its toe), of each motor whose gear has play its twist and the rotor's rate,
-/// where motors lag what each is giving, and where its feet have inertia their speed over the
-/// ground. Flight is when no leg is on the ground; which ones are and how is a discrete state.
+/// where motors lag what each is giving, and where its legs have inertia the rate of each leg's own
+/// motion (on the ground of its foot as it slides, in the air of its bending) and how far it is
+/// bent in the air. Flight is when no leg is on the ground; which ones are and how is a discrete
+/// state.
 template <class T>
 class Robot final : public HybridSystem<T> {
  public:
   explicit Robot(const MechanismSetup<T>& setup);
 
-  int size() const override { return FootSpeed(foot_has_inertia_ ? legs_ : 0); }
-  int ReportedSize() const override { return FootSpeed(0); }
+  int size() const override { return OwnRate(follows_legs_ ? 2 * legs_ : 0); }
+  int ReportedSize() const override { return OwnRate(0); }
   void Derivative(Mode mode, const T& t, const T* z, T* dz) const override;
   int GuardCount(Mode mode) const override;
   GuardSpec Guard(Mode mode, int i) const override;
@@ -87,9 +90,12 @@ class Robot final : public HybridSystem<T> {
   int Twist(const Leg& leg) const { return 6 + 3 * legs_ + 2 * leg.gear_place; }
   int RotorRate(const Leg& leg) const { return Twist(leg) + 1; }
   int Given(int leg) const { return 6 + 3 * legs_ + 2 * gears_ + leg; }
-  int FootSpeed(int leg) const { return Given(0) + (lags_ ? legs_ : 0) + leg; }
+  int OwnRate(int leg) const { return Given(0) + (lags_ ? legs_ : 0) + leg; }
+  int Bent(int leg) const { return OwnRate(legs_) + leg; }
   bool HasCone() const { return Value(robot_.friction) < std::numeric_limits<double>::infinity(); }
   bool IsDown(const Leg& leg) const { return leg.stance != Stance::kFlight; }
+  /// Whether a leg bends in the air (M98).
+  bool Bends(int leg) const { return follows_legs_ && !IsDown(leg_[leg]); }
   /// Whether a foot slides with a speed of its own (M89).
   bool FootMoves(int leg) const { return foot_has_inertia_ && leg_[leg].slides != 0.0; }
   Footing FootOf(const Leg& leg) const {
@@ -113,6 +119,11 @@ class Robot final : public HybridSystem<T> {
   struct Sides;       // forces or momenta of all motions
   LegInertia InertiaOf(int i, const Hip& hip) const;
   LegInertia RigidLeg(const T& angle) const;
+  LegInertia LegInAir(const T& angle) const;
+  Vector2<T> ContactBending(const T& angle) const;
+  T HeldUp(int i, const T& angle, const T* z) const;
+  void TakeBendAlong(int i, const T& angle, T* z);
+  T BendLeft(int i, const Hip& hip, const T* z) const;
   LegInertia StandingLeg(int i, const Hip& hip) const;
   void LetFootMove(const Hip& hip, double slides, LegInertia& leg) const;
   LegMotion<T> MotionUnder(int i, const Hip& hip, const T* rates) const;
@@ -183,7 +194,7 @@ class Robot final : public HybridSystem<T> {
   bool has_body_force_;
   bool has_leg_mass_;
   bool lags_, lags_shortly_;  // motors: with a state of their own, or to first order (M86)
-  bool follows_feet_;         // legs have enough mass for their shape on the ground to matter (M89)
+  bool follows_legs_;         // these have enough mass for their shape to matter (M89, M98)
   bool foot_has_inertia_;     // and feet that may slide
   double size_;               // of the legs, half of one unloaded [m]
   double fall_height_;

@@ -49,24 +49,24 @@ void Robot<T>::GoOnWith(const Impact& now, T* z) const {
   z[Pitch() + 1] = rates[Pitch() + 1];
   for (int i = 0; i < legs_; ++i) {
     z[Rate(i)] = rates[Rate(i)];
-    if (foot_has_inertia_) z[FootSpeed(i)] = rates[FootSpeed(i)];
+    if (follows_legs_) z[OwnRate(i)] = rates[OwnRate(i)];
   }
 }
 
-// M90: leg i comes down as a rigid body, and its foot stops, or goes on along the ground.
+// M90: leg i comes down as it moves in the air, and its foot stops, or goes on along the ground.
 template <class T>
 void Robot<T>::Blow(int i, T* z) {
   Impact now = MomentaOf(z, i);
   LegInertia& leg = now.legs.inertia[i];
   const Hip& hip = now.legs.hip[i];
   const T& m = *leg.mass;
-  const LegMotion<T> before = leg.Unit(MotionOf(i, hip, z));
-  const auto taken_by = [&](int k) { return leg.Share(k, before[0], before[1], before[2]); };
+  const LegInertia in_air = LegInAir(hip.angle);
+  const LegMotion<T> before = in_air.Unit({hip.vx, hip.vy, hip.rate, z[OwnRate(i)]});
+  const auto taken_by = [&](int k) { return leg.Share(k, before); };
   const LegMotion<T> taken = leg.Real({taken_by(0), taken_by(1), taken_by(2), T(0.0)});
   now.sides.Add(i, hip, taken);
   if (HasCone()) {
-    const LegInertia rigid = RigidLeg(hip.angle);
-    const Vector2<T> had{m * rigid.Along(before), m * rigid.Up(before)};
+    const Vector2<T> had{m * in_air.Along(before), m * in_air.Up(before)};
     std::array<T, kMaxStates> rates;
     SolveMotion(now.com, now.legs, now.sides, rates.data());
     const LegMotion<T> u = leg.Unit(MotionUnder(i, hip, rates.data())), carried = leg.Carried(u);
@@ -76,22 +76,38 @@ void Robot<T>::Blow(int i, T* z) {
       leg_[i].slides = along > 0.0 ? -1.0 : 1.0;
       LetFootMove(hip, leg_[i].slides, leg);
       // What it takes up of the motion along, and the friction of the blow.
-      now.sides.foot[i] = m * taken_by(3) + leg.lean * (had.y - taken[1]);
+      now.sides.own[i] = m * taken_by(3) + leg.lean * (had.y - taken[1]);
     }
   }
   GoOnWith(now, z);
 }
 
-// M91: the leg leaves the ground as a rigid body; what its points had along the motions that are
-// free then is kept.
+// M98: how far the mode is bent by what the ground held, with no more energy than that of the leg.
+template <class T>
+T Robot<T>::BendLeft(int i, const Hip& hip, const T* z) const {
+  using std::sqrt;
+  const RobotLeg<T>& law = leg_[i].law;
+  const ClampedPlace<T> place = PlaceOf(leg_[i], i, hip, z);
+  const ClampedLoad<T> load = law.At(FootOf(leg_[i]), place, false);
+  const Vector2<T> at = ContactBending(hip.angle);
+  const T force = at.x * load.fx + at.y * load.fy, &k = law.bending_stiffness();
+  const T held = 2.0 * k * law.StrainEnergy(FootOf(leg_[i]), place);
+  if (!(Value(force * force) > Value(held))) return force / k;
+  return (Value(force) < 0.0 ? -1.0 : 1.0) * sqrt(held) / k;
+}
+
+// M91: the leg leaves the ground; what its points had along the motions that are free then is kept,
+// and so is what of its bend the mode in the air can hold.
 template <class T>
 void Robot<T>::SpringOff(int i, T* z) {
   Impact now = MomentaOf(z, i);
   LegInertia& leg = now.legs.inertia[i];
   const Hip& hip = now.legs.hip[i];
   const LegMotion<T> u = leg.Unit(MotionOf(i, hip, z));
-  now.sides.Add(i, hip, leg.Real({leg.Along(u), leg.Up(u), leg.Turn(u), T(0.0)}));
-  leg = RigidLeg(hip.angle);
+  const LegMotion<T> had = {leg.Along(u), leg.Up(u), leg.Turn(u), leg.Bending(u)};
+  z[Bent(i)] = BendLeft(i, hip, z);
+  leg = LegInAir(hip.angle);
+  now.sides.Add(i, hip, leg.Real(had));
   GoOnWith(now, z);
 }
 

@@ -66,7 +66,8 @@ void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
   for (int i = 0; i < legs_; ++i) {
     dz[Angle(i)] = locked ? T(0.0) : z[Rate(i)];
     dz[Contact(i)] = T(0.0);
-    if (FootMoves(i)) dz[Contact(i)] = z[FootSpeed(i)];
+    if (FootMoves(i)) dz[Contact(i)] = z[OwnRate(i)];
+    if (follows_legs_) dz[Bent(i)] = Bends(i) ? z[OwnRate(i)] : T(0.0);
     if (lags_) dz[Given(i)] = (Torque(i, t, z) - z[Given(i)]) / robot_.motor_lag;
     if (leg_[i].geared()) dz[Twist(leg_[i])] = z[RotorRate(leg_[i])] - z[Rate(i)];
   }
@@ -128,7 +129,7 @@ void Robot<T>::MissJump(int leg, const T& jump, const T* at, T* z) const {
   for (int i = 0; i < legs_; ++i) {
     add(Rate(i));
     if (leg_[i].geared()) add(RotorRate(leg_[i]));
-    if (foot_has_inertia_) add(FootSpeed(i));
+    if (follows_legs_) add(OwnRate(i));
   }
 }
 

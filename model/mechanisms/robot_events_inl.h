@@ -108,7 +108,7 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
   std::array<Hip, kMaxLegs> hips;
   std::array<ClampedLoad<T>, kMaxLegs> loads;
   std::array<Vector2<T>, kMaxLegs> ground;
-  const bool with_inertia = follows_feet_ && mode != Mode::kFlight;
+  const bool with_inertia = follows_legs_ && mode != Mode::kFlight;
   if (with_inertia) GroundForces(frame, t, z, loads, ground);
   for (int i = 0; i < legs_; ++i) {
     const Leg& leg = leg_[i];
@@ -126,6 +126,7 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
     switch (guard.event) {
       case EventKind::kTouchdown:
         g[k] = z[kY] + hip.y - Reach(hip.angle);
+        if (Bends(i)) g[k] += HeldUp(i, hip.angle, z);
         break;
       case EventKind::kLiftoff:
         g[k] = guard.side != 0.0 ? T(load.yield - kLeastYield) : ground[i].y;
@@ -134,7 +135,7 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
         g[k] = robot_.friction * ground[i].y + guard.side * ground[i].x;
         break;
       case EventKind::kStick:
-        g[k] = leg_[i].slides * (foot_has_inertia_ ? z[FootSpeed(i)] : load.slip);
+        g[k] = leg_[i].slides * (foot_has_inertia_ ? z[OwnRate(i)] : load.slip);
         break;
       case EventKind::kRollingToToe:
         g[k] = leg_[i].law.length() - load.arc;
@@ -173,10 +174,11 @@ std::optional<Outcome> Robot<T>::Land(int i, const T& t, T* z, bool comes_down) 
   const ClampedLanding<T> as = leg.law.LandsAs(T(hip.angle - 2.0 * kPi * leg.turns));
   z[Contact(i)] = z[kX] + hip.x + as.lead;
   z[Contact(i)] -= as.laid;
+  if (follows_legs_) TakeBendAlong(i, hip.angle, z);
   leg.stance = as.rolling ? Stance::kRolling : Stance::kToe;
   leg.law.StartAt(as.tip);
   leg.slides = 0.0;
-  if (comes_down && follows_feet_) Blow(i, z);
+  if (comes_down && follows_legs_) Blow(i, z);
   if (foot_has_inertia_) {
     if (comes_down && leg.slides == 0.0) SlideOutsideCone(i, 0.0, t, z);
     return std::nullopt;
@@ -244,7 +246,7 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
       end = Land(guard.leg, t, z);
       break;
     case EventKind::kLiftoff:
-      if (follows_feet_) SpringOff(guard.leg, z);
+      if (follows_legs_) SpringOff(guard.leg, z);
       LiftOff(guard.leg, z);
       break;
     case EventKind::kRollingToToe:
@@ -277,7 +279,7 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
     default:
       break;  // apex
   }
-  if (follows_feet_ && !end) TakeJump(guard, told, t, z);
+  if (follows_legs_ && !end) TakeJump(guard, told, t, z);
   const Mode mode = ModeNow();
   ListGuards(mode);
   return {mode, end};

@@ -13,7 +13,7 @@ template <class T>
 void Robot<T>::Stick(int i, const T& t, T* z) {
   const double went = leg_[i].slides;
   leg_[i].slides = 0.0;
-  z[FootSpeed(i)] = T(0.0);
+  z[OwnRate(i)] = T(0.0);
   SlideOutsideCone(i, went, t, z);
 }
 
@@ -43,7 +43,6 @@ void Robot<T>::LiftOff(int i, T* z) {
   leg_[i].stance = Stance::kFlight;
   leg_[i].slides = 0.0;
   z[Contact(i)] = T(0.0);
-  if (foot_has_inertia_) z[FootSpeed(i)] = T(0.0);
 }
 
 }  // namespace hoplab

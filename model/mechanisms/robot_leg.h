@@ -6,6 +6,7 @@
 
 #include "model/laws/clamped/clamped_arc.h"
 #include "model/laws/clamped/clamped_rod.h"
+#include "model/mechanisms/robot_leg_bending.h"
 #include "model/parameters.h"
 
 namespace hoplab {
@@ -19,13 +20,17 @@ class RobotLeg {
   /// The leg at place `i` of a robot, effects on it included (M78).
   RobotLeg(const Parameters<T>& p, std::size_t i) {
     const RobotParameters<T>& robot = *p.robot;
-    const T tau = robot.damping + robot.extra_damping[i];
+    const T& tau = tau_ = robot.damping + robot.extra_damping[i];
     if (robot.straight_legs) {
       law_ = ClampedRod<T>(p.l0, robot.E_scale[i] * p.k, robot.E_scale[i] * robot.lateral_stiffness,
                            tau, robot.friction);
     } else {
       const T& E = robot.own_moduli ? robot.E[i] : p.E;
-      law_ = ClampedArc<T>(p.r, robot.E_scale[i] * E * p.I, tau, robot.friction, robot.clamp);
+      const T EI = robot.E_scale[i] * E * p.I;
+      using std::pow;
+      law_ = ClampedArc<T>(p.r, EI, tau, robot.friction, robot.clamp);
+      bending_stiffness_ = FirstBending().stiffness * EI / (p.r * p.r * p.r) *
+                           pow(length() / kPi, -LegBending::kByClamp);
     }
   }
 
@@ -65,6 +70,9 @@ class RobotLeg {
   Vector2<double> Centre(double angle) const {
     return Ask([&](const auto& leg) { return leg.Centre(angle); });
   }
+  /// Of an arc's first mode in the air [N/m] (M98), and the retardation time of its material [s].
+  const T& bending_stiffness() const { return bending_stiffness_; }
+  const T& tau() const { return tau_; }
   double inertia() const {
     return Ask([](const auto& leg) { return leg.kInertia; });
   }
@@ -100,6 +108,7 @@ class RobotLeg {
   }
 
   std::variant<ClampedArc<T>, ClampedRod<T>> law_;
+  T bending_stiffness_{0.0}, tau_{0.0};
 };
 
 }  // namespace hoplab

@@ -6,6 +6,7 @@
 #include "base/units.h"
 #include "model/jet.h"
 #include "model/laws/clamped/rule.h"
+#include "model/mechanisms/robot_leg_bending.h"
 
 namespace hoplab {
 namespace {
@@ -14,15 +15,10 @@ constexpr double kFirst = 0.2, kLast = 3.6;
 constexpr int kPieces = 256;
 constexpr double kWidth = (kLast - kFirst) / kPieces;
 
-template <class S>
-struct Point {
-  S x, y;
-};
-
 // How a point of the strip moves, at the angle s from the contact, that does not move: (0) as the
 // strip turns about the contact, (1), (2) as a force there, forward or up, bends it.
 template <class S>
-std::array<Point<S>, 3> MotionsAt(const S& s) {
+std::array<Vector2<S>, 3> MotionsAt(const S& s) {
   const S c = cos(s), n = sin(s);
   return {{{1.0 - c, n},
            {n - s * c - 0.5 * (s - n * c), s * n + c - 1.0 - 0.5 * n * n},
@@ -58,7 +54,7 @@ std::array<S, LegShape::kCount> Quadrature(const S& psi) {
   // A point at the angle s; behind the contact nothing bends.
   const auto add = [&](const S& s, const S& weight, bool bends) {
     const auto motion = MotionsAt(s);
-    std::array<Point<S>, 3> v;
+    std::array<Vector2<S>, 3> v;
     for (int k = 0; k < 3; ++k) {
       v[k] = {motion[0].x * shares[0][k], motion[0].y * shares[0][k]};
       for (int j = 1; j < 3 && bends; ++j) {
@@ -67,6 +63,7 @@ std::array<S, LegShape::kCount> Quadrature(const S& psi) {
       }
     }
     const auto dot = [&](int i, int k) { return S(weight * (v[i].x * v[k].x + v[i].y * v[k].y)); };
+    const Vector2<S> bending = BendingAt<S>(s + kPi - psi, kPi - psi);
     const S from_x = -sin(s) - hip_x, from_y = 1.0 - cos(s) - hip_y;
     sum[LegShape::kXX] += dot(0, 0);
     sum[LegShape::kXY] += dot(0, 1);
@@ -78,6 +75,7 @@ std::array<S, LegShape::kCount> Quadrature(const S& psi) {
       sum[LegShape::kAlongX + k] += weight * v[k].x;
       sum[LegShape::kUpX + k] += weight * v[k].y;
       sum[LegShape::kTurnX + k] += weight * (v[k].y * from_x - v[k].x * from_y);
+      sum[LegShape::kBendingX + k] += weight * (v[k].x * bending.x + v[k].y * bending.y);
     }
   };
   // Gauss's rule before the contact and behind it.
@@ -87,6 +85,9 @@ std::array<S, LegShape::kCount> Quadrature(const S& psi) {
     add(psi * along, psi * share, true);
     add((psi - kPi) * along, (kPi - psi) * share, false);
   }
+  const Vector2<S> contact = BendingAt<S>(kPi - psi, kPi - psi);
+  sum[LegShape::kContactX] = contact.x;
+  sum[LegShape::kContactY] = contact.y;
   return sum;
 }
 

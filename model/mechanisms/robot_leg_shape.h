@@ -8,7 +8,7 @@ namespace hoplab {
 /// a point of it moves as Phi (vx, vy, b), the motion of its hip over the foot and the rate of its
 /// base. Of the angle Psi between contact and hip.
 struct LegShape {
-  static constexpr int kCount = 15;
+  static constexpr int kCount = 20;
   enum Field {
     // Mean of Phi^T Phi: its mass matrix.
     kXX,
@@ -27,7 +27,14 @@ struct LegShape {
     // Mean of Phi^T (k x place from the hip): how it takes up the motion of a rigid leg.
     kTurnX,
     kTurnY,
-    kTurnB
+    kTurnB,
+    // Mean of Phi^T (bending, M98): how it takes up how a leg bent in the air.
+    kBendingX,
+    kBendingY,
+    kBendingB,
+    // Where that bending takes the point that comes to the ground.
+    kContactX,
+    kContactY
   };
   std::array<double, kCount> value, slope, bend;  // and two derivatives by Psi
 };

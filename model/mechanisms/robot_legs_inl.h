@@ -19,19 +19,19 @@ struct Robot<T>::LegInertia {
   // The forms are needed with their slopes only where numbers have some.
   static constexpr int kForms = kJetWidth<T> == 0 ? 2 : 3;
 
-  bool foot = false;                           // whether its foot has a speed of its own
-  T lean{0.0};                                 // friction under that, against its way
+  bool has_own = false;                        // whether it has a motion of its own
+  T lean{0.0};                                 // friction under a foot that slides, against its way
   const T *mass = nullptr, *length = nullptr;  // [kg], [m]
   T off{0.0};                                  // of its angle from that angle's value
   std::array<LegForm, kForms> form;            // there, and its derivatives by the angle
 
-  int motions() const { return foot ? 4 : 3; }
+  int motions() const { return has_own ? 4 : 3; }
 
   LegMotion<T> Unit(const LegMotion<T>& u) const { return {u[0], u[1], *length * u[2], u[3]}; }
   /// With the leg's mass and length.
   LegMotion<T> Real(const LegMotion<T>& p) const {
     const T& m = *mass;
-    return {m * p[0], m * p[1], m * *length * p[2], foot ? T(m * p[3]) : T(0.0)};
+    return {m * p[0], m * p[1], m * *length * p[2], has_own ? T(m * p[3]) : T(0.0)};
   }
 
   /// Momenta of all motions, `order` times differentiated by the angle. Here and below S is T, or
@@ -55,20 +55,24 @@ struct Robot<T>::LegInertia {
   T Turn(const LegMotion<T>& u) const {
     return Follow([](const LegForm& of) { return of.turn.data(); }, 0, u);
   }
+  T Bending(const LegMotion<T>& u) const {
+    return Follow([](const LegForm& of) { return of.bending.data(); }, 0, u);
+  }
   /// What all motions take to move it so, with its mass and length: the row of the foot's speed
   /// with its friction.
   LegMotion<T> Momenta(const LegMotion<T>& u) const {
     LegMotion<T> p = Carried(u);
-    if (foot) p[3] += lean * (Up(u) - p[1]);
+    if (has_own) p[3] += lean * (Up(u) - p[1]);
     return Real(p);
   }
-  /// How a force on all of the leg, or its motion as a rigid one, bears on motion k.
+  /// How a force on all of the leg, or its motion in the air, bears on motion k.
   template <class S>
   S Share(int k, const S& along, const S& up) const {
     return Number<S>(&LegForm::along, k) * along + Number<S>(&LegForm::up, k) * up;
   }
-  T Share(int k, const T& along, const T& up, const T& turn) const {
-    return Share(k, along, up) + Number<T>(&LegForm::turn, k) * turn;
+  T Share(int k, const LegMotion<T>& in_air) const {
+    return Share(k, in_air[0], in_air[1]) + Number<T>(&LegForm::turn, k) * in_air[2] +
+           Number<T>(&LegForm::bending, k) * in_air[3];
   }
 
  private:
@@ -115,6 +119,73 @@ typename Robot<T>::LegInertia Robot<T>::RigidLeg(const T& angle) const {
   return leg;
 }
 
+// M98: a leg in the air bends.
+template <class T>
+typename Robot<T>::LegInertia Robot<T>::LegInAir(const T& angle) const {
+  LegInertia leg = RigidLeg(angle);
+  if (!follows_legs_) return leg;
+  const LegBending& mode = FirstBending();
+  const double c = std::cos(Value(angle)), s = std::sin(Value(angle));
+  Vector2<double> mean{c * mode.along - s * mode.up, s * mode.along + c * mode.up};
+  double whole = 1.0;
+  for (LegForm& form : leg.form) {
+    form.LetBend(whole, mean.x, mean.y, whole * mode.about);
+    mean = {-mean.y, mean.x};
+    whole = 0.0;
+  }
+  leg.has_own = true;
+  return leg;
+}
+
+// M98: where the bending takes the point of the leg that is lowest, per displacement of the mode.
+template <class T>
+Vector2<T> Robot<T>::ContactBending(const T& angle) const {
+  using std::cos;
+  using std::sin;
+  const T beta = angle - 2.0 * kPi * TurnsOf(Value(angle));
+  if (Value(beta) > 0.0) {
+    const LegShape shape = LegShapeAt(kPi - Value(beta));
+    const auto at = [&](int k) { return Chain(beta, shape.value[k], -shape.slope[k]); };
+    return {at(LegShape::kContactX), at(LegShape::kContactY)};
+  }
+  const Vector2<double>& toe = FirstBending().toe;
+  const T c = cos(beta), s = sin(beta);
+  return {c * toe.x - s * toe.y, s * toe.x + c * toe.y};
+}
+
+// M98: how far above where it would be unbent a leg holds its foot, or would have to, for its foot
+// not to be drawn down there: a leg that swings down comes to bear only when it can press.
+template <class T>
+T Robot<T>::HeldUp(int i, const T& angle, const T* z) const {
+  using std::cos;
+  using std::sin;
+  const T& bent = z[Bent(i)];
+  const Vector2<T> at = ContactBending(angle);
+  const T beta = angle - 2.0 * kPi * TurnsOf(Value(angle));
+  // M68 at no load, seen along the tangent at the contact.
+  const T& whole = leg_[i].law.length();
+  const bool rolling = Value(beta) > 0.0;
+  const T arc = rolling ? T(whole - beta) : whole;
+  const T s = sin(arc), c = cos(arc);
+  const T xx = 1.5 * arc - 2.0 * s + 0.5 * s * c, xy = 1.0 - c - 0.5 * s * s,
+          yy = 0.5 * (arc - s * c);
+  T soft = xx, slant = xy;
+  if (!rolling) {  // the tangent at the toe is at -beta
+    const T c2 = cos(beta) * cos(beta), cs = cos(beta) * sin(beta), s2 = 1.0 - c2;
+    soft = c2 * xx - 2.0 * cs * xy + s2 * yy;
+    slant = cs * (xx - yy) + (c2 - s2) * xy;
+  }
+  const T up = bent * at.y, free = bent * at.x * slant / soft;
+  return Value(up) > Value(free) ? up : free;
+}
+
+// What a leg that lands is bent by along the ground goes over into where its foot stands.
+template <class T>
+void Robot<T>::TakeBendAlong(int i, const T& angle, T* z) {
+  z[Contact(i)] += z[Bent(i)] * ContactBending(angle).x;
+  z[Bent(i)] = T(0.0);
+}
+
 // M89, of a foot that holds.
 template <class T>
 typename Robot<T>::LegInertia Robot<T>::StandingLeg(int i, const Hip& hip) const {
@@ -133,6 +204,7 @@ typename Robot<T>::LegInertia Robot<T>::StandingLeg(int i, const Hip& hip) const
     form.along = {sign * v[F::kAlongX], sign * v[F::kAlongY], sign * v[F::kAlongB], 0.0};
     form.up = {sign * v[F::kUpX], sign * v[F::kUpY], sign * v[F::kUpB], 0.0};
     form.turn = {sign * v[F::kTurnX], sign * v[F::kTurnY], sign * v[F::kTurnB], 0.0};
+    form.bending = {sign * v[F::kBendingX], sign * v[F::kBendingY], sign * v[F::kBendingB], 0.0};
   };
   if (rolling) {
     set(leg.form[0], shape.value, 1.0);
@@ -153,7 +225,8 @@ typename Robot<T>::LegInertia Robot<T>::StandingLeg(int i, const Hip& hip) const
   Vector2<double> mass = turned(c2, s2, half, v[F::kXY]), sum = turned(c2, s2, p, q),
                   base = turned(c, s, v[F::kXB], v[F::kYB]),
                   centre = turned(c, s, v[F::kAlongB], v[F::kUpB]),
-                  spin = turned(c, s, v[F::kTurnX], v[F::kTurnY]);
+                  spin = turned(c, s, v[F::kTurnX], v[F::kTurnY]),
+                  bend = turned(c, s, v[F::kBendingX], v[F::kBendingY]);
   double stays = 1.0;  // of what does not turn
   for (LegForm& form : leg.form) {
     form.SetMass(stays * mean + mass.x, mass.y, stays * mean - mass.x, base.x, base.y,
@@ -161,8 +234,9 @@ typename Robot<T>::LegInertia Robot<T>::StandingLeg(int i, const Hip& hip) const
     form.along = {stays * even + sum.x, sum.y - stays * odd, centre.x, 0.0};
     form.up = {sum.y + stays * odd, stays * even - sum.x, centre.y, 0.0};
     form.turn = {spin.x, spin.y, stays * v[F::kTurnB], 0.0};
+    form.bending = {bend.x, bend.y, stays * v[F::kBendingB], 0.0};
     for (Vector2<double>* twice : {&mass, &sum}) *twice = {-2.0 * twice->y, 2.0 * twice->x};
-    for (Vector2<double>* once : {&base, &centre, &spin}) *once = {-once->y, once->x};
+    for (Vector2<double>* once : {&base, &centre, &spin, &bend}) *once = {-once->y, once->x};
     stays = 0.0;
   }
   return leg;
@@ -171,20 +245,20 @@ typename Robot<T>::LegInertia Robot<T>::StandingLeg(int i, const Hip& hip) const
 // M92: its friction goes with what the ground bears.
 template <class T>
 void Robot<T>::LetFootMove(const Hip& hip, double slides, LegInertia& leg) const {
-  Vector2<double> at = leg_[0].law.Centre(Value(hip.angle));
+  const LegInertia in_air = LegInAir(hip.angle);
   double whole = 1.0;
-  for (LegForm& form : leg.form) {
-    form.LetFootMove(whole, -at.y);
-    at = {-at.y, at.x};
+  for (std::size_t k = 0; k < leg.form.size(); ++k) {
+    const LegForm& form = in_air.form[k];
+    leg.form[k].LetFootMove(whole, form.along[2], form.along[3]);
     whole = 0.0;
   }
-  leg.foot = true;
+  leg.has_own = true;
   leg.lean = slides * robot_.friction;
 }
 
 template <class T>
 typename Robot<T>::LegInertia Robot<T>::InertiaOf(int i, const Hip& hip) const {
-  if (!follows_feet_ || !IsDown(leg_[i])) return RigidLeg(hip.angle);
+  if (!follows_legs_ || !IsDown(leg_[i])) return LegInAir(hip.angle);
   LegInertia leg = StandingLeg(i, hip);
   if (FootMoves(i)) LetFootMove(hip, leg_[i].slides, leg);
   return leg;
@@ -192,7 +266,7 @@ typename Robot<T>::LegInertia Robot<T>::InertiaOf(int i, const Hip& hip) const {
 
 template <class T>
 LegMotion<T> Robot<T>::MotionOf(int i, const Hip& hip, const T* z) const {
-  return {hip.vx, hip.vy, hip.rate, FootMoves(i) ? z[FootSpeed(i)] : T(0.0)};
+  return {hip.vx, hip.vy, hip.rate, FootMoves(i) || Bends(i) ? z[OwnRate(i)] : T(0.0)};
 }
 
 // M89: where the hip is from where it would be over its foot with the leg unloaded.
@@ -249,12 +323,16 @@ typename Robot<T>::LegLoad Robot<T>::LoadOf(int i, const Hip& hip, const LegIner
   T moment;
   const LegMotion<T> p = UnitLoad(leg, u, hip.rate, gx, gy, moment);
   all.load = leg.Real(p);
-  if (follows_feet_ && IsDown(leg_[i])) {
+  if (follows_legs_ && IsDown(leg_[i])) {
     const Vector2<T> press = PressOf(i, hip, z);
     const LegMotion<T> pressed{press.x, press.y, T(0.0), T(0.0)};
     moment += gx * leg.Along(pressed, 1) + gy * leg.Up(pressed, 1);
     all.born = {m * (p[0] + hip.rate * leg.Along(u, 1) - gx),
                 m * (p[1] + hip.rate * leg.Up(u, 1) - gy)};
+  }
+  if (Bends(i)) {
+    const LegMotion<T> bent{T(0.0), T(0.0), T(0.0), z[Bent(i)]};
+    moment += gx * leg.Along(bent, 1) + gy * leg.Up(bent, 1);
   }
   all.load[2] += m * moment;
   return all;
@@ -277,11 +355,18 @@ T Robot<T>::Energy(Mode, const T* z) const {
       const LegMotion<T> u = inertia.Unit(MotionOf(i, hip, z)), carried = inertia.Carried(u);
       const LegMotion<T> turns{T(0.0), T(0.0), *rigid.length, T(0.0)};
       T x = z[kX] + hip.x + rigid.Up(turns), y = z[kY] + hip.y - rigid.Along(turns);
-      if (follows_feet_ && IsDown(leg)) {
+      if (follows_legs_ && IsDown(leg)) {
         const Vector2<T> press = PressOf(i, hip, z);
         const LegMotion<T> pressed{press.x, press.y, T(0.0), T(0.0)};
         x += inertia.Along(pressed) - press.x;
         y += inertia.Up(pressed) - press.y;
+      }
+      if (Bends(i)) {
+        const T& bend = z[Bent(i)];
+        const LegMotion<T> bent{T(0.0), T(0.0), T(0.0), bend};
+        x += inertia.Along(bent);
+        y += inertia.Up(bent);
+        energy += 0.5 * leg.law.bending_stiffness() * bend * bend;
       }
       T twice = u[0] * carried[0];
       for (int k = 1; k < inertia.motions(); ++k) twice += u[k] * carried[k];

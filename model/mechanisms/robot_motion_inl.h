@@ -19,11 +19,11 @@ struct Robot<T>::Sides : AllMotions<T> {
     this->y += load[1];
     this->pitch += hip.x * load[1] - hip.y * load[0] + load[2];
     this->motor[i] += load[2];
-    this->foot[i] += load[3];
+    this->own[i] += load[3];
   }
 };
 
-// Legs' feet and motors are eliminated by values.
+// Legs' own motions and motors are eliminated by values.
 template <class T>
 MotionEquations Robot<T>::EquationsOf(const Vector2<T>& com, const MovingLegs& legs) const {
   MotionEquations equations(Value(p_.m), Value(com.x), Value(com.y), Value(robot_.pitch_inertia));
@@ -35,12 +35,12 @@ MotionEquations Robot<T>::EquationsOf(const Vector2<T>& com, const MovingLegs& l
     for (int j = 0; j < leg.motions(); ++j)
       for (int k = 0; k < leg.motions(); ++k)
         mass[j][k] = m * scale[j] * scale[k] * form.mass[j][k];
-    LegMotion<double> foot;
-    if (leg.foot)
+    LegMotion<double> own;
+    if (leg.has_own)
       for (int k = 0; k < 4; ++k)
-        foot[k] = mass[3][k] + Value(leg.lean) * (m * scale[k] * form.up[k] - mass[1][k]);
+        own[k] = mass[3][k] + Value(leg.lean) * (m * scale[k] * form.up[k] - mass[1][k]);
     const double hub = Value(hub_[i]);
-    equations.Add(Value(legs.hip[i].x), Value(legs.hip[i].y), mass, leg.foot ? &foot : nullptr,
+    equations.Add(Value(legs.hip[i].x), Value(legs.hip[i].y), mass, leg.has_own ? &own : nullptr,
                   robot_.control == MotorControl::kLocked ? nullptr : &hub);
   }
   equations.Eliminate();
@@ -60,7 +60,7 @@ typename Robot<T>::Sides Robot<T>::Left(const Vector2<T>& com, const MovingLegs&
     const Hip& hip = legs.hip[i];
     const LegInertia& leg = legs.inertia[i];
     const LegMotion<T> u = leg.Unit(
-        {a.x - a.pitch * hip.y, a.y + a.pitch * hip.x, T(a.pitch + a.motor[i]), T(a.foot[i])});
+        {a.x - a.pitch * hip.y, a.y + a.pitch * hip.x, T(a.pitch + a.motor[i]), T(a.own[i])});
     LegMotion<T> taken = leg.Momenta(u);
     for (T& number : taken) number = -number;
     left.Add(i, hip, taken);
@@ -82,7 +82,7 @@ void Robot<T>::SolveMotion(const Vector2<T>& com, const MovingLegs& legs, const 
     AllMotions<double> values{sides.x.a, sides.y.a, sides.pitch.a};
     for (int i = 0; i < legs_; ++i) {
       values.motor[i] = sides.motor[i].a;
-      values.foot[i] = sides.foot[i].a;
+      values.own[i] = sides.own[i].a;
     }
     values = equations.Solve(values);
     a = equations.template Solve<T>(Left(com, legs, sides, values));
@@ -91,7 +91,7 @@ void Robot<T>::SolveMotion(const Vector2<T>& com, const MovingLegs& legs, const 
     a.pitch += values.pitch;
     for (int i = 0; i < legs_; ++i) {
       a.motor[i] += values.motor[i];
-      a.foot[i] += values.foot[i];
+      a.own[i] += values.own[i];
     }
   }
   dz[kVx] = a.x;
@@ -99,7 +99,7 @@ void Robot<T>::SolveMotion(const Vector2<T>& com, const MovingLegs& legs, const 
   dz[Pitch() + 1] = a.pitch;
   for (int i = 0; i < legs_; ++i) {
     dz[Rate(i)] = a.motor[i];
-    if (foot_has_inertia_) dz[FootSpeed(i)] = a.foot[i];
+    if (follows_legs_) dz[OwnRate(i)] = a.own[i];
   }
 }
 
@@ -108,7 +108,7 @@ template <class T>
 LegMotion<T> Robot<T>::MotionUnder(int i, const Hip& hip, const T* rates) const {
   const T& turn = rates[Pitch() + 1];
   return {rates[kVx] - turn * hip.y, rates[kVy] + turn * hip.x, turn + rates[Rate(i)],
-          foot_has_inertia_ ? rates[FootSpeed(i)] : T(0.0)};
+          follows_legs_ ? rates[OwnRate(i)] : T(0.0)};
 }
 
 // M92: the ground's force on a foot.
@@ -204,7 +204,10 @@ void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const
     // The hip is drawn towards the reference point as it turns about it.
     LegMotion<T> load = leg.Momenta({turn2 * hip.x, turn2 * hip.y, T(0.0), T(0.0)});
     for (int k = 0; k < leg.motions(); ++k) load[k] += own.load[k];
-    if (leg.foot) {
+    if (Bends(i)) {
+      const RobotLeg<T>& law = leg_[i].law;
+      load[3] -= law.bending_stiffness() * (z[Bent(i)] + law.tau() * z[OwnRate(i)]);
+    } else if (leg.has_own) {
       const ClampedLoad<T>& bent = push.load[i];
       load[3] -= bent.fx + bent.damped_x + leg.lean * (bent.fy + bent.damped_y + own.born.y);
     }

@@ -158,13 +158,18 @@ void Robot<T>::MoveAlong(Mode mode, double t, const T& by, const T* z, T* to) co
   for (int i = 0; i < size(); ++i) to[i] = z[i] + Value(rate[i]) * by;
 }
 
-// In the air motors that rest on their reference do not steer the step, and what is to be
-// differentiated may still excite them: no further than twice the time they take.
+// In the air motors that rest on their reference, and legs that do not ring, do not steer the step,
+// and what is to be differentiated may still excite them: no further than twice the time they take.
 template <class T>
 double Robot<T>::LongestStep(Mode mode, const T&, const T*) const {
-  if (mode != Mode::kFlight || robot_.control == MotorControl::kLocked)
-    return std::numeric_limits<double>::infinity();
-  double rate = lags_ ? 1.0 / Value(robot_.motor_lag) : 0.0;
+  if (mode != Mode::kFlight) return std::numeric_limits<double>::infinity();
+  double rate = 0.0;
+  for (int i = 0; i < legs_ && follows_legs_; ++i) {
+    const double square = Value(leg_[i].law.bending_stiffness()) / Value(robot_.leg_mass);
+    rate = std::max({rate, std::sqrt(square), square * Value(leg_[i].law.tau())});
+  }
+  if (robot_.control == MotorControl::kLocked) return 2.0 / rate;
+  if (lags_) rate = std::max(rate, 1.0 / Value(robot_.motor_lag));
   for (int i = 0; i < legs_; ++i) {
     if (leg_[i].is_told) continue;
     const double turned = Value(robot_.rotor_inertia) - (leg_[i].geared() ? Value(hub_[i]) : 0.0);

@@ -11,7 +11,7 @@ namespace hoplab {
 template <class T>
 void Robot<T>::RollOnto(int i, Stance to, T* z) {
   Leg& leg = leg_[i];
-  if (follows_feet_) ChangeStance(i, to, z);
+  if (follows_legs_) ChangeStance(i, to, z);
   leg.stance = to;
   if (foot_has_inertia_ || leg.slides == 0.0) {
     const T along = p_.r * leg.law.length();

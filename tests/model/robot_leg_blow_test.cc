@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "model/mechanisms/robot.h"
+#include "model/mechanisms/robot_leg_bending.h"
 #include "model/simulate.h"
 #include "tests/support/robot_requests.h"
 
@@ -27,7 +28,7 @@ struct Carried {
 
 struct LegNow {
   bool down = false;
-  double foot = 0.0;  // its speed
+  double own = 0.0;  // speed of its foot; in the air, rate of its bending
 };
 
 class Momenta {
@@ -39,6 +40,7 @@ class Momenta {
     Eigen::Matrix3d mass;
     Eigen::Matrix<double, 2, 3> mean;
     Eigen::Vector3d turn;
+    Eigen::Vector3d bending;  // by the mode of the leg in the air
   };
   double Beta(int leg) const { return z_[4] + z_[6 + leg]; }
   Eigen::Vector2d HipOf(int leg) const {
@@ -53,6 +55,7 @@ class Momenta {
     m.mass << s[0], s[1], r * s[3], s[1], s[2], r * s[4], r * s[3], r * s[4], r * r * s[5];
     m.mean << s[6], s[7], r * s[8], s[9], s[10], r * s[11];
     m.turn << r * s[12], r * s[13], r * r * s[14];
+    m.bending << s[15], s[16], r * s[17];
     return m;
   }
   Matrix Rigid(int leg) const {
@@ -63,12 +66,18 @@ class Momenta {
     m.mass << 1, 0, -y, 0, 1, x, -y, x, 2 * r * r;
     m.mean << 1, 0, -y, 0, 1, x;
     m.turn << -y, x, 2 * r * r;
+    const Eigen::Vector2d mode =
+        Eigen::Rotation2Dd(b) * Eigen::Vector2d(FirstBending().along, FirstBending().up);
+    m.bending << mode.x(), mode.y(), r * FirstBending().about;
     return m;
   }
   Eigen::Vector3d Motion(int leg, const std::vector<double>& z) const {
     const Eigen::Vector2d hip = HipOf(leg);
     return {z[2] - z[5] * hip.y(), z[3] + z[5] * hip.x(),
             z[5] + z[6 + p_.robot->legs + static_cast<std::size_t>(leg)]};
+  }
+  static double EnergyInAir(const Matrix& rigid, const Eigen::Vector3d& is, double own) {
+    return 0.5 * is.dot(rigid.mass * is) + own * rigid.bending.dot(is) + 0.5 * own * own;
   }
   // Velocities of `z`; about a point of the ground.
   Carried Of(const std::vector<double>& z, const std::vector<LegNow>& legs, double ground_x) const {
@@ -88,20 +97,31 @@ class Momenta {
     for (int i = 0; i < robot.legs; ++i) {
       const double m = robot.leg_mass, rate = z[6 + robot.legs + i];
       const LegNow& leg = legs[i];
-      const Matrix is = leg.down ? Standing(i) : Rigid(i);
-      const Eigen::Vector2d carried(leg.foot, 0.0);
+      sum.motor.push_back(robot.rotor_inertia * rate);
+      sum.energy += 0.5 * robot.rotor_inertia * rate * rate;
+      if (!leg.down) {
+        const Matrix rigid = Rigid(i);
+        const Eigen::Vector3d is = Motion(i, z);
+        const Eigen::Vector2d mean = rigid.mean * is + leg.own * rigid.bending.head<2>();
+        sum.x += m * mean.x();
+        sum.y += m * mean.y();
+        sum.about +=
+            m * (cross(body + HipOf(i), mean) + rigid.turn.dot(is) + leg.own * rigid.bending.z());
+        sum.energy += m * EnergyInAir(rigid, is, leg.own);
+        continue;
+      }
+      const Matrix is = Standing(i);
+      const Eigen::Vector2d carried(leg.own, 0.0);
       Eigen::Vector3d over = Motion(i, z);
-      over.x() -= leg.foot;
+      over.x() -= leg.own;
       const Eigen::Vector2d mean = is.mean * over + carried;
       const Eigen::Vector2d centre = Rigid(i).mean.block<2, 1>(0, 2);  // k x rho
       const Eigen::Vector2d rho(centre.y(), -centre.x());
       sum.x += m * mean.x();
       sum.y += m * mean.y();
       sum.about += m * (cross(body + HipOf(i), mean) + is.turn.dot(over) + cross(rho, carried));
-      sum.energy += 0.5 * robot.rotor_inertia * rate * rate +
-                    m * (0.5 * over.dot(is.mass * over) + leg.foot * (is.mean * over).x() +
-                         0.5 * leg.foot * leg.foot);
-      sum.motor.push_back(robot.rotor_inertia * rate);
+      sum.energy += m * (0.5 * over.dot(is.mass * over) + leg.own * (is.mean * over).x() +
+                         0.5 * leg.own * leg.own);
     }
     return sum;
   }
@@ -137,6 +157,9 @@ struct Landing {
     z[7] = 2.2;  // its leg is up
     z[8] = in(-8.0, 4.0);
     z[9] = in(-8.0, 8.0);
+    z[12] = in(-1.0, 1.0);  // they ring
+    z[13] = in(-1.0, 1.0);
+    z[14] = in(-0.002, 0.002);
     const double beta = z[4] + z[6];
     const double hip = std::sin(z[4]) * robot.hip_x[0] + std::cos(z[4]) * robot.hip_y[0];
     z[1] = p.r * (1 + std::cos(beta)) - hip;
@@ -177,11 +200,12 @@ TEST(RobotLegBlow, TakesNothingFromWhatIsFree) {
     robot.Reset(mode, guard, 0.0, z.data());
     std::vector<Foot> feet;
     robot.TellFeet(feet);
-    const double foot = robot.size() > 12 ? z[12] : 0.0;
+    const double foot = z[12];
+    EXPECT_EQ(z[14], 0.0);
     const double spot = at.ContactX();
     const Momenta momenta(at.p, at.z);
-    const Carried before = momenta.Of(at.z, {{}, {}}, spot),
-                  after = momenta.Of(z, {{true, foot}, {}}, spot);
+    const Carried before = momenta.Of(at.z, {{false, at.z[12]}, {false, at.z[13]}}, spot),
+                  after = momenta.Of(z, {{true, foot}, {false, z[13]}}, spot);
     const double along = after.x - before.x, up = after.y - before.y;
     worst = std::max(worst, std::abs(after.about - before.about));
     EXPECT_GT(up, 0.0) << seed;
@@ -203,29 +227,31 @@ TEST(RobotLegBlow, TakesNothingFromWhatIsFree) {
                         m * (standing.mass.row(2).dot(over) + foot * standing.mean(0, 2)) -
                         before.motor[0] -
                         m * (standing.mean(0, 2) * was.x() + standing.mean(1, 2) * was.y() +
-                             standing.turn(2) * was.z());
+                             standing.turn(2) * was.z() + standing.bending(2) * at.z[12]);
     worst = std::max(worst, std::abs(base));
-    // The other leg's motor: rigid before and after.
-    const double other =
-        after.motor[1] - before.motor[1] +
-        m * momenta.Rigid(1).mass.row(2).dot(momenta.Motion(1, z) - momenta.Motion(1, at.z));
-    worst = std::max(worst, std::abs(other));
+    // The other leg's motor and its bending.
+    const Momenta::Matrix second = momenta.Rigid(1);
+    const Eigen::Vector3d moved = momenta.Motion(1, z) - momenta.Motion(1, at.z);
+    const double rings = z[13] - at.z[13];
+    const double other = after.motor[1] - before.motor[1] +
+                         m * (second.mass.row(2).dot(moved) + second.bending(2) * rings);
+    worst = std::max({worst, std::abs(other), std::abs(m * (second.bending.dot(moved) + rings))});
     const double lost = before.energy - after.energy;
     lost_least = std::min(lost_least, lost);
     lost_most = std::max(lost_most, lost);
     // Carnot's theorem: the energy of the velocities lost, and what friction takes.
     std::vector<double> change = z;
     for (std::size_t i : {2, 3, 5, 8, 9}) change[i] -= at.z[i];
-    const double crossed =
-        over.dot(standing.mean.row(0).transpose() * was.x() +
-                 standing.mean.row(1).transpose() * was.y() + standing.turn * was.z()) +
-        foot * rigid.mean.row(0).dot(was);
-    const Carried off = momenta.Of(change, {{}, {}}, spot);
+    const double crossed = over.dot(standing.mean.row(0).transpose() * was.x() +
+                                    standing.mean.row(1).transpose() * was.y() +
+                                    standing.turn * was.z() + standing.bending * at.z[12]) +
+                           foot * (rigid.mean.row(0).dot(was) + rigid.bending(0) * at.z[12]);
+    const Carried off = momenta.Of(change, {{}, {false, rings}}, spot);
     const Eigen::Vector3d off_leg = momenta.Motion(0, change);
     const double landed = 0.5 * over.dot(standing.mass * over) +
                           foot * standing.mean.row(0).dot(over) + 0.5 * foot * foot;
     const double carnot = off.energy - 0.5 * m * off_leg.dot(rigid.mass * off_leg) +
-                          m * (0.5 * was.dot(rigid.mass * was) + landed - crossed);
+                          m * (Momenta::EnergyInAir(rigid, was, at.z[12]) + landed - crossed);
     worst = std::max(worst, std::abs(lost - (carnot - along * foot)));
   }
   std::printf("blow: %d hold, %d slide, worst momentum %.1e, energy lost %.3g to %.3g J\n", holds,
@@ -242,22 +268,30 @@ TEST(RobotLegBlow, LeavingKeepsMomentum) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     Landing at(seed, std::numeric_limits<double>::infinity());
     at.z[1] -= 0.004;  // pressed
+    at.z[12] = at.z[14] = 0.0;
     MechanismSetup<double> setup;
     setup.parameters = at.p;
     Robot<double> robot(setup);
     std::vector<double> z = at.z;
     const Mode mode = robot.Begin(Mode::kFlight, z.data());
     ASSERT_EQ(mode, Mode::kStance);
-    const std::vector<double> standing = z;
+    std::vector<double> standing = z;
+    standing[13] = z[13] = at.z[13];
     const int guard = GuardOf(robot, mode, EventKind::kLiftoff, 0);
     ASSERT_GE(guard, 0);
     robot.Reset(mode, guard, 0.0, z.data());
     const Momenta momenta(at.p, standing);
-    const Carried before = momenta.Of(standing, {{true, 0.0}, {}}, 0.1),
-                  after = momenta.Of(z, {{}, {}}, 0.1);
+    const Carried before = momenta.Of(standing, {{true, 0.0}, {false, standing[13]}}, 0.1),
+                  after = momenta.Of(z, {{false, z[12]}, {false, z[13]}}, 0.1);
     for (double change : {after.x - before.x, after.y - before.y, after.about - before.about})
       worst = std::max(worst, std::abs(change));
+    // What its points have along the bending goes over into that.
+    const Momenta::Matrix rigid = momenta.Rigid(0);
+    const double bends = rigid.bending.dot(momenta.Motion(0, z)) + z[12];
+    worst = std::max(
+        worst, std::abs(bends - momenta.Standing(0).bending.dot(momenta.Motion(0, standing))));
     EXPECT_GT(std::abs(z[8] - standing[8]), 1e-3) << seed;  // the leg is heavy
+    EXPECT_NE(z[14], 0.0);
   }
   EXPECT_LT(worst, 1e-11);
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "model/mechanisms/robot_leg_bending.h"
 
 // The quasi-static shape of a robot's leg that stands: M89.
 
@@ -77,13 +78,84 @@ TEST(RobotLegShape, IsTheOneOfLeastBending) {
       for (int row = 0; row < 2; ++row)
         for (int a = 0; a < 3; ++a) sum[k++] += share * v(row, a);
       for (int a = 0; a < 3; ++a) sum[k++] += share * turn(a);
+      const double along = psi - kPi + (static_cast<double>(i) + 0.5) * share * kPi;
+      const Vector2<double> mode = BendingAt(along + kPi - psi, kPi - psi);
+      const Eigen::Vector3d taken = v.transpose() * Eigen::Vector2d(mode.x, mode.y);
+      for (int a = 0; a < 3; ++a) sum[k++] += share * taken(a);
     }
     const auto shape = LegShapeByQuadrature(psi);
+    const Vector2<double> contact = BendingAt(kPi - psi, kPi - psi);
+    sum[LegShape::kContactX] = contact.x;
+    sum[LegShape::kContactY] = contact.y;
     for (int k = 0; k < LegShape::kCount; ++k)
       worst = std::max(worst, std::abs(sum[k] - shape[k]) / (1.0 + std::abs(shape[k])));
   }
   std::printf("shape against 800 hinges, worst %.1e\n", worst);
   EXPECT_LT(worst, 2e-4);
+}
+
+// ---- a leg in the air, M98 -------------------------------------------------------------------
+
+// The lowest mode of a half circle of hinges that is clamped at its hip, at angle 0; the first part
+// of it may be rigid.
+struct HingeMode {
+  double stiffness;  // square of its frequency
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero(), toe;
+  double about = 0.0;
+
+  HingeMode(int count, int rigid) {
+    const double step = kPi / count;
+    const auto at = [](double s) { return Eigen::Vector2d(-std::sin(s), std::cos(s) - 1.0); };
+    const int free = count - rigid;
+    // Columns: what hinge j moves of point i, in the middle of its piece.
+    Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(2 * count, free);
+    Eigen::MatrixXd end(2, free);
+    const auto turned = [](const Eigen::Vector2d& d) { return Eigen::Vector2d(-d.y(), d.x()); };
+    for (int j = 0; j < free; ++j) {
+      const Eigen::Vector2d hinge = at((rigid + j) * step);
+      end.col(j) = turned(at(kPi) - hinge);
+      for (int i = rigid + j; i < count; ++i)
+        moves.block<2, 1>(2 * i, j) = turned(at((i + 0.5) * step) - hinge);
+    }
+    Eigen::VectorXd springs = Eigen::VectorXd::Constant(free, 1.0 / step);
+    springs(0) *= 2.0;  // half a piece lies before the first
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+        moves.transpose() * moves / count, springs.asDiagonal().toDenseMatrix());
+    stiffness = 1.0 / modes.eigenvalues()(free - 1);
+    Eigen::VectorXd shape = modes.eigenvectors().col(free - 1) * std::sqrt(stiffness);
+    toe = end * shape;
+    if (toe.x() < 0.0) shape = -shape, toe = -toe;
+    const Eigen::VectorXd points = moves * shape;
+    for (int i = 0; i < count; ++i) {
+      const Eigen::Vector2d moved = points.segment<2>(2 * i), from = at((i + 0.5) * step);
+      mean += moved / count;
+      about += (from.x() * moved.y() - from.y() * moved.x()) / count;
+    }
+  }
+};
+
+TEST(RobotLegBending, IsTheFirstModeOfAHalfCircle) {
+  const HingeMode hinges(400, 0);
+  const LegBending& mode = FirstBending();
+  const Vector2<double> toe = BendingAt(0.0, 0.0), hip = BendingAt(kPi, 0.0);
+  EXPECT_NEAR(mode.stiffness, hinges.stiffness, 1e-4);
+  EXPECT_NEAR(mode.along, hinges.mean.x(), 1e-4);
+  EXPECT_NEAR(mode.up, hinges.mean.y(), 1e-4);
+  EXPECT_NEAR(mode.about, hinges.about, 1e-4);
+  EXPECT_NEAR(toe.x, hinges.toe.x(), 1e-3);
+  EXPECT_NEAR(toe.y, hinges.toe.y(), 1e-3);
+  EXPECT_NEAR(std::hypot(hip.x, hip.y), 0.0, 1e-14);
+}
+
+// A clamp stiffens it; its shape is taken as that without.
+TEST(RobotLegBending, IsStifferWithAClamp) {
+  for (int rigid : {8, 16, 32}) {
+    const HingeMode hinges(400, rigid);
+    const double told =
+        FirstBending().stiffness * std::pow(1.0 - rigid / 400.0, -LegBending::kByClamp);
+    EXPECT_NEAR(told / hinges.stiffness, 1.0, 5e-3) << rigid;
+    EXPECT_NEAR(FirstBending().about / hinges.about, 1.0, 0.06) << rigid;
+  }
 }
 
 // The hinge's error is of the first order where a piece lies across the contact: the half circle on
