@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "model/laws/leg_load.h"
 #include "model/mechanisms/inertia.h"
+#include "model/mechanisms/robot_bending_inl.h"
 #include "model/mechanisms/robot_blows_inl.h"
 #include "model/mechanisms/robot_dynamics_inl.h"
 #include "model/mechanisms/robot_events_inl.h"

@@ -82,20 +82,6 @@ void Robot<T>::Blow(int i, T* z) {
   GoOnWith(now, z);
 }
 
-// M98: how far the mode is bent by what the ground held, with no more energy than that of the leg.
-template <class T>
-T Robot<T>::BendLeft(int i, const Hip& hip, const T* z) const {
-  using std::sqrt;
-  const RobotLeg<T>& law = leg_[i].law;
-  const ClampedPlace<T> place = PlaceOf(leg_[i], i, hip, z);
-  const ClampedLoad<T> load = law.At(FootOf(leg_[i]), place, false);
-  const Vector2<T> at = ContactBending(hip.angle);
-  const T force = at.x * load.fx + at.y * load.fy, &k = law.bending_stiffness();
-  const T held = 2.0 * k * law.StrainEnergy(FootOf(leg_[i]), place);
-  if (!(Value(force * force) > Value(held))) return force / k;
-  return (Value(force) < 0.0 ? -1.0 : 1.0) * sqrt(held) / k;
-}
-
 // M91: the leg leaves the ground; what its points had along the motions that are free then is kept,
 // and so is what of its bend the mode in the air can hold.
 template <class T>
