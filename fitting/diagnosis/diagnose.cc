@@ -39,7 +39,10 @@ class StageByStage {
     for (double until = FirstStancesOver(whole_).value_or(end); until < end; until *= kLonger) {
       Diagnosis longer = OfFirst(until, last);
       if (longer.interrupted) return longer;
-      if (!longer.refusal.empty()) break;
+      if (!longer.refusal.empty()) {
+        if (options_.stage) options_.stage("no verdict of that: " + longer.refusal);
+        break;
+      }
       const bool nothing_seen = longer.verdict == Verdict::kAdequate;
       Tell(longer);
       if (IsLessSure(longer, last)) return WithWholeTrials(std::move(*last));

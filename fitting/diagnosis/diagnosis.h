@@ -39,6 +39,9 @@ inline constexpr double kDoubtLevel = 0.05;
 /// Probability from which a cause is named without a doubt, and below which something that is not
 /// in the catalogue is the more likely cause.
 inline constexpr double kSure = 0.95, kLikely = 0.5;
+/// Where no cause is likely and the model misses less than this share of the noise, nothing is
+/// wrong with it that matters.
+inline constexpr double kSlight = 0.2;
 /// Share of the misfit's excess over noise an extension must explain to name a cause while some
 /// misfit remains: then what remains is seen, but of no consequence. With 0.9 one in five wrong
 /// names of an effect outside the catalogue passed in spite of what it left. A cause with the

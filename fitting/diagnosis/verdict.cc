@@ -1,6 +1,7 @@
 #include "fitting/diagnosis/verdict.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -32,6 +33,24 @@ void WeighWhatIsLeft(Diagnosis& d, double material) {
   d.left.material = d.left.probability > 0.5 && d.left.share > material;
 }
 
+// What the model misses, over the noise.
+double MisfitOverNoise(const Detection& seen) {
+  const double excess = seen.chi2 - seen.degrees_of_freedom;
+  return excess > 0.0 ? std::sqrt(excess / seen.degrees_of_freedom) : 0.0;
+}
+
+// Something stands out, but it is much less than the noise and no cause is likely: what the data
+// also want is told as corrections.
+void JudgeSlight(Diagnosis& d, double over_noise) {
+  d.verdict = Verdict::kAdequate;
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "what stands out is %.2f of the noise, and most likely no listed cause",
+                over_noise);
+  d.reason = text;
+  for (CauseReport& c : d.extension->causes) c.main = c.stands_in = false;
+}
+
 // Where something stands out of the noise.
 void JudgeWhatIsSeen(Diagnosis& d) {
   const Detection& seen = d.detection;
@@ -48,7 +67,9 @@ void JudgeWhatIsSeen(Diagnosis& d) {
     return;
   }
   const ExtensionReport& e = *d.extension;
-  const bool remains = d.left.material;
+  const bool remains = d.left.material, likely = e.Probability() >= kLikely;
+  const double over_noise = MisfitOverNoise(seen);
+  if (!likely && over_noise < kSlight) return JudgeSlight(d, over_noise);
   if (e.at_bound) {
     d.verdict = Verdict::kUnexplained;
     d.reason =
@@ -58,7 +79,7 @@ void JudgeWhatIsSeen(Diagnosis& d) {
     char text[96];
     std::snprintf(text, sizeof text, " explains only %.0f %% of the misfit", 100.0 * e.explained);
     d.reason = "the best extension, " + NamesOf(d.naming.best) + "," + text;
-  } else if (e.Probability() < kLikely && (remains || e.InDoubt())) {
+  } else if (!likely && (remains || e.InDoubt())) {
     d.verdict = Verdict::kUnexplained;
     char text[160];
     std::snprintf(text, sizeof text,
@@ -99,7 +120,8 @@ void Judge(Diagnosis& d, double material) {
   }
   WeighWhatIsLeft(d, material);
   JudgeWhatIsSeen(d);
-  const bool earned = d.verdict == Verdict::kNamed || d.verdict == Verdict::kAdequate;
+  const bool earned =
+      d.verdict == Verdict::kNamed || (d.verdict == Verdict::kAdequate && !d.extension);
   if (!earned || d.left.material) WithdrawExclusions(d);
 }
 

@@ -123,6 +123,8 @@ class Robot final : public HybridSystem<T> {
   Vector2<T> ContactBending(const T& angle) const;
   T HeldUp(int i, const T& angle, const T* z) const;
   void TakeBendAlong(int i, const T& angle, T* z);
+  T DrawnOff(const Hip& hip, const T& press, const T* z) const;
+  void GoOnIfBrushed(int i, const T& t, T* z);
   T BendLeft(int i, const Hip& hip, const T* z) const;
   LegInertia StandingLeg(int i, const Hip& hip) const;
   void LetFootMove(const Hip& hip, double slides, LegInertia& leg) const;

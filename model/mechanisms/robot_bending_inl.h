@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "base/units.h"
@@ -73,6 +74,22 @@ T Robot<T>::HeldUp(int i, const T& angle, const T* z) const {
 template <class T>
 void Robot<T>::TakeBendAlong(int i, const T& angle, T* z) {
   z[Contact(i)] += z[Bent(i)] * ContactBending(angle).x;
+  z[Bent(i)] = T(0.0);
+}
+
+// M98: a leg that hangs down and lands before it would unbent may not press even so, where its
+// points are drawn up: it has but brushed the ground and goes on unbent.
+template <class T>
+void Robot<T>::GoOnIfBrushed(int i, const T& t, T* z) {
+  const Frame frame(z[Pitch()] - p_.slope);
+  const Hip hip = HipOf(frame, i, z);
+  if (!(Value(z[kY] + hip.y) > Value(Reach(hip.angle)))) return;
+  std::array<ClampedLoad<T>, kMaxLegs> loads;
+  std::array<Vector2<T>, kMaxLegs> ground;
+  GroundForces(frame, t, z, loads, ground);
+  if (Value(ground[i].y) > 0.0) return;
+  SpringOff(i, z);
+  LiftOff(i, z);
   z[Bent(i)] = T(0.0);
 }
 

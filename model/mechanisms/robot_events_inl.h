@@ -60,6 +60,7 @@ void Robot<T>::ListGuards(Mode mode) {
     } else if (HasCone()) {
       add({EventKind::kSlide, i, weight, 1});
       add({EventKind::kSlide, i, weight, -1});
+      if (foot_has_inertia_) add({EventKind::kLiftoff, i, 1.0});  // it is drawn off
     } else {
       add({EventKind::kLiftoff, i, weight});
     }
@@ -129,7 +130,9 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
         if (Bends(i)) g[k] += HeldUp(i, hip.angle, z);
         break;
       case EventKind::kLiftoff:
-        g[k] = guard.side != 0.0 ? T(load.yield - kLeastYield) : ground[i].y;
+        g[k] = guard.side != 0.0                            ? T(load.yield - kLeastYield)
+               : foot_has_inertia_ && leg_[i].slides == 0.0 ? DrawnOff(hip, ground[i].y, z)
+                                                            : ground[i].y;
         break;
       case EventKind::kSlide:
         g[k] = robot_.friction * ground[i].y + guard.side * ground[i].x;
@@ -164,6 +167,15 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
   }
 }
 
+// A foot that holds from its blow on and never comes to press (M92) is drawn off where its hip is
+// higher than its leg reaches.
+template <class T>
+T Robot<T>::DrawnOff(const Hip& hip, const T& press, const T* z) const {
+  const T pressed = press / (p_.m * std::abs(Value(gravity_y_)));
+  const T below = (Reach(hip.angle) - (z[kY] + hip.y)) / size_;
+  return Value(pressed) > Value(below) ? pressed : below;
+}
+
 // M74: the leg lands with the part of it that is lowest.
 template <class T>
 std::optional<Outcome> Robot<T>::Land(int i, const T& t, T* z, bool comes_down) {
@@ -179,10 +191,9 @@ std::optional<Outcome> Robot<T>::Land(int i, const T& t, T* z, bool comes_down) 
   leg.law.StartAt(as.tip);
   leg.slides = 0.0;
   if (comes_down && follows_legs_) Blow(i, z);
-  if (foot_has_inertia_) {
-    if (comes_down && leg.slides == 0.0) SlideOutsideCone(i, 0.0, t, z);
-    return std::nullopt;
-  }
+  if (foot_has_inertia_ && comes_down && leg.slides == 0.0) SlideOutsideCone(i, 0.0, t, z);
+  if (follows_legs_ && comes_down) GoOnIfBrushed(i, t, z);
+  if (foot_has_inertia_ || !IsDown(leg)) return std::nullopt;
   // The point of contact moves with the leg, that bends only from here on.
   const Hip after = HipOf(frame, i, z);
   const double u = Value(as.lead), height = Value(Reach(hip.angle)), spin = Value(after.rate);

@@ -137,11 +137,13 @@ TEST(Diagnose, AMisfitThatTheOnlyCandidateCannotExplainNamesNobody) {
   EXPECT_EQ(NameOf(result.verdict), "unexplained") << result.reason;
 }
 
-// Something is seen; one main cause has this probability and explains this share, and it is certain
-// that more is left.
-Verdict VerdictOf(double probability, double explained) {
+// Something is seen, of twice the noise or of this share of it; one main cause has this probability
+// and explains this share, and it is certain that more is left but where all is explained.
+Diagnosis Judged(double probability, double explained, double over_noise = 2.0) {
   Diagnosis d;
   d.detection.p_value = 0.0;
+  d.detection.degrees_of_freedom = 1000;
+  d.detection.chi2 = 1000.0 * (1.0 + over_noise * over_noise);
   d.naming.best.members = {testing::CandidateOf("air_drag")};
   d.naming.best.evidence.discrepancy = 100.0;
   d.naming.groups = {{0}};
@@ -154,9 +156,12 @@ Verdict VerdictOf(double probability, double explained) {
   ExtensionReport& e = d.extension.emplace();
   e.causes = {cause};
   e.explained = explained;
-  e.remainder.p_value = 0.0;
+  e.remainder.p_value = explained < 1.0 ? 0.0 : 0.5;
   Judge(d, kMaterial);
-  return d.verdict;
+  return d;
+}
+Verdict VerdictOf(double probability, double explained) {
+  return Judged(probability, explained).verdict;
 }
 
 TEST(Verdict, GoesByTheProbabilityOfTheNameBeforeWhatItLeaves) {
@@ -166,6 +171,20 @@ TEST(Verdict, GoesByTheProbabilityOfTheNameBeforeWhatItLeaves) {
   EXPECT_EQ(VerdictOf(0.79, 0.4), Verdict::kUnexplained);
   EXPECT_EQ(VerdictOf(0.79, 0.96), Verdict::kConfounded);
   EXPECT_EQ(VerdictOf(0.3, 0.96), Verdict::kUnexplained);
+  EXPECT_EQ(VerdictOf(0.3, 1.0), Verdict::kConfounded);  // nothing is left to say otherwise
+}
+
+// A model of another engine is never quite right: where no cause is likely, a misfit of a tenth of
+// the noise asks for none.
+TEST(Verdict, AMisfitFarBelowTheNoiseNamesNoUnlikelyCause) {
+  for (double explained : {0.4, 1.0}) {
+    const Diagnosis slight = Judged(0.3, explained, 0.1);
+    EXPECT_EQ(slight.verdict, Verdict::kAdequate);
+    EXPECT_TRUE(slight.extension->MainCauses().empty());
+    EXPECT_NE(slight.reason.find("0.10 of the noise"), std::string::npos) << slight.reason;
+    EXPECT_NE(Judged(0.3, explained, 0.3).verdict, Verdict::kAdequate);
+  }
+  EXPECT_EQ(Judged(0.97, 1.0, 0.1).verdict, Verdict::kNamed);  // small, and there
 }
 
 TEST(Verdict, AStandInCastsADoubtOnTheWholeAndOnNoName) {
