@@ -8,7 +8,8 @@ std::string DiagnosisRun::Failure() const {
 }
 
 bool DiagnosisRun::WantsFormula() const {
-  return Failure().empty() && (diagnosis.CausesMayStandIn() || diagnosis.left.material);
+  const bool left = diagnosis.left.material && diagnosis.verdict != Verdict::kAdequate;
+  return Failure().empty() && (diagnosis.CausesMayStandIn() || left);
 }
 
 DiagnosisRun RunDiagnosis(const Dataset& dataset, const DiagnosisOptions& options) {

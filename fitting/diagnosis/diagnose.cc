@@ -10,6 +10,7 @@
 #include "fitting/diagnosis/diagnosis.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/null_fit.h"
+#include "fitting/diagnosis/verdict.h"
 #include "fitting/followed_part.h"
 #include "fitting/growing_horizon.h"
 #include "fitting/stop_check.h"
@@ -53,7 +54,7 @@ class StageByStage {
     if (last && !WholeIsMinimum() && !Stopped()) return WithWholeTrials(std::move(*last));
     Diagnosis whole = DiagnoseFitted(std::move(WholeNull()), options_, FoundIn(last, whole_));
     const bool keeps_last = !whole.refusal.empty() || IsLessSure(whole, last);
-    if (last && last->extension && keeps_last && !whole.interrupted)
+    if (last && NamesSomething(*last) && keeps_last && !whole.interrupted)
       return WithWholeTrials(std::move(*last));
     return whole;
   }
@@ -62,7 +63,7 @@ class StageByStage {
   bool Stopped() const { return options_.fit.stop && *options_.fit.stop; }
   // A model's own errors grow from landing to landing, too, and make names less sure again.
   static bool IsLessSure(const Diagnosis& longer, const std::optional<Diagnosis>& shorter) {
-    return shorter && shorter->extension && Sureness(longer) < Sureness(*shorter);
+    return shorter && NamesSomething(*shorter) && Sureness(longer) < Sureness(*shorter);
   }
   // Of the names, stand-ins aside: longer parts have more of them, and they are told in any case.
   // Where nothing is named, that nothing is there.
@@ -73,7 +74,7 @@ class StageByStage {
     if (!options_.stage) return;
     std::string text = "up to there: " + std::string(NameOf(d.verdict));
     for (const CauseReport* c :
-         d.extension ? d.extension->ToldCauses() : std::vector<const CauseReport*>())
+         NamesSomething(d) ? d.extension->ToldCauses() : std::vector<const CauseReport*>())
       text += ", " + c->cause.Name() + " (P " + WithTwoDecimals(c->group_probability) + ")";
     options_.stage(text);
   }
@@ -100,7 +101,7 @@ class StageByStage {
   // What was found in shorter parts, for a search in longer ones.
   Beforehand FoundIn(const std::optional<Diagnosis>& last, const FitProblem& problem) const {
     Beforehand found;
-    if (!last || !last->extension || Stopped()) return found;
+    if (!last || !NamesSomething(*last) || Stopped()) return found;
     found.slow_ones_only_beside = SlowOnesWereNotNeeded(last->naming);
     FittedModel model = CarriedOver(*last, problem).model;
     if (model.ok()) found.begin = std::move(model);

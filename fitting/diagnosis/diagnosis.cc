@@ -141,6 +141,7 @@ class Pipeline {
       d_.extension->at_bound |= d_.naming.best.AtPhysicalBound(member);
     }
     MeasureCandidates();
+    if (IsSlight(d_)) return;  // nothing that a trial would have to settle
     for (const std::vector<FittedModel>& rivals : d_.naming.rivals) {
       if (rivals.size() < 2 || d_.experiment) continue;
       Stage("looking for the trial that would tell the causes apart");
@@ -214,7 +215,7 @@ class Pipeline {
 
   // As free forces, what no cause explains.
   void DescribeWhatIsMissing() {
-    const bool left = d_.extension && d_.left.material;
+    const bool left = NamesSomething(d_) && d_.left.material;
     if (d_.verdict != Verdict::kUnexplained && !left) return;
     const FittedModel& model = d_.extension ? d_.naming.best : d_.plain;
     const Linearisation at = LineariseAt(model, basis_.probes, train_, options_.fit.jobs);

@@ -46,8 +46,8 @@ inline constexpr double kSlight = 0.2;
 /// misfit remains: then what remains is seen, but of no consequence. With 0.9 one in five wrong
 /// names of an effect outside the catalogue passed in spite of what it left. A cause with the
 /// probability kProbable, four times that of all that no list holds, is told whatever it leaves:
-/// more than one thing is wrong then.
-inline constexpr double kExplained = 0.95, kProbable = 0.8;
+/// more than one thing is wrong then. One below kUnlikely is not told even where it leaves nothing.
+inline constexpr double kExplained = 0.95, kProbable = 0.8, kUnlikely = 0.2;
 
 /// Steps where hundreds of models are tried. After 5 s of a pronk positions are off by 2e-7 m,
 /// after half a second of a drop by 1e-11 m; derivatives are good to 3e-6.

@@ -41,12 +41,12 @@ double MisfitOverNoise(const Detection& seen) {
 
 // Something stands out, but it is much less than the noise and no cause is likely: what the data
 // also want is told as corrections.
-void JudgeSlight(Diagnosis& d, double over_noise) {
+void JudgeSlight(Diagnosis& d) {
   d.verdict = Verdict::kAdequate;
   char text[120];
   std::snprintf(text, sizeof text,
                 "what stands out is %.2f of the noise, and most likely no listed cause",
-                over_noise);
+                MisfitOverNoise(d.detection));
   d.reason = text;
   for (CauseReport& c : d.extension->causes) c.main = c.stands_in = false;
 }
@@ -67,19 +67,19 @@ void JudgeWhatIsSeen(Diagnosis& d) {
     return;
   }
   const ExtensionReport& e = *d.extension;
-  const bool remains = d.left.material, likely = e.Probability() >= kLikely;
-  const double over_noise = MisfitOverNoise(seen);
-  if (!likely && over_noise < kSlight) return JudgeSlight(d, over_noise);
+  const double chance = e.Probability();
+  const bool remains = d.left.material, likely = chance >= kLikely;
+  if (IsSlight(d)) return JudgeSlight(d);
   if (e.at_bound) {
     d.verdict = Verdict::kUnexplained;
     d.reason =
         "the best extension, " + NamesOf(d.naming.best) + ", needs a size beyond what is physical";
-  } else if (remains && e.explained < kExplained && e.Probability() < kProbable) {
+  } else if (remains && e.explained < kExplained && chance < kProbable) {
     d.verdict = Verdict::kUnexplained;
     char text[96];
     std::snprintf(text, sizeof text, " explains only %.0f %% of the misfit", 100.0 * e.explained);
     d.reason = "the best extension, " + NamesOf(d.naming.best) + "," + text;
-  } else if (!likely && (remains || e.InDoubt())) {
+  } else if (chance < kUnlikely || (!likely && (remains || e.InDoubt()))) {
     d.verdict = Verdict::kUnexplained;
     char text[160];
     std::snprintf(text, sizeof text,
@@ -105,6 +105,17 @@ void WithdrawExclusions(Diagnosis& d) {
 }
 
 }  // namespace
+
+bool IsSlight(const Diagnosis& d) {
+  if (!d.extension) return false;
+  const std::vector<CauseReport>& causes = d.extension->causes;
+  const double square = d.detection.chi2 / d.detection.degrees_of_freedom - 1.0;
+  return std::abs(square) < kSlight * kSlight &&
+         std::none_of(causes.begin(), causes.end(),
+                      [](const CauseReport& c) { return c.group_probability >= kLikely; });
+}
+
+bool NamesSomething(const Diagnosis& d) { return d.extension && d.verdict != Verdict::kAdequate; }
 
 double LeftShare(const Detection& seen, double square, int parameters) {
   const double excess = seen.chi2 - seen.degrees_of_freedom;

@@ -13,4 +13,11 @@ double LeftShare(const Detection& seen, double square, int parameters);
 /// share is above `material`.
 void Judge(Diagnosis& diagnosis, double material);
 
+/// Whether something stands out that is much less than the noise (kSlight), and no cause found for
+/// it is likely.
+bool IsSlight(const Diagnosis& diagnosis);
+
+/// Whether the causes found are told as more than what the data also want.
+bool NamesSomething(const Diagnosis& diagnosis);
+
 }  // namespace hoplab

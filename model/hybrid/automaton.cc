@@ -35,6 +35,7 @@ constexpr EventTraits kEvents[] = {
     {.name = "fall_pitch"},
     {.name = "slide", .waits_to_open = true},
     {.name = "stick", .waits_to_open = true},
+    {.name = "brush"},
     {.name = "gear_mesh"},
     {.name = "switch"},
     {.name = "corner", .changes_flow = true},

@@ -25,6 +25,7 @@ enum class EventKind {
   kFallPitch,       // a robot's body pitches beyond its limit
   kSlide,           // a foot that held begins to slide
   kStick,           // a sliding foot comes to hold
+  kBrush,           // a leg meets the ground and is off it at once
   kGearMesh,        // teeth of a motor's gear meet or part
   kSwitch,          // mode change of a piecewise-smooth system without a leg
   kCorner           // a formula is about to go on by another branch
@@ -96,6 +97,7 @@ struct ResetResult {
   Mode next;
   std::optional<Outcome> end = std::nullopt;
   bool is_hop = true;  // an apex from which the leg will touch down again
+  std::optional<EventKind> turned_out = std::nullopt;  // to be another event than its guard's
 };
 
 /// Where a guard reached zero; guard -1: none did.

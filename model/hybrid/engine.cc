@@ -267,6 +267,7 @@ std::optional<Outcome> Engine<T>::Process(int guard, bool with_last_event) {
   event_time_variation_ = event_time - t_;
   for (int i = 0; i < states_; ++i) z_[i] -= flow[i] * event_time_variation_;
   event.mode_after = mode_;
+  event.kind = result.turned_out.value_or(event.kind);
   if (MovesBody()) {
     event.vx_after = z[2];
     event.vy_after = z[3];

@@ -113,7 +113,7 @@ Mode Robot<T>::Begin(Mode, T* z) {
   for (int i = 0; i < legs_; ++i) {
     Leg& leg = leg_[i];
     leg.stance = Stance::kFlight;
-    leg.slides = 0.0;
+    leg.slides = leg.sunk = 0.0;
     leg.turns = 0;
     leg.piece = leg.clock.PieceAt(0.0);
     if (follows_legs_) z[OwnRate(i)] = z[Bent(i)] = T(0.0);
@@ -166,6 +166,7 @@ void Robot<T>::SaveDiscreteState(DiscreteState& to) const {
     for (int value : {static_cast<int>(leg.stance), leg.turns, leg.limit, leg.piece, leg.teeth})
       to.Put(value);
     to.Put(leg.slides);
+    to.Put(leg.sunk);
     leg.law.Save(to);
   }
   inputs_.Save(to);
@@ -178,6 +179,7 @@ void Robot<T>::LoadDiscreteState(DiscreteState& from) {
     for (int* value : {&leg.turns, &leg.limit, &leg.piece, &leg.teeth})
       *value = static_cast<int>(from.Take());
     leg.slides = from.Take();
+    leg.sunk = from.Take();
     leg.law.Load(from);
   }
   inputs_.Load(from);

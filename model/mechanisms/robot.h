@@ -56,6 +56,7 @@ class Robot final : public HybridSystem<T> {
   struct Leg {
     Stance stance = Stance::kFlight;
     double slides = 0.0;   // direction of its foot
+    double sunk = 0.0;     // how far above the ground its lowest point left it, if below [m]
     int turns = 0;         // whole turns taken off the hip's angle since it landed
     int limit = 0;         // side of the torque limit its motor is at
     int piece = 0;         // of its clock
@@ -124,6 +125,8 @@ class Robot final : public HybridSystem<T> {
   T HeldUp(int i, const T& angle, const T* z) const;
   void TakeBendAlong(int i, const T& angle, T* z);
   T DrawnOff(const Hip& hip, const T& press, const T* z) const;
+  T LiftoffMargin(const GuardRef& guard, const Hip& hip, const ClampedLoad<T>& load, const T& press,
+                  const T* z) const;
   void GoOnIfBrushed(int i, const T& t, T* z);
   T BendLeft(int i, const Hip& hip, const T* z) const;
   LegInertia StandingLeg(int i, const Hip& hip) const;
@@ -136,7 +139,7 @@ class Robot final : public HybridSystem<T> {
                     std::array<Vector2<T>, kMaxLegs>& ground) const;
   void SlideOutsideCone(int i, double went, const T& t, const T* z);
   void TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& told, const T& t, T* z);
-  void AskCones(int except, const T& t, const T* z);
+  void AskCones(int except, const T& t, T* z);
   LegMotion<T> MotionOf(int i, const Hip& hip, const T* z) const;
   Vector2<T> PressOf(int i, const Hip& hip, const T* z) const;
   template <class S>

@@ -57,6 +57,8 @@ T Robot<T>::HeldUp(int i, const T& angle, const T* z) const {
   const T& whole = leg_[i].law.length();
   const bool rolling = Value(beta) > 0.0;
   const T arc = rolling ? T(whole - beta) : whole;
+  const T up = bent * at.y;
+  if (Value(arc) < robot_detail::kLeastArc) return up;
   const T s = sin(arc), c = cos(arc);
   const T xx = 1.5 * arc - 2.0 * s + 0.5 * s * c, xy = 1.0 - c - 0.5 * s * s,
           yy = 0.5 * (arc - s * c);
@@ -66,7 +68,7 @@ T Robot<T>::HeldUp(int i, const T& angle, const T* z) const {
     soft = c2 * xx - 2.0 * cs * xy + s2 * yy;
     slant = cs * (xx - yy) + (c2 - s2) * xy;
   }
-  const T up = bent * at.y, free = bent * at.x * slant / soft;
+  const T free = bent * at.x * slant / soft;
   return Value(up) > Value(free) ? up : free;
 }
 
@@ -83,14 +85,14 @@ template <class T>
 void Robot<T>::GoOnIfBrushed(int i, const T& t, T* z) {
   const Frame frame(z[Pitch()] - p_.slope);
   const Hip hip = HipOf(frame, i, z);
-  if (!(Value(z[kY] + hip.y) > Value(Reach(hip.angle)))) return;
+  if (!(Value(z[kY] + hip.y - Reach(hip.angle)) > kAtZero * size_)) return;
   std::array<ClampedLoad<T>, kMaxLegs> loads;
   std::array<Vector2<T>, kMaxLegs> ground;
   GroundForces(frame, t, z, loads, ground);
   if (Value(ground[i].y) > 0.0) return;
   SpringOff(i, z);
-  LiftOff(i, z);
   z[Bent(i)] = T(0.0);
+  LiftOff(i, z);
 }
 
 // M98: how far the mode is bent by what the ground held, with no more energy than that of the leg.
@@ -103,7 +105,7 @@ T Robot<T>::BendLeft(int i, const Hip& hip, const T* z) const {
   const Vector2<T> at = ContactBending(hip.angle);
   const T force = at.x * load.fx + at.y * load.fy, &k = law.bending_stiffness();
   const T held = 2.0 * k * law.StrainEnergy(FootOf(leg_[i]), place);
-  if (!(Value(force * force) > Value(held))) return force / k;
+  if (!(Value(held) > 0.0 && Value(force * force) > Value(held))) return force / k;
   return (Value(force) < 0.0 ? -1.0 : 1.0) * sqrt(held) / k;
 }
 

@@ -19,8 +19,11 @@ inline constexpr double kLeastArc = 0.2;
 inline constexpr double kDeepest = 0.4;
 // A shorter lag of the motors is taken to its first order [s].
 inline constexpr double kShortestLag = 1e-5;
-// Lighter legs than this, over the body, are rigid on the ground, too.
+// Lighter legs than this, over the body, are rigid on the ground and in the air.
 inline constexpr double kLightestLeg = 1e-4;
+// A leg that leaves the ground lands where it comes down to it, or, if it has not risen above it,
+// where it sinks this far below where it left, over its size.
+inline constexpr double kSunk = 0.01;
 // Lowest hip over the legs' size, where nothing else is said.
 inline constexpr double kLowestHip = 0.3;
 }  // namespace robot_detail
@@ -46,7 +49,10 @@ void Robot<T>::ListGuards(Mode mode) {
   const auto add = [this](const GuardRef& guard) { guards_[guard_count_++] = guard; };
   const double weight = Value(p_.m) * std::abs(Value(gravity_y_));
   for (int i = 0; i < legs_; ++i)
-    if (!IsDown(leg_[i])) add({EventKind::kTouchdown, i, size_});
+    if (!IsDown(leg_[i])) {
+      add({EventKind::kTouchdown, i, size_});
+      if (follows_legs_) add({EventKind::kTouchdown, i, size_, /*side=*/-1.0});  // it has sunk
+    }
   for (int i = 0; i < legs_; ++i) {
     const Leg& leg = leg_[i];
     if (!IsDown(leg)) continue;
@@ -62,7 +68,7 @@ void Robot<T>::ListGuards(Mode mode) {
       add({EventKind::kSlide, i, weight, -1});
       if (foot_has_inertia_) add({EventKind::kLiftoff, i, 1.0});  // it is drawn off
     } else {
-      add({EventKind::kLiftoff, i, weight});
+      add({EventKind::kLiftoff, i, follows_legs_ ? 1.0 : weight});
     }
     if (leg.stance == Stance::kRolling) {
       add({EventKind::kRollingToToe, i, 1.0});
@@ -128,11 +134,10 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
       case EventKind::kTouchdown:
         g[k] = z[kY] + hip.y - Reach(hip.angle);
         if (Bends(i)) g[k] += HeldUp(i, hip.angle, z);
+        if (guard.side != 0.0) g[k] += robot_detail::kSunk * size_ - leg_[i].sunk;
         break;
       case EventKind::kLiftoff:
-        g[k] = guard.side != 0.0                            ? T(load.yield - kLeastYield)
-               : foot_has_inertia_ && leg_[i].slides == 0.0 ? DrawnOff(hip, ground[i].y, z)
-                                                            : ground[i].y;
+        g[k] = LiftoffMargin(guard, hip, load, ground[i].y, z);
         break;
       case EventKind::kSlide:
         g[k] = robot_.friction * ground[i].y + guard.side * ground[i].x;
@@ -167,11 +172,19 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
   }
 }
 
+template <class T>
+T Robot<T>::LiftoffMargin(const GuardRef& guard, const Hip& hip, const ClampedLoad<T>& load,
+                          const T& press, const T* z) const {
+  if (guard.side != 0.0) return load.yield - kLeastYield;
+  if (follows_legs_ && leg_[guard.leg].slides == 0.0) return DrawnOff(hip, press, z);
+  return press;
+}
+
 // A foot that holds from its blow on and never comes to press (M92) is drawn off where its hip is
 // higher than its leg reaches.
 template <class T>
 T Robot<T>::DrawnOff(const Hip& hip, const T& press, const T* z) const {
-  const T pressed = press / (p_.m * std::abs(Value(gravity_y_)));
+  const T pressed = press / (p_.m * std::max(std::abs(Value(gravity_y_)), 1e-9));
   const T below = (Reach(hip.angle) - (z[kY] + hip.y)) / size_;
   return Value(pressed) > Value(below) ? pressed : below;
 }
@@ -190,10 +203,13 @@ std::optional<Outcome> Robot<T>::Land(int i, const T& t, T* z, bool comes_down) 
   leg.stance = as.rolling ? Stance::kRolling : Stance::kToe;
   leg.law.StartAt(as.tip);
   leg.slides = 0.0;
-  if (comes_down && follows_legs_) Blow(i, z);
+  if (comes_down && follows_legs_) {
+    Blow(i, z);
+    FindLimits(Value(t), z);
+  }
   if (foot_has_inertia_ && comes_down && leg.slides == 0.0) SlideOutsideCone(i, 0.0, t, z);
   if (follows_legs_ && comes_down) GoOnIfBrushed(i, t, z);
-  if (foot_has_inertia_ || !IsDown(leg)) return std::nullopt;
+  if (follows_legs_ || !IsDown(leg)) return std::nullopt;
   // The point of contact moves with the leg, that bends only from here on.
   const Hip after = HipOf(frame, i, z);
   const double u = Value(as.lead), height = Value(Reach(hip.angle)), spin = Value(after.rate);
@@ -250,11 +266,13 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
   const GuardRef guard = guards_[i];
   Leg& leg = leg_[guard.leg];
   std::optional<Outcome> end;
+  std::optional<EventKind> turned_out;
   std::array<T, kMaxLegs> told;
   for (int k = 0; k < legs_; ++k) told[k] = Torque(k, t, z);
   switch (guard.event) {
     case EventKind::kTouchdown:
       end = Land(guard.leg, t, z);
+      if (!IsDown(leg)) turned_out = EventKind::kBrush;
       break;
     case EventKind::kLiftoff:
       if (follows_legs_) SpringOff(guard.leg, z);
@@ -293,7 +311,7 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
   if (follows_legs_ && !end) TakeJump(guard, told, t, z);
   const Mode mode = ModeNow();
   ListGuards(mode);
-  return {mode, end};
+  return {.next = mode, .end = end, .turned_out = turned_out};
 }
 
 }  // namespace hoplab

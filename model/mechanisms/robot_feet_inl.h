@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/mechanisms/robot.h"
@@ -32,10 +33,13 @@ void Robot<T>::SlideOutsideCone(int i, double went, const T& t, const T* z) {
 // Where accelerations jump, so do the forces on the other feet: one that holds may be beyond its
 // cone.
 template <class T>
-void Robot<T>::AskCones(int except, const T& t, const T* z) {
+void Robot<T>::AskCones(int except, const T& t, T* z) {
   if (!foot_has_inertia_) return;
   for (int i = 0; i < legs_; ++i)
-    if (i != except && IsDown(leg_[i]) && leg_[i].slides == 0.0) SlideOutsideCone(i, 0.0, t, z);
+    if (i != except && IsDown(leg_[i]) && leg_[i].slides == 0.0) {
+      SlideOutsideCone(i, 0.0, t, z);
+      GoOnIfBrushed(i, t, z);
+    }
 }
 
 template <class T>
@@ -43,6 +47,11 @@ void Robot<T>::LiftOff(int i, T* z) {
   leg_[i].stance = Stance::kFlight;
   leg_[i].slides = 0.0;
   z[Contact(i)] = T(0.0);
+  if (!follows_legs_) return;
+  // The mode holds not all of what the arc gave way.
+  const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), i, z);
+  const T over = z[kY] + hip.y - Reach(hip.angle) + HeldUp(i, hip.angle, z);
+  leg_[i].sunk = std::min(Value(over), 0.0);
 }
 
 }  // namespace hoplab

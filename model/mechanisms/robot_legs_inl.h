@@ -7,7 +7,7 @@
 #include "model/mechanisms/robot_dynamics_inl.h"
 #include "model/mechanisms/robot_leg_shape.h"
 
-// The mass of a robot's legs: rigid in the air (M82), by their quasi-static shape on the ground
+// The mass of a robot's legs: in the air (M82), by their quasi-static shape on the ground
 // (M89).
 
 namespace hoplab {
@@ -58,8 +58,8 @@ struct Robot<T>::LegInertia {
   T Bending(const LegMotion<T>& u) const {
     return Follow([](const LegForm& of) { return of.bending.data(); }, 0, u);
   }
-  /// What all motions take to move it so, with its mass and length: the row of the foot's speed
-  /// with its friction.
+  /// What all motions take to move it so, with its mass and length: the row of a foot's speed with
+  /// its friction.
   LegMotion<T> Momenta(const LegMotion<T>& u) const {
     LegMotion<T> p = Carried(u);
     if (has_own) p[3] += lean * (Up(u) - p[1]);

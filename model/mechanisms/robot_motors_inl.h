@@ -165,7 +165,13 @@ double Robot<T>::LongestStep(Mode mode, const T&, const T*) const {
   if (mode != Mode::kFlight) return std::numeric_limits<double>::infinity();
   double rate = 0.0;
   for (int i = 0; i < legs_ && follows_legs_; ++i) {
-    const double square = Value(leg_[i].law.bending_stiffness()) / Value(robot_.leg_mass);
+    // Its hub gives way to it.
+    const LegBending& mode = FirstBending();
+    const double mass = Value(robot_.leg_mass), r = Value(p_.r),
+                 J = Value(hub_[i]) / (mass * r * r);
+    const double firm =
+        robot_.control == MotorControl::kLocked ? 1.0 : 1.0 - mode.about * mode.about / (2.0 + J);
+    const double square = Value(leg_[i].law.bending_stiffness()) / (mass * firm);
     rate = std::max({rate, std::sqrt(square), square * Value(leg_[i].law.tau())});
   }
   if (robot_.control == MotorControl::kLocked) return 2.0 / rate;

@@ -172,6 +172,7 @@ TEST(Verdict, GoesByTheProbabilityOfTheNameBeforeWhatItLeaves) {
   EXPECT_EQ(VerdictOf(0.79, 0.96), Verdict::kConfounded);
   EXPECT_EQ(VerdictOf(0.3, 0.96), Verdict::kUnexplained);
   EXPECT_EQ(VerdictOf(0.3, 1.0), Verdict::kConfounded);  // nothing is left to say otherwise
+  EXPECT_EQ(VerdictOf(0.15, 1.0), Verdict::kUnexplained);
 }
 
 // A model of another engine is never quite right: where no cause is likely, a misfit of a tenth of
@@ -185,6 +186,16 @@ TEST(Verdict, AMisfitFarBelowTheNoiseNamesNoUnlikelyCause) {
     EXPECT_NE(Judged(0.3, explained, 0.3).verdict, Verdict::kAdequate);
   }
   EXPECT_EQ(Judged(0.97, 1.0, 0.1).verdict, Verdict::kNamed);  // small, and there
+  // Noise that was stated too large is no reason to see less.
+  Diagnosis quiet = Judged(0.3, 0.4);
+  quiet.detection.chi2 = 900.0;
+  EXPECT_FALSE(IsSlight(quiet));
+  // Another cause of the set is likely.
+  Diagnosis two = Judged(0.3, 0.4, 0.1);
+  EXPECT_TRUE(IsSlight(two));
+  two.extension->causes.push_back(two.extension->causes.front());
+  two.extension->causes.back().group_probability = 0.97;
+  EXPECT_FALSE(IsSlight(two));
 }
 
 TEST(Verdict, AStandInCastsADoubtOnTheWholeAndOnNoName) {
