@@ -108,11 +108,11 @@ void WithdrawExclusions(Diagnosis& d) {
 
 bool IsSlight(const Diagnosis& d) {
   if (!d.extension) return false;
-  const std::vector<CauseReport>& causes = d.extension->causes;
+  const std::vector<const CauseReport*> told = d.extension->ToldCauses();
   const double square = d.detection.chi2 / d.detection.degrees_of_freedom - 1.0;
   return std::abs(square) < kSlight * kSlight &&
-         std::none_of(causes.begin(), causes.end(),
-                      [](const CauseReport& c) { return c.group_probability >= kLikely; });
+         std::none_of(told.begin(), told.end(),
+                      [](const CauseReport* c) { return c->group_probability >= kLikely; });
 }
 
 bool NamesSomething(const Diagnosis& d) { return d.extension && d.verdict != Verdict::kAdequate; }

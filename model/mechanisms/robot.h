@@ -125,6 +125,7 @@ class Robot final : public HybridSystem<T> {
   T HeldUp(int i, const T& angle, const T* z) const;
   void TakeBendAlong(int i, const T& angle, T* z);
   T DrawnOff(const Hip& hip, const T& press, const T* z) const;
+  T TouchdownMargin(const GuardRef& guard, const Hip& hip, const T* z) const;
   T LiftoffMargin(const GuardRef& guard, const Hip& hip, const ClampedLoad<T>& load, const T& press,
                   const T* z) const;
   void GoOnIfBrushed(int i, const T& t, T* z);

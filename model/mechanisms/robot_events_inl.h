@@ -132,9 +132,7 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
     const ClampedLoad<T>& load = loads[i];
     switch (guard.event) {
       case EventKind::kTouchdown:
-        g[k] = z[kY] + hip.y - Reach(hip.angle);
-        if (Bends(i)) g[k] += HeldUp(i, hip.angle, z);
-        if (guard.side != 0.0) g[k] += robot_detail::kSunk * size_ - leg_[i].sunk;
+        g[k] = TouchdownMargin(guard, hip, z);
         break;
       case EventKind::kLiftoff:
         g[k] = LiftoffMargin(guard, hip, load, ground[i].y, z);
@@ -170,6 +168,13 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
         g[k] = z[kVy];  // apex
     }
   }
+}
+
+template <class T>
+T Robot<T>::TouchdownMargin(const GuardRef& guard, const Hip& hip, const T* z) const {
+  T over = z[kY] + hip.y - Reach(hip.angle);
+  if (Bends(guard.leg)) over += HeldUp(guard.leg, hip.angle, z);
+  return guard.side == 0.0 ? over : T(over + robot_detail::kSunk * size_ - leg_[guard.leg].sunk);
 }
 
 template <class T>

@@ -70,7 +70,7 @@ class Points {
       for (int k = 0; k < 3 * kPieces; ++k) {
         const double at_rule = (k % 3 - 1) * std::sqrt(0.15),
                      weight = k % 3 == 1 ? 4.0 / 9 : 5.0 / 18;
-        const double along = kPi * (k / 3 + 0.5 + at_rule) / kPieces;
+        const double along = kPi * (std::floor(k / 3.0) + 0.5 + at_rule) / kPieces;
         put(robot.leg_mass * weight / kPieces, hip, -p_.r * std::sin(along),
             -p_.r * (1 - std::cos(along)), at[2] + at[motor], BendingAt(kPi - along, 0.0), bent);
       }
@@ -277,7 +277,8 @@ TEST(RobotLegMass, DerivativesAreThoseOfDifferences) {
       if (clear) rows.push_back(t);
     }
     std::vector<D> directions = {all.front()};  // the mass always, of the others some
-    for (std::size_t k = 0; k < 3; ++k) directions.push_back(all[1 + (3 * seed + k) % 9]);
+    for (std::size_t k = 0; k < 3; ++k)
+      directions.push_back(all[1 + (3 * std::size_t{seed} + k) % 9]);
     if (seed == 3)  // a mass of nothing has a derivative on one side
       directions.erase(directions.begin());
     const std::array channels = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyPitch,

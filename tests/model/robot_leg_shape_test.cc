@@ -103,33 +103,36 @@ struct HingeMode {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero(), toe;
   double about = 0.0;
 
-  HingeMode(int count, int rigid) {
-    const double step = kPi / count;
+  HingeMode(Eigen::Index count, Eigen::Index rigid) {
+    const double step = kPi / static_cast<double>(count);
     const auto at = [](double s) { return Eigen::Vector2d(-std::sin(s), std::cos(s) - 1.0); };
-    const int free = count - rigid;
+    const Eigen::Index free = count - rigid;
     // Columns: what hinge j moves of point i, in the middle of its piece.
     Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(2 * count, free);
     Eigen::MatrixXd end(2, free);
     const auto turned = [](const Eigen::Vector2d& d) { return Eigen::Vector2d(-d.y(), d.x()); };
-    for (int j = 0; j < free; ++j) {
-      const Eigen::Vector2d hinge = at((rigid + j) * step);
+    const auto middle = [&](Eigen::Index i) { return at((static_cast<double>(i) + 0.5) * step); };
+    for (Eigen::Index j = 0; j < free; ++j) {
+      const Eigen::Vector2d hinge = at(static_cast<double>(rigid + j) * step);
       end.col(j) = turned(at(kPi) - hinge);
-      for (int i = rigid + j; i < count; ++i)
-        moves.block<2, 1>(2 * i, j) = turned(at((i + 0.5) * step) - hinge);
+      for (Eigen::Index i = rigid + j; i < count; ++i)
+        moves.block<2, 1>(2 * i, j) = turned(middle(i) - hinge);
     }
     Eigen::VectorXd springs = Eigen::VectorXd::Constant(free, 1.0 / step);
     springs(0) *= 2.0;  // half a piece lies before the first
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-        moves.transpose() * moves / count, springs.asDiagonal().toDenseMatrix());
+        moves.transpose() * moves / static_cast<double>(count),
+        springs.asDiagonal().toDenseMatrix());
     stiffness = 1.0 / modes.eigenvalues()(free - 1);
     Eigen::VectorXd shape = modes.eigenvectors().col(free - 1) * std::sqrt(stiffness);
     toe = end * shape;
     if (toe.x() < 0.0) shape = -shape, toe = -toe;
     const Eigen::VectorXd points = moves * shape;
-    for (int i = 0; i < count; ++i) {
-      const Eigen::Vector2d moved = points.segment<2>(2 * i), from = at((i + 0.5) * step);
-      mean += moved / count;
-      about += (from.x() * moved.y() - from.y() * moved.x()) / count;
+    const double share = 1.0 / static_cast<double>(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::Vector2d moved = points.segment<2>(2 * i), from = middle(i);
+      mean += share * moved;
+      about += share * (from.x() * moved.y() - from.y() * moved.x());
     }
   }
 };
