@@ -39,13 +39,13 @@ double MisfitOverNoise(const Detection& seen) {
   return excess > 0.0 ? std::sqrt(excess / seen.degrees_of_freedom) : 0.0;
 }
 
-// Something stands out, but it is much less than the noise and no cause is likely: what the data
-// also want is told as corrections.
+// Something stands out, but it is much less than the noise and no main cause is likely: what the
+// data also want is told as corrections.
 void JudgeSlight(Diagnosis& d) {
   d.verdict = Verdict::kAdequate;
   char text[120];
   std::snprintf(text, sizeof text,
-                "what stands out is %.2f of the noise, and most likely no listed cause",
+                "what stands out is %.2f of the noise, and no main cause is likely",
                 MisfitOverNoise(d.detection));
   d.reason = text;
   for (CauseReport& c : d.extension->causes) c.main = c.stands_in = false;

@@ -13,8 +13,8 @@ double LeftShare(const Detection& seen, double square, int parameters);
 /// share is above `material`.
 void Judge(Diagnosis& diagnosis, double material);
 
-/// Whether something stands out that is much less than the noise (kSlight), and no cause found for
-/// it is likely.
+/// Whether something stands out that is much less than the noise (kSlight), and no main cause of it
+/// is likely.
 bool IsSlight(const Diagnosis& diagnosis);
 
 /// Whether the causes found are told as more than what the data also want.

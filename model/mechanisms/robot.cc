@@ -80,6 +80,11 @@ typename Robot<T>::Hip Robot<T>::ClampOf(const Hip& hip) const {
 }
 
 template <class T>
+T Robot<T>::HeightOf(const Leg& leg, const Hip& hip, const T* z) const {
+  return z[kY] + hip.y - leg.floor;
+}
+
+template <class T>
 ClampedPlace<T> Robot<T>::PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const {
   return PlaceAt(leg, i, ClampOf(of), z);
 }
@@ -87,7 +92,7 @@ ClampedPlace<T> Robot<T>::PlaceOf(const Leg& leg, int i, const Hip& of, const T*
 template <class T>
 ClampedPlace<T> Robot<T>::PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const {
   return {z[Contact(i)] - z[kX] - hip.x,
-          z[kY] + hip.y,
+          HeightOf(leg, hip, z),
           kPi - hip.angle + 2.0 * kPi * leg.turns,
           FootMoves(i) ? T(hip.vx - z[OwnRate(i)]) : hip.vx,
           hip.vy,
@@ -113,7 +118,7 @@ Mode Robot<T>::Begin(Mode, T* z) {
   for (int i = 0; i < legs_; ++i) {
     Leg& leg = leg_[i];
     leg.stance = Stance::kFlight;
-    leg.slides = leg.sunk = 0.0;
+    leg.slides = leg.sunk = leg.floor = 0.0;
     leg.turns = 0;
     leg.piece = leg.clock.PieceAt(0.0);
     if (follows_legs_) z[OwnRate(i)] = z[Bent(i)] = T(0.0);
@@ -167,6 +172,7 @@ void Robot<T>::SaveDiscreteState(DiscreteState& to) const {
       to.Put(value);
     to.Put(leg.slides);
     to.Put(leg.sunk);
+    to.Put(leg.floor);
     leg.law.Save(to);
   }
   inputs_.Save(to);
@@ -180,6 +186,7 @@ void Robot<T>::LoadDiscreteState(DiscreteState& from) {
       *value = static_cast<int>(from.Take());
     leg.slides = from.Take();
     leg.sunk = from.Take();
+    leg.floor = from.Take();
     leg.law.Load(from);
   }
   inputs_.Load(from);

@@ -55,13 +55,14 @@ class Robot final : public HybridSystem<T> {
   using Stance = Foot::Stance;
   struct Leg {
     Stance stance = Stance::kFlight;
-    double slides = 0.0;   // direction of its foot
-    double sunk = 0.0;     // how far above the ground its lowest point left it, if below [m]
-    int turns = 0;         // whole turns taken off the hip's angle since it landed
-    int limit = 0;         // side of the torque limit its motor is at
-    int piece = 0;         // of its clock
-    int teeth = 0;         // of its gear that are pressed, 0: none
-    int gear_place = -1;   // of its gear among those with play; -1: it has none
+    double slides = 0.0;  // direction of its foot
+    double sunk = 0.0;    // how far above the ground its lowest point left it, if below [m]
+    double floor = 0.0;   // height of what it stands on: below 0 where it sank before it landed [m]
+    int turns = 0;        // whole turns taken off the hip's angle since it landed
+    int limit = 0;        // side of the torque limit its motor is at
+    int piece = 0;        // of its clock
+    int teeth = 0;        // of its gear that are pressed, 0: none
+    int gear_place = -1;  // of its gear among those with play; -1: it has none
     bool is_told = false;  // its motor, a torque that was recorded
     Gear<T> gear = {};
     RobotLeg<T> law = {};
@@ -124,7 +125,7 @@ class Robot final : public HybridSystem<T> {
   Vector2<T> ContactBending(const T& angle) const;
   T HeldUp(int i, const T& angle, const T* z) const;
   void TakeBendAlong(int i, const T& angle, T* z);
-  T DrawnOff(const Hip& hip, const T& press, const T* z) const;
+  T DrawnOff(const Leg& leg, const Hip& hip, const T& press, const T* z) const;
   T TouchdownMargin(const GuardRef& guard, const Hip& hip, const T* z) const;
   T LiftoffMargin(const GuardRef& guard, const Hip& hip, const ClampedLoad<T>& load, const T& press,
                   const T* z) const;
@@ -157,6 +158,8 @@ class Robot final : public HybridSystem<T> {
   void Blow(int i, T* z);
   void SpringOff(int i, T* z);
   void ChangeStance(int i, Stance to, T* z);
+  /// Of its hip over what the leg stands on, or over the ground.
+  T HeightOf(const Leg& leg, const Hip& hip, const T* z) const;
   ClampedPlace<T> PlaceOf(const Leg& leg, int i, const Hip& of, const T* z) const;
   /// The same from the end of the clamp.
   ClampedPlace<T> PlaceAt(const Leg& leg, int i, const Hip& hip, const T* z) const;
@@ -179,6 +182,8 @@ class Robot final : public HybridSystem<T> {
   void MoveAlong(Mode mode, double t, const T& by, const T* z, T* to) const;
   void ListGuards(Mode mode);
   Mode ModeNow() const;
+  /// The level at which a leg lands that has not risen above the ground it left [m].
+  double SunkLevel(const Leg& leg) const;
   std::optional<Outcome> Land(int i, const T& t, T* z, bool comes_down = true);
   void Stick(int i, const T& t, T* z);
   void RollOnto(int i, Stance to, T* z);

@@ -85,7 +85,7 @@ template <class T>
 void Robot<T>::GoOnIfBrushed(int i, const T& t, T* z) {
   const Frame frame(z[Pitch()] - p_.slope);
   const Hip hip = HipOf(frame, i, z);
-  if (!(Value(z[kY] + hip.y - Reach(hip.angle)) > kAtZero * size_)) return;
+  if (!(Value(HeightOf(leg_[i], hip, z) - Reach(hip.angle)) > kAtZero * size_)) return;
   std::array<ClampedLoad<T>, kMaxLegs> loads;
   std::array<Vector2<T>, kMaxLegs> ground;
   GroundForces(frame, t, z, loads, ground);

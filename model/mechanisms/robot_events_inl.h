@@ -22,7 +22,7 @@ inline constexpr double kShortestLag = 1e-5;
 // Lighter legs than this, over the body, are rigid on the ground and in the air.
 inline constexpr double kLightestLeg = 1e-4;
 // A leg that leaves the ground lands where it comes down to it, or, if it has not risen above it,
-// where it sinks this far below where it left, over its size.
+// as on a lower ground where it sinks this far below where it left, over its size.
 inline constexpr double kSunk = 0.01;
 // Lowest hip over the legs' size, where nothing else is said.
 inline constexpr double kLowestHip = 0.3;
@@ -174,23 +174,29 @@ template <class T>
 T Robot<T>::TouchdownMargin(const GuardRef& guard, const Hip& hip, const T* z) const {
   T over = z[kY] + hip.y - Reach(hip.angle);
   if (Bends(guard.leg)) over += HeldUp(guard.leg, hip.angle, z);
-  return guard.side == 0.0 ? over : T(over + robot_detail::kSunk * size_ - leg_[guard.leg].sunk);
+  return guard.side == 0.0 ? over : T(over - SunkLevel(leg_[guard.leg]));
+}
+
+template <class T>
+double Robot<T>::SunkLevel(const Leg& leg) const {
+  return leg.sunk - robot_detail::kSunk * size_;
 }
 
 template <class T>
 T Robot<T>::LiftoffMargin(const GuardRef& guard, const Hip& hip, const ClampedLoad<T>& load,
                           const T& press, const T* z) const {
   if (guard.side != 0.0) return load.yield - kLeastYield;
-  if (follows_legs_ && leg_[guard.leg].slides == 0.0) return DrawnOff(hip, press, z);
+  if (follows_legs_ && leg_[guard.leg].slides == 0.0)
+    return DrawnOff(leg_[guard.leg], hip, press, z);
   return press;
 }
 
 // A foot that holds from its blow on and never comes to press (M92) is drawn off where its hip is
 // higher than its leg reaches.
 template <class T>
-T Robot<T>::DrawnOff(const Hip& hip, const T& press, const T* z) const {
+T Robot<T>::DrawnOff(const Leg& leg, const Hip& hip, const T& press, const T* z) const {
   const T pressed = press / (p_.m * std::max(std::abs(Value(gravity_y_)), 1e-9));
-  const T below = (Reach(hip.angle) - (z[kY] + hip.y)) / size_;
+  const T below = (Reach(hip.angle) - HeightOf(leg, hip, z)) / size_;
   return Value(pressed) > Value(below) ? pressed : below;
 }
 
@@ -276,6 +282,7 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
   for (int k = 0; k < legs_; ++k) told[k] = Torque(k, t, z);
   switch (guard.event) {
     case EventKind::kTouchdown:
+      if (guard.side != 0.0) leg.floor = SunkLevel(leg);
       end = Land(guard.leg, t, z);
       if (!IsDown(leg)) turned_out = EventKind::kBrush;
       break;

@@ -52,6 +52,7 @@ void Robot<T>::LiftOff(int i, T* z) {
   const Hip hip = HipOf(Frame(z[Pitch()] - p_.slope), i, z);
   const T over = z[kY] + hip.y - Reach(hip.angle) + HeldUp(i, hip.angle, z);
   leg_[i].sunk = std::min(Value(over), 0.0);
+  leg_[i].floor = 0.0;
 }
 
 }  // namespace hoplab

@@ -215,7 +215,7 @@ Vector2<T> Robot<T>::PressOf(int i, const Hip& hip, const T* z) const {
     lead = s - p_.r * (leg.law.length() - angle);
     height = p_.r + c;
   }
-  return {z[kX] + hip.x + lead - z[Contact(i)], z[kY] + hip.y - height};
+  return {z[kX] + hip.x + lead - z[Contact(i)], HeightOf(leg, hip, z) - height};
 }
 
 /// The legs of a robot as their masses are now.

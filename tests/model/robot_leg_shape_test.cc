@@ -150,6 +150,30 @@ TEST(RobotLegBending, IsTheFirstModeOfAHalfCircle) {
   EXPECT_NEAR(std::hypot(hip.x, hip.y), 0.0, 1e-14);
 }
 
+// Of what gives way at the contact under a force along the ground it is nearly all, upward less:
+// the rest is of higher modes. C of M68 without load, in closed form.
+TEST(RobotLegBending, IsMostOfTheComplianceAtTheContact) {
+  const auto shares = [](double beta) {
+    const double psi = kPi - beta, s = std::sin(psi), c = std::cos(psi);
+    const Vector2<double> at = BendingAt(beta, beta);
+    const double k = FirstBending().stiffness;
+    return std::array{at.x * at.x / k / (1.5 * psi - 2.0 * s + 0.5 * s * c),
+                      at.y * at.y / k / (0.5 * (psi - s * c))};
+  };
+  for (double beta : {0.0, 0.3, 0.6, 1.0}) {
+    const auto [along, up] = shares(beta);
+    std::printf("beta %.1f: %.3f of the compliance along the ground, %.3f upward\n", beta, along,
+                up);
+    EXPECT_LT(along, 1.0);
+    EXPECT_LT(up, 1.0);
+    if (beta <= 0.6) {
+      EXPECT_GT(along, 0.97);
+    }
+  }
+  EXPECT_NEAR(shares(0.0)[1], 0.45, 0.01);
+  EXPECT_NEAR(shares(1.0)[1], 0.97, 0.01);
+}
+
 // A clamp stiffens it; its shape is taken as that without.
 TEST(RobotLegBending, IsStifferWithAClamp) {
   for (int rigid : {8, 16, 32}) {
