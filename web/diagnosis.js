@@ -66,8 +66,9 @@ const chance = (p) => (isNumber(p) ? p.toFixed(2) : notComputed);
 
 // The extension taken apart: what each cause explains, how likely the name is, and the held-out error without it.
 function causesPart(causes, extension) {
-  if (!causes.length) return undefined;
-  const channels = Object.keys(causes[0].held_out_rmse_without);
+  const leftOut = list(run.set_aside);
+  if (!causes.length && !leftOut.length) return undefined;
+  const channels = Object.keys(causes[0]?.held_out_rmse_without ?? {});
   const unit = (c) => splitUnit(c).unit;
   const row = (c) => [causeText({...c, effect: c.name}), c.parameters.map((p) => `${p.name} = ${quantity(p.value, p.unit, 3)}`).join('; '),
     shareOf(c), chance(c.probability),
@@ -75,7 +76,7 @@ function causesPart(causes, extension) {
   const heads = ['size', 'explains', 'P', ...channels.map((ch) => `without it, ${splitUnit(ch).name}`)];
   const [main, small] = [causes.filter((c) => c.main), causes.filter((c) => !c.main && !c.stands_in)];
   const doubted = (cs) => cs.map((c) => `${causeText({...c, effect: c.name})} (${shareOf(c)}, P ${chance(c.probability_group ?? c.probability)})`).join(', ');
-  const [needed, leftOut] = [causes.filter((c) => c.stands_in), list(run.set_aside)];
+  const needed = causes.filter((c) => c.stands_in);
   const align = `llrr${'r'.repeat(channels.length)}`;
   const left = Object.entries(run.left ?? {}).filter(([, l]) => isNumber(l?.amplitude) && l.amplitude > 0);
   const asked = causes.map((c) => c.name);

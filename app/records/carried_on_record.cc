@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/records/diagnosis_parts.h"
+#include "app/records/diagnosis_words.h"
 #include "app/records/record_parts.h"
 #include "app/terminal/quantity.h"
 #include "base/channel.h"
@@ -20,19 +21,6 @@ double Chi2PerSample(const FittedModel& model) {
   return 2.0 * model.cost / static_cast<double>(samples);
 }
 
-std::string ValueText(const CarriedOn& carried, int k) {
-  const SharedParameter& s = carried.model.problem.shared[static_cast<std::size_t>(k)];
-  const ParameterUncertainty& u = carried.uncertainty.parameters[static_cast<std::size_t>(k)];
-  const double value = carried.model.shared[k];
-  const ReadableUnit unit = ReadableUnitOf(value, s.unit);
-  std::string text = s.name + " " + Significant(value * unit.factor, 4);
-  // Where the model misses more than noise the trials say how far a value may be off.
-  if (const auto& interval = carried.uncertainty.misfit ? u.Wider() : u.ci95)
-    text += fmt::format(" ({} .. {})", Significant(interval->first * unit.factor, 4),
-                        Significant(interval->second * unit.factor, 4));
-  return unit.unit.empty() ? text : text + " " + unit.unit;
-}
-
 }  // namespace
 
 std::string WholeTrialsSentence(const CarriedOn& carried) {
@@ -40,8 +28,7 @@ std::string WholeTrialsSentence(const CarriedOn& carried) {
     return "with it the simulation does not follow them, so something else may show later: " +
            carried.stop.faults.front();
   const FitProblem& problem = carried.model.problem;
-  std::vector<std::string> values, errors;
-  for (int k = 0; k < problem.shared_count(); ++k) values.push_back(ValueText(carried, k));
+  std::vector<std::string> errors;
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const std::string name(NameOf(problem.channels[c].channel));
     errors.push_back(WithoutUnit(name) + " " +
@@ -49,7 +36,7 @@ std::string WholeTrialsSentence(const CarriedOn& carried) {
   }
   return fmt::format(
       "with it the simulation follows them to their end: {}; test error {}; chi2 {:.3g} a sample",
-      Join(values), Join(errors), Chi2PerSample(carried.model));
+      ValuesText(problem, carried.model.shared, carried.uncertainty), Join(errors), Chi2PerSample(carried.model));
 }
 
 Json WholeTrialsRecord(const Diagnosis& diagnosis) {

@@ -132,14 +132,13 @@ Json CausesRecord(const Diagnosis& d) {
 
 Json SetAsideRecord(const Diagnosis& d) {
   Json out = Json::array();
-  if (!d.extension) return out;
-  for (const SetAside& s : d.extension->set_aside)
+  for (const SetAside& s : d.set_aside)
     out.push_back({{"name", s.cause.effect->info.name},
                    {"only_in_trial", TextOrNull(s.cause.only_recording)},
                    {"parameters", SizesOfCause(s.cause, s.values)},
                    {"probability", NumberOrNull(s.probability)},
                    {"share", NumberOrNull(s.share)},
-                   {"share_of_misfit", NumberOrNull(d.extension->OfMisfit(s.share))}});
+                   {"share_of_misfit", NumberOrNull(s.of_misfit)}});
   return out;
 }
 

@@ -177,4 +177,21 @@ std::string CauseText(const Candidate& candidate) {
                                           : name + " in " + Printable(candidate.only_recording);
 }
 
+std::string ValuesText(const FitProblem& problem, const Eigen::VectorXd& shared,
+                       const Uncertainty& uncertainty) {
+  std::vector<std::string> values;
+  for (int k = 0; k < problem.shared_count(); ++k) {
+    const SharedParameter& s = problem.shared[static_cast<std::size_t>(k)];
+    const ParameterUncertainty& u = uncertainty.parameters[static_cast<std::size_t>(k)];
+    const ReadableUnit unit = ReadableUnitOf(shared[k], s.unit);
+    std::string text = s.name + " " + Significant(shared[k] * unit.factor, 4);
+    // Where the model misses more than noise the trials say how far a value may be off.
+    if (const auto& interval = uncertainty.misfit ? u.Wider() : u.ci95)
+      text += fmt::format(" ({} .. {})", Significant(interval->first * unit.factor, 4),
+                          Significant(interval->second * unit.factor, 4));
+    values.push_back(unit.unit.empty() ? text : text + " " + unit.unit);
+  }
+  return Join(values);
+}
+
 }  // namespace hoplab

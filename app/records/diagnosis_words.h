@@ -27,4 +27,8 @@ std::string PlaceText(const FitProblem& problem, const MisfitCell& cell);
 /// "air_drag", "air_drag in train-2.csv".
 std::string CauseText(const Candidate& candidate);
 
+/// "E 22.01 (21.96 .. 22.06) GPa, leg_damping ..": shared values with their 95 % intervals.
+std::string ValuesText(const FitProblem& problem, const Eigen::VectorXd& shared,
+                       const Uncertainty& uncertainty);
+
 }  // namespace hoplab

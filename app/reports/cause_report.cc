@@ -124,27 +124,18 @@ std::string SmallLine(const Diagnosis& d, bool colours) {
       colours);
 }
 
-// What the model needs though its name is most likely wrong, and what it is told without.
-std::string DoubtedLines(const Diagnosis& d, bool colours) {
-  std::vector<std::string> needed, left_out;
+// What the model needs though its name is most likely wrong.
+std::string StandInLine(const Diagnosis& d, bool colours) {
+  std::vector<std::string> needed;
   for (const CauseReport& c : d.extension->causes) {
     if (c.stands_in)
       needed.push_back(fmt::format("{} ({}, P {:.2f})", CauseText(c.cause),
                                    ShareText(d.extension->OfMisfit(c.share)), c.group_probability));
   }
-  for (const SetAside& s : d.extension->set_aside)
-    left_out.push_back(fmt::format("{} ({}, P {:.2f})", CauseText(s.cause),
-                                   ShareText(d.extension->OfMisfit(s.share)), s.probability));
-  std::string text;
-  if (!needed.empty())
-    text += Labelled("stand-in",
-                     "needed, but most likely in place of something not listed: " + Join(needed),
-                     colours);
-  if (!left_out.empty())
-    text += Labelled("left out",
-                     "would explain a little more, but most likely does not act: " + Join(left_out),
-                     colours);
-  return text;
+  if (needed.empty()) return "";
+  return Labelled("stand-in",
+                  "needed, but most likely in place of something not listed: " + Join(needed),
+                  colours);
 }
 
 // "train-1.csv 0.3 N, ...", the first few.
@@ -294,7 +285,19 @@ std::string SureLine(const Diagnosis& d, bool colours) {
 
 std::string CauseLines(const Diagnosis& d, bool colours) {
   return CauseTable(d, colours) + MeaningLines(d, colours) + VariesLines(d, colours) +
-         SmallLine(d, colours) + DoubtedLines(d, colours) + OtherModelsLine(d, colours);
+         SmallLine(d, colours) + StandInLine(d, colours) + LeftOutLine(d, colours) +
+         OtherModelsLine(d, colours);
+}
+
+std::string LeftOutLine(const Diagnosis& d, bool colours) {
+  std::vector<std::string> names;
+  for (const SetAside& s : d.set_aside)
+    names.push_back(fmt::format("{} ({}, P {:.2f})", CauseText(s.cause), ShareText(s.of_misfit),
+                                s.probability));
+  if (names.empty()) return "";
+  return Labelled("left out",
+                  "would explain a little more, but most likely does not act: " + Join(names),
+                  colours);
 }
 
 std::string DoubtLines(const Diagnosis& d, bool colours) {

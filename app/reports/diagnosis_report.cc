@@ -234,8 +234,11 @@ std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, boo
     text += Labelled("gain", GainLine(e), colours);
     text += Labelled("remainder", RemainderLine(e), colours);
     text += DoubtLines(d, colours);
-  } else if (d.before.test.trials > 0) {
-    text += Labelled("test error", TestErrorLine(d), colours);
+  } else {
+    if (!d.uncertainty.parameters.empty())
+      text += Labelled("values", ValuesText(d.problem, d.null.shared, d.uncertainty), colours);
+    if (d.before.test.trials > 0) text += Labelled("test error", TestErrorLine(d), colours);
+    text += LeftOutLine(d, colours);
   }
   if (d.free_forces) text += ForceLines(*d.free_forces, colours);
   text += FormulaLine(d, formula_sought, colours);

@@ -21,6 +21,12 @@ bool SomeMainIsLikely(const std::vector<CauseReport>& causes) {
                      [](const CauseReport& c) { return c.main && c.group_probability >= kLikely; });
 }
 
+SetAside AsSetAside(const CauseReport& c, const ExtensionReport& report, const Naming& naming) {
+  const int member = static_cast<int>(naming.MemberOf(c.candidate));
+  return {c.candidate,  c.cause, naming.best.ValuesOf(member), c.share, report.OfMisfit(c.share),
+          c.probability};
+}
+
 }  // namespace
 
 double Disagreement(std::span<const Heterogeneity> sizes, const Candidate& of) {
@@ -71,16 +77,20 @@ void FindStandIns(std::vector<CauseReport>& causes) {
   }
 }
 
-std::vector<SetAside> DoubtfulCorrections(const ExtensionReport& report, const FittedModel& best,
-                                          const Naming& naming) {
+std::vector<SetAside> DoubtfulCorrections(const ExtensionReport& report, const Naming& naming) {
   std::vector<SetAside> doubtful;
   if (!SomeMainIsLikely(report.causes)) return doubtful;
   for (const CauseReport& c : report.causes) {
     if (c.main || c.stands_in || c.group_probability >= kLikely) continue;
-    const int member = static_cast<int>(naming.MemberOf(c.candidate));
-    doubtful.push_back({c.candidate, c.cause, best.ValuesOf(member), c.share, c.probability});
+    doubtful.push_back(AsSetAside(c, report, naming));
   }
   return doubtful;
+}
+
+std::vector<SetAside> AllCorrections(const ExtensionReport& report, const Naming& naming) {
+  std::vector<SetAside> all;
+  for (const CauseReport& c : report.causes) all.push_back(AsSetAside(c, report, naming));
+  return all;
 }
 
 }  // namespace hoplab

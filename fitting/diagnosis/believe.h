@@ -21,7 +21,9 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
 void FindStandIns(std::vector<CauseReport>& causes);
 
 /// The small corrections whose names are most likely wrong, where some main cause is likely right.
-std::vector<SetAside> DoubtfulCorrections(const ExtensionReport& report, const FittedModel& best,
-                                          const Naming& naming);
+std::vector<SetAside> DoubtfulCorrections(const ExtensionReport& report, const Naming& naming);
+
+/// All of its causes.
+std::vector<SetAside> AllCorrections(const ExtensionReport& report, const Naming& naming);
 
 }  // namespace hoplab

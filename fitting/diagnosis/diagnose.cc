@@ -189,7 +189,7 @@ class StageByStage {
           CandidatesBeside(model, CandidatesOf(whole_, options_.candidates));
       const Linearisation at = LineariseAt(model, others, train, options_.fit.jobs);
       std::vector<OtherModel> more = WithOneMoreOf(d.naming, model, at, others);
-      Doubt(d.extension->set_aside, more);
+      Doubt(d.set_aside, more);
       HoldOtherModels(more, model, carried.uncertainty);
       carried.errors = MeasureHeldOut(model, options_.fit.jobs);
     }

@@ -128,11 +128,14 @@ class Pipeline {
   void Extended(const std::vector<Candidate>& candidates) {
     ExtensionReport report = ReportOf(candidates, {});
     FindStandIns(report.causes);
-    const std::vector<SetAside> doubtful = DoubtfulCorrections(report, d_.naming.best, d_.naming);
+    if (IsSlight(d_.detection, report)) return SetAllAside(report, candidates);
+    std::vector<SetAside> doubtful = DoubtfulCorrections(report, d_.naming);
     if (!doubtful.empty() && !Stopped()) {
       Stage("taking out corrections that are most likely not what they say");
-      if (TakeOut(doubtful, d_.plain.problem, Settings(), d_.naming))
+      if (TakeOut(doubtful, d_.plain.problem, Settings(), d_.naming)) {
         report = Retold(report, candidates, doubtful);
+        d_.set_aside = std::move(doubtful);
+      }
     }
     d_.extension = std::move(report);
     MeasureSizes(*d_.extension, d_, Settings());
@@ -141,7 +144,6 @@ class Pipeline {
       d_.extension->at_bound |= d_.naming.best.AtPhysicalBound(member);
     }
     MeasureCandidates();
-    if (IsSlight(d_)) return;  // nothing that a trial would have to settle
     for (const std::vector<FittedModel>& rivals : d_.naming.rivals) {
       if (rivals.size() < 2 || d_.experiment) continue;
       Stage("looking for the trial that would tell the causes apart");
@@ -149,12 +151,21 @@ class Pipeline {
     }
   }
 
+  // Nothing is told: the model as it is, with intervals that hold what the evidence wanted.
+  void SetAllAside(const ExtensionReport& report, const std::vector<Candidate>& candidates) {
+    d_.set_aside = AllCorrections(report, d_.naming);
+    TakeAllOut(d_.null, d_.naming);
+    std::vector<OtherModel> others = OtherModelsOf(d_.naming, NullAt(candidates), candidates);
+    Doubt(d_.set_aside, others);
+    HoldOtherModels(others, d_.null, d_.uncertainty);
+    MeasureCandidates();
+  }
+
   // What the best extension is worth, without the sizes trial by trial.
   ExtensionReport ReportOf(const std::vector<Candidate>& candidates,
                            const std::vector<SetAside>& set_aside) {
     const FittedModel& best = d_.naming.best;
     ExtensionReport report;
-    report.set_aside = set_aside;
     report.uncertainty = AssessUncertainty(best.problem, train_, best.shared, best.initial_states,
                                            options_.fit.loss, options_.fit.jobs);
     report.after = MeasureHeldOut(best, options_.fit.jobs);

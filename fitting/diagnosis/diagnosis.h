@@ -128,7 +128,6 @@ struct ExtensionReport {
   bool at_bound = false;      // a told cause's size lies on a physical bound
 
   std::vector<CauseReport> causes;   // the members, the largest share first
-  std::vector<SetAside> set_aside;   // what the evidence wanted besides
   std::optional<SizesReport> sizes;  // absent where no told cause varies
   /// A cause's share (CauseReport::share) of the plain model's misfit, of which all of them explain
   /// `explained`.
@@ -182,6 +181,7 @@ struct Diagnosis {
   std::vector<std::optional<HeldOutGain>> candidate_gains;  // of each candidate added alone
   HeldOutErrors before;
   std::optional<ExtensionReport> extension;
+  std::vector<SetAside> set_aside;  // what the evidence wanted besides; without an extension, all
   Leftover left;
   std::optional<SeparatingExperiment> experiment;
   std::optional<CarriedOn> carried_on;    // where causes were named by first parts of the trials

@@ -77,6 +77,19 @@ bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_proble
   return true;
 }
 
+void TakeAllOut(const FittedModel& null, Naming& naming) {
+  for (const std::vector<int>& group : naming.groups)
+    for (const int i : group)
+      naming.candidates[static_cast<std::size_t>(i)].status = CandidateStatus::kNotNeeded;
+  naming.best = null;
+  naming.best_set.clear();
+  naming.groups.clear();
+  naming.rivals.clear();
+  naming.group_weights.clear();
+  naming.gaps.clear();
+  naming.without.clear();
+}
+
 void Doubt(const std::vector<SetAside>& members, std::vector<OtherModel>& models) {
   for (OtherModel& model : models) {
     for (const SetAside& m : members) {

@@ -7,13 +7,14 @@
 
 namespace hoplab {
 
-/// A small correction that the evidence wants and that is most likely not what its name says: the
-/// data are told without it, and what it explained counts as left.
+/// A correction that the evidence wants and that is most likely not what its name says: the data
+/// are told without it, and what it explained counts as left.
 struct SetAside {
   int candidate = 0;  // place in Naming::candidates
   Candidate cause;
   Eigen::VectorXd values;    // in the model that had it, own units
-  double share = 0.0;        // of the misfit, in that model (CauseReport::share)
+  double share = 0.0;        // of what that model explains (CauseReport::share)
+  double of_misfit = 0.0;    // of the plain model's misfit
   double probability = 0.0;  // that the name is right, calibrated
 };
 
@@ -22,6 +23,9 @@ struct SetAside {
 /// model without them could not be fitted. `null_problem`: of the model without causes.
 bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_problem,
              const RefitSettings& settings, Naming& naming);
+
+/// Takes all members out: `null`, the model without causes, is left.
+void TakeAllOut(const FittedModel& null, Naming& naming);
 
 /// No model with one of `members` more is likelier than that member; those that are then ruled out
 /// are dropped.

@@ -39,8 +39,7 @@ double MisfitOverNoise(const Detection& seen) {
   return excess > 0.0 ? std::sqrt(excess / seen.degrees_of_freedom) : 0.0;
 }
 
-// Something stands out, but it is much less than the noise and no main cause is likely: what the
-// data also want is told as corrections.
+// Something stands out, but it is much less than the noise and no main cause is likely.
 void JudgeSlight(Diagnosis& d) {
   d.verdict = Verdict::kAdequate;
   char text[120];
@@ -48,13 +47,13 @@ void JudgeSlight(Diagnosis& d) {
                 "what stands out is %.2f of the noise, and no main cause is likely",
                 MisfitOverNoise(d.detection));
   d.reason = text;
-  for (CauseReport& c : d.extension->causes) c.main = c.stands_in = false;
 }
 
 // Where something stands out of the noise.
 void JudgeWhatIsSeen(Diagnosis& d) {
   const Detection& seen = d.detection;
   if (!d.extension) {
+    if (!d.set_aside.empty()) return JudgeSlight(d);
     if (d.left.material && FreeForcePays(seen)) {
       d.verdict = Verdict::kUnexplained;
       d.reason =
@@ -69,7 +68,6 @@ void JudgeWhatIsSeen(Diagnosis& d) {
   const ExtensionReport& e = *d.extension;
   const double chance = e.Probability();
   const bool remains = d.left.material, likely = chance >= kLikely;
-  if (IsSlight(d)) return JudgeSlight(d);
   if (e.at_bound) {
     d.verdict = Verdict::kUnexplained;
     d.reason =
@@ -106,10 +104,9 @@ void WithdrawExclusions(Diagnosis& d) {
 
 }  // namespace
 
-bool IsSlight(const Diagnosis& d) {
-  if (!d.extension) return false;
-  const std::vector<const CauseReport*> told = d.extension->ToldCauses();
-  const double square = d.detection.chi2 / d.detection.degrees_of_freedom - 1.0;
+bool IsSlight(const Detection& seen, const ExtensionReport& report) {
+  const std::vector<const CauseReport*> told = report.ToldCauses();
+  const double square = seen.chi2 / seen.degrees_of_freedom - 1.0;
   return std::abs(square) < kSlight * kSlight &&
          std::none_of(told.begin(), told.end(),
                       [](const CauseReport* c) { return c->group_probability >= kLikely; });
@@ -132,7 +129,7 @@ void Judge(Diagnosis& d, double material) {
   WeighWhatIsLeft(d, material);
   JudgeWhatIsSeen(d);
   const bool earned =
-      d.verdict == Verdict::kNamed || (d.verdict == Verdict::kAdequate && !d.extension);
+      d.verdict == Verdict::kNamed || (d.verdict == Verdict::kAdequate && d.set_aside.empty());
   if (!earned || d.left.material) WithdrawExclusions(d);
 }
 

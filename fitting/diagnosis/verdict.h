@@ -13,11 +13,11 @@ double LeftShare(const Detection& seen, double square, int parameters);
 /// share is above `material`.
 void Judge(Diagnosis& diagnosis, double material);
 
-/// Whether something stands out that is much less than the noise (kSlight), and no main cause of it
-/// is likely.
-bool IsSlight(const Diagnosis& diagnosis);
+/// Whether something stands out that is much less than the noise (kSlight), and no main cause of
+/// `report` is likely.
+bool IsSlight(const Detection& seen, const ExtensionReport& report);
 
-/// Whether the causes found are told as more than what the data also want.
+/// Whether causes are told.
 bool NamesSomething(const Diagnosis& diagnosis);
 
 }  // namespace hoplab

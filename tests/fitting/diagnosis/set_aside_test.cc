@@ -45,7 +45,7 @@ TEST(SetAside, WhereNoMainCauseIsLikelyAllStay) {
 // Only a small cause, only an unlikely one, and only beside a main one that is likely.
 TEST(SetAside, DoubtfulAreSmallUnlikelyCausesBesideALikelyOne) {
   Naming naming;
-  FittedModel best;
+  FittedModel& best = naming.best;
   for (int i = 0; i < 4; ++i) {
     naming.best_set.push_back(i);
     best.members.push_back(CandidateOf(testing::kSixEffects[static_cast<std::size_t>(i)]));
@@ -55,14 +55,18 @@ TEST(SetAside, DoubtfulAreSmallUnlikelyCausesBesideALikelyOne) {
   ExtensionReport report;
   report.causes = {Cause(0, true, 0.97), Cause(1, true, 0.1), Cause(2, false, 0.1),
                    Cause(3, false, 0.6)};
+  report.explained = 0.8;
+  report.causes[2].share = 0.25;
   FindStandIns(report.causes);
-  const std::vector<SetAside> doubtful = DoubtfulCorrections(report, best, naming);
+  const std::vector<SetAside> doubtful = DoubtfulCorrections(report, naming);
   ASSERT_EQ(doubtful.size(), 1u);
   EXPECT_EQ(doubtful[0].candidate, 2);
   EXPECT_EQ(doubtful[0].values, Eigen::VectorXd::Constant(1, 3.0));
   EXPECT_EQ(doubtful[0].probability, 0.1);
+  EXPECT_EQ(doubtful[0].of_misfit, 0.8 * 0.25);
   for (CauseReport& c : report.causes) c.group_probability = 0.4;
-  EXPECT_TRUE(DoubtfulCorrections(report, best, naming).empty());
+  EXPECT_TRUE(DoubtfulCorrections(report, naming).empty());
+  EXPECT_EQ(AllCorrections(report, naming).size(), 4u);
 }
 
 // The model told without a correction is the one fitted without it from the beginning.
@@ -81,7 +85,7 @@ TEST(SetAside, TakingAMemberOutGivesTheModelThatNeverHadIt) {
   n.groups[0] = {out, third};
   n.candidates[static_cast<std::size_t>(third)].status = CandidateStatus::kIndistinguishable;
   ASSERT_TRUE(
-      TakeOut({{out, delay, n.best.ValuesOf(0), 0.01, 0.1}}, fit.problem, fit.Settings(), n));
+      TakeOut({{out, delay, n.best.ValuesOf(0), 0.01, 0.01, 0.1}}, fit.problem, fit.Settings(), n));
   EXPECT_EQ(n.best.members, std::vector{bias});
   EXPECT_EQ(n.best_set, CandidateSet{kept});
   EXPECT_EQ(n.groups.size(), 1u);
@@ -98,13 +102,28 @@ TEST(SetAside, TakingAMemberOutGivesTheModelThatNeverHadIt) {
   EXPECT_EQ(n.candidates[static_cast<std::size_t>(kept)].status, CandidateStatus::kSupported);
 }
 
+// Where nothing is told, the model without causes is.
+TEST(SetAside, TakingAllOutLeavesTheModelWithoutCauses) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}});
+  Naming n = NameCauses(fit.fits(), testing::CandidatesOf(testing::kSixEffects),
+                        fit.Linearised(fit.settled, testing::CandidatesOf(testing::kSixEffects)),
+                        fit.train, {});
+  ASSERT_EQ(n.best_set.size(), 1u);
+  const int named = n.best_set[0];
+  TakeAllOut(fit.settled, n);
+  EXPECT_TRUE(n.best.members.empty());
+  EXPECT_EQ(n.best.cost, fit.settled.cost);
+  EXPECT_TRUE(n.best_set.empty() && n.groups.empty() && n.rivals.empty() && n.gaps.empty());
+  EXPECT_EQ(n.candidates[static_cast<std::size_t>(named)].status, CandidateStatus::kNotNeeded);
+}
+
 TEST(SetAside, AModelWithItIsNoLikelierThanItsName) {
   const auto odds = [](double log_odds, double probability) {
     OtherModel other;
     other.candidate = 3;
     other.log_odds = log_odds;
     std::vector<OtherModel> models = {other};
-    Doubt({{3, CandidateOf("air_drag"), {}, 0.0, probability}}, models);
+    Doubt({{3, CandidateOf("air_drag"), {}, 0.0, 0.0, probability}}, models);
     return models.empty() ? -std::numeric_limits<double>::infinity() : models[0].log_odds;
   };
   EXPECT_NEAR(odds(20.0, 0.2), std::log(0.25), 1e-12);

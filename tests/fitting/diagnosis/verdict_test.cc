@@ -178,24 +178,39 @@ TEST(Verdict, GoesByTheProbabilityOfTheNameBeforeWhatItLeaves) {
 // A model of another engine is never quite right: where no cause is likely, a misfit of a tenth of
 // the noise asks for none.
 TEST(Verdict, AMisfitFarBelowTheNoiseNamesNoUnlikelyCause) {
+  const auto is_slight = [](const Diagnosis& d) { return IsSlight(d.detection, *d.extension); };
   for (double explained : {0.4, 1.0}) {
-    const Diagnosis slight = Judged(0.3, explained, 0.1);
-    EXPECT_EQ(slight.verdict, Verdict::kAdequate);
-    EXPECT_TRUE(slight.extension->MainCauses().empty());
-    EXPECT_NE(slight.reason.find("0.10 of the noise"), std::string::npos) << slight.reason;
-    EXPECT_NE(Judged(0.3, explained, 0.3).verdict, Verdict::kAdequate);
+    EXPECT_TRUE(is_slight(Judged(0.3, explained, 0.1)));
+    EXPECT_FALSE(is_slight(Judged(0.3, explained, 0.3)));
   }
-  EXPECT_EQ(Judged(0.97, 1.0, 0.1).verdict, Verdict::kNamed);  // small, and there
+  EXPECT_FALSE(is_slight(Judged(0.97, 1.0, 0.1)));  // small, and there
   // Noise that was stated too large is no reason to see less.
   Diagnosis quiet = Judged(0.3, 0.4);
   quiet.detection.chi2 = 900.0;
-  EXPECT_FALSE(IsSlight(quiet));
+  EXPECT_FALSE(is_slight(quiet));
   // Another cause of the set is likely.
   Diagnosis two = Judged(0.3, 0.4, 0.1);
-  EXPECT_TRUE(IsSlight(two));
+  EXPECT_TRUE(is_slight(two));
   two.extension->causes.push_back(two.extension->causes.front());
   two.extension->causes.back().group_probability = 0.97;
-  EXPECT_FALSE(IsSlight(two));
+  EXPECT_FALSE(is_slight(two));
+}
+
+TEST(Verdict, WhereAllIsSetAsideTheModelIsAdequateAndNothingIsExcluded) {
+  Diagnosis d = Judged(0.3, 0.4, 0.1);
+  d.extension.reset();
+  d.naming.best.evidence = {};
+  d.naming.candidates.resize(1);
+  d.naming.candidates[0].status = CandidateStatus::kExcluded;
+  Judge(d, kMaterial);
+  EXPECT_EQ(d.verdict, Verdict::kAdequate);
+  EXPECT_EQ(d.naming.candidates[0].status, CandidateStatus::kExcluded);
+  d.set_aside.resize(1);
+  Judge(d, kMaterial);
+  EXPECT_EQ(d.verdict, Verdict::kAdequate);
+  EXPECT_NE(d.reason.find("0.10 of the noise"), std::string::npos) << d.reason;
+  EXPECT_FALSE(NamesSomething(d));
+  EXPECT_EQ(d.naming.candidates[0].status, CandidateStatus::kNotNeeded);
 }
 
 TEST(Verdict, AStandInCastsADoubtOnTheWholeAndOnNoName) {
