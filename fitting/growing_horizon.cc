@@ -41,6 +41,12 @@ std::vector<double> RoundsFrom(double known) {
 
 bool IsBehind(double cost, double other) { return std::isfinite(cost) && cost > other + kBehind; }
 
+// Costs of two rounds that ended at one minimum, as near as a round goes.
+constexpr double kAlike = 1e-3;
+bool IsAlike(double cost, double other) {
+  return std::isfinite(cost) && std::abs(cost - other) <= kAlike * (1.0 + other);
+}
+
 // The trials cut to the first `fraction` of their time, and what a round that begins at `shared`
 // knows.
 std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
@@ -57,8 +63,15 @@ std::vector<TrialProblem> CutToFraction(const FitProblem& problem,
   return cut;
 }
 
+SolveResult GivenUp(SolveResult result) {
+  result.status = SolveStatus::kGaveUp;
+  result.cost = std::numeric_limits<double>::infinity();
+  result.complete = false;
+  return result;
+}
+
 SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& other,
-                 RoundCosts& costs) {
+                 RoundCosts& costs, bool only_elsewhere = false) {
   const std::vector<TrialProblem>& whole = *request.trials;
   const int most = request.max_iterations;
   const double tolerance = request.function_tolerance;
@@ -74,12 +87,9 @@ SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& oth
     if (next.status == SolveStatus::kInterrupted) return next;
     costs.push_back(IsUsable(next.status) ? next.cost : std::numeric_limits<double>::infinity());
     const std::size_t round = costs.size() - 1;
-    if (round < other.size() && IsBehind(costs.back(), other[round])) {
-      next.status = SolveStatus::kGaveUp;
-      next.cost = std::numeric_limits<double>::infinity();
-      next.complete = false;
-      return next;
-    }
+    if (round < other.size() && (IsBehind(costs.back(), other[round]) ||
+                                 (only_elsewhere && IsAlike(costs.back(), other[round]))))
+      return GivenUp(std::move(next));
     if (!IsUsable(next.status)) continue;
     request.shared = std::move(next.shared);
     request.initial_states = std::move(next.initial_states);
@@ -99,6 +109,11 @@ SolveResult GrowHorizon(SolveRequest request, double known_until) {
 
 SolveResult GrowHorizonBeside(SolveRequest request, const RoundCosts& other, RoundCosts& costs) {
   return Grow(std::move(request), 0.0, other, costs);
+}
+
+SolveResult GrowHorizonElsewhere(SolveRequest request, const RoundCosts& other) {
+  RoundCosts costs;
+  return Grow(std::move(request), 0.0, other, costs, /*only_elsewhere=*/true);
 }
 
 }  // namespace hoplab

@@ -20,4 +20,9 @@ using RoundCosts = std::vector<double>;
 /// worse: it is in another order of events, and later rows will not bring it back.
 SolveResult GrowHorizonBeside(SolveRequest request, const RoundCosts& other, RoundCosts& costs);
 
+/// The same from another place, for what the first search did not find: it gives up, too, after a
+/// round that fits as well as the other's. There it is at the other's minimum, and later rounds
+/// would be the other's.
+SolveResult GrowHorizonElsewhere(SolveRequest request, const RoundCosts& other);
+
 }  // namespace hoplab

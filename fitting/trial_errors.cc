@@ -54,14 +54,15 @@ OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
   request.loss = options.loss;
   request.stop = options.stop;
   const bool grows = TraitsOf(problem.law).lands_leg_by_leg;
-  SolveResult best = grows ? GrowHorizon(request) : Solve(request);
+  RoundCosts costs;
+  SolveResult best = grows ? GrowHorizonBeside(request, {}, costs) : Solve(request);
   const auto is_poor = [&](const SolveResult& r) {
     return !r.complete || r.cost > poor * static_cast<double>(trial.sample_count);
   };
   RandomStream random(options.seed, 0);
   for (int k = 0; k < kMoreRestarts && grows && is_poor(best); ++k) {
     request.initial_states = {DrawnStart(trial, random)};
-    SolveResult other = GrowHorizon(request);
+    SolveResult other = GrowHorizonElsewhere(request, costs);
     if (other.initial_states.empty()) continue;
     if ((other.complete && !best.complete) ||
         (other.complete == best.complete && other.cost < best.cost))

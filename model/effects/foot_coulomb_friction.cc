@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 
 #include "model/effects/effect.h"
 
@@ -13,7 +14,7 @@ struct FootCoulombFriction {
       .kind = EffectKind::kGuard,
       .equation =
           "stance ends where |u|/Y > mu, mu = 1/inverse_mu (M64); with leg_mass the foot slides "
-          "(M87)",
+          "(M87); of a robot 1/mu = 1/(stated mu) + inverse_mu (M69)",
       .sentence =
           "the ground is slippery: the foot slides where it is pushed more sideways than friction "
           "holds",
@@ -23,12 +24,23 @@ struct FootCoulombFriction {
       .has_threshold = true,
       .shows_beside = "leg_mass",
       .massless_leg_only = true,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .for_robot = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    if (parameters.robot) return MakeSlippery(p[0], parameters.robot->friction);
     parameters.law_terms.foot_friction_active = true;
     parameters.law_terms.foot_friction += p[0];
+  }
+
+ private:
+  // A ground that holds, whatever the load, has no finite friction to be differentiated.
+  template <class T>
+  static void MakeSlippery(const T& inverse_mu, T& friction) {
+    const bool holds = !std::isfinite(Value(friction));
+    if (holds && !(Value(inverse_mu) > 0.0)) return;
+    friction = 1.0 / (holds ? inverse_mu : 1.0 / friction + inverse_mu);
   }
 };
 

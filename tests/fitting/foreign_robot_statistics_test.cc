@@ -38,6 +38,8 @@ constexpr Fault kFaults[] = {
      [](Parameters<double>& p, std::size_t leg) { p.robot->extra_damping[leg] = 4e-4; }},
     {"pitch_inertia_scale",
      [](Parameters<double>& p, std::size_t) { p.robot->pitch_inertia *= 1.15; }},
+    {"foot_coulomb_friction",
+     [](Parameters<double>& p, std::size_t) { p.robot->friction = 0.4; }},
 };
 
 // The robots of datasets/: legs of 10 g, half an arc of each fast to its motor.

@@ -64,6 +64,18 @@ TEST(GrowingHorizon, GivesUpBesideOneThatFitsClearlyBetter) {
   EXPECT_TRUE(std::isfinite(GrowHorizon(held).cost));
 }
 
+// A search that ends its first round where another did is that other.
+TEST(GrowingHorizon, GivesUpElsewhereWhereItIsTheOthersMinimum) {
+  const testing::SmallFit fit;
+  RoundCosts costs;
+  GrowHorizonBeside(fit.Request(), {}, costs);
+  SolveRequest request = fit.Request();
+  EXPECT_EQ(GrowHorizonElsewhere(request, costs).status, SolveStatus::kGaveUp);
+  // One that fits better in every round is another.
+  for (double& cost : costs) cost += 1.0 + 0.1 * cost;
+  EXPECT_TRUE(IsUsable(GrowHorizonElsewhere(request, costs).status));
+}
+
 // The front leg meets the ground at the end of the first rows. What two rows say of its stiffness
 // sent it to where no later round could begin, and the fit was refused.
 TEST(GrowingHorizon, ALegStillInTheAirKeepsItsStiffness) {

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -65,6 +67,31 @@ TEST(Robot, EffectsHaveTheDerivativesOfDifferences) {
     EXPECT_TRUE(seen) << effect->info.name;
   }
   EXPECT_GT(columns, 40);
+}
+
+// A slippery floor is the floor of that friction, and nothing where it holds whatever the load.
+TEST(Robot, ASlipperyFloorIsOneOfLessFriction) {
+  for (const double stated : {1.0, std::numeric_limits<double>::infinity()}) {
+    Parameters<double> p = RobotParametersFor(2);
+    p.robot->friction = stated;
+    SimulationRequest q = RobotDrop(p, {0.0, 0.2, 0.5, -0.2, 0.03, 0.2}, 0.14);
+    const auto end_of = [](const SimulationRequest& request) {
+      const std::vector<double> z = Simulate(request).final_state;
+      return Eigen::Map<const Eigen::VectorXd>(z.data(), static_cast<Eigen::Index>(z.size()))
+          .eval();
+    };
+    const Eigen::VectorXd holds = end_of(q);
+    std::array<EffectSetting, 1> effects = {
+        EffectSetting::Null(*FindEffect("foot_coulomb_friction"))};
+    q.effects = effects;
+    EXPECT_EQ(end_of(q), holds);
+    effects[0].values[0] = 1.5;
+    const Eigen::VectorXd slips = end_of(q);
+    q.effects = {};
+    q.parameters.robot->friction = 1.0 / (1.0 / stated + 1.5);
+    EXPECT_EQ(slips, end_of(q));
+    EXPECT_GT((slips - holds).norm(), 1e-3);
+  }
 }
 
 using D = SensitivityDirection;

@@ -28,6 +28,7 @@ const Fault kFaults[] = {
     {"ground 1.5 deg uphill", "ground_slope", "slope", 1.5 * std::numbers::pi / 180.0},
     {"damping of one leg doubled", "leg_damping_%", "tau", 4e-4},
     {"pitch inertia +15 %", "pitch_inertia_scale", "gamma", 0.15},
+    {"floor of friction 0.4, not 1", "foot_coulomb_friction", "inverse_mu", 1.5},
 };
 
 std::string NameFor(const Fault& fault, int seed) {
