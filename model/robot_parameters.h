@@ -13,6 +13,9 @@ namespace hoplab {
 /// Most legs of a robot, seen from the side.
 inline constexpr int kMaxLegs = 4;
 
+/// Rate within which dry friction of a hip turns round (M38, M99) [rad/s].
+inline constexpr double kHipFrictionWidth = 0.5;
+
 /// A robot's body, motors and legs (section 8 of the equation sheet), beside the mass and gravity
 /// it has with every mechanism. SI units and radians; angles as in section 8.
 template <class T>
@@ -40,6 +43,9 @@ struct RobotParameters {
   std::array<T, kMaxLegs> E_scale{T(1.0), T(1.0), T(1.0), T(1.0)};        // [-]
   std::array<T, kMaxLegs> extra_damping{T(0.0), T(0.0), T(0.0), T(0.0)};  // beside damping [s]
   std::array<T, kMaxLegs> gain_of{T(1.0), T(1.0), T(1.0), T(1.0)};        // beside motor_gain [-]
+  // Friction of the hips (M99).
+  std::array<T, kMaxLegs> hip_viscous{T(0.0), T(0.0), T(0.0), T(0.0)};  // [N m s/rad]
+  std::array<T, kMaxLegs> hip_coulomb{T(0.0), T(0.0), T(0.0), T(0.0)};  // [N m]
   // Gears (M96); no play, no gear.
   std::array<T, kMaxLegs> play{T(0.0), T(0.0), T(0.0), T(0.0)};  // from tooth to tooth [rad]
   std::array<T, kMaxLegs> tooth_torque{T(1.0), T(1.0), T(1.0), T(1.0)};   // tau_t [N m]
@@ -66,9 +72,9 @@ struct RobotParameters {
                     &p.motor_kd, &p.motor_gain, &p.motor_lag, &p.friction, &p.clamp, &p.damping,
                     &p.leg_mass, &p.lateral_stiffness, &p.period, &p.duty, &p.sweep, &p.offset})
       act(*v);
-    for (auto* list :
-         {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.rate, &p.E_scale, &p.extra_damping, &p.gain_of,
-          &p.play, &p.tooth_torque, &p.tooth_damping, &p.hub_share, &p.phase})
+    for (auto* list : {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.rate, &p.E_scale, &p.extra_damping,
+                       &p.gain_of, &p.hip_viscous, &p.hip_coulomb, &p.play, &p.tooth_torque,
+                       &p.tooth_damping, &p.hub_share, &p.phase})
       for (auto& v : *list) act(v);
   }
 };
@@ -77,7 +83,7 @@ struct RobotParameters {
 template <class To, class From>
 RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   RobotParameters<To> to;
-  std::array<double, 17 + 13 * kMaxLegs> values{};
+  std::array<double, 17 + 15 * kMaxLegs> values{};
   std::size_t n = 0;
   RobotParameters<From>::Each(from, [&](const From& v) { values[n++] = Value(v); });
   n = 0;

@@ -13,6 +13,6 @@ struct CalibrationTable {
   std::array<double, NameFeatures::kCount> weights;
 };
 inline constexpr CalibrationTable kCalibration = {
-    922, 6.547, {-2.444, -0.8163, -1.378, -4.673, 2.09, -1.147, -0.1256}};
+    922, 5.65, {-2.248, -0.8238, -1.392, -3.912, 1.909, -1.169, -0.06562}};
 
 }  // namespace hoplab

@@ -12,24 +12,29 @@ struct HipCoulombFriction {
       .name = "hip_coulomb_friction",
       .kind = EffectKind::kForce,
       .equation =
-          "T + tau_c tanh((dtheta/dt)/(0.5 rad/s)) in stance, theta the leg angle (M38, M93)",
+          "T + tau_c tanh((dtheta/dt)/(0.5 rad/s)) in stance, theta the leg angle (M38, M93); of a "
+          "robot M99",
       .sentence =
           "the hip bearing or gear rubs with a torque that only asks which way the leg turns",
       .for_legs = true,
       .for_ball = false,
       .dissipative = false,  // of the hop: the joint only takes (M38, M94)
       .sharp = true,
-      .parameters = kParameters};
-  static constexpr double kWidth = 0.5;  // rad/s
+      .parameters = kParameters,
+      .for_robot = true};
 
   template <class T>
-  static void ChangeParameters(const T*, Parameters<T>& parameters) {
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    if (parameters.robot) {
+      for (T& c : parameters.robot->hip_coulomb) c += p[0];
+      return;
+    }
     parameters.law_terms.active = parameters.law_terms.slopes_active = true;
   }
   template <class T>
   static void AddJointTorque(const T* p, const JointMotion<T>& joint, T& torque) {
     using std::tanh;
-    torque += p[0] * tanh(joint.rate / kWidth);
+    torque += p[0] * tanh(joint.rate / kHipFrictionWidth);
   }
 };
 

@@ -11,15 +11,20 @@ struct HipViscousFriction {
   static constexpr EffectInfo kInfo = {
       .name = "hip_viscous_friction",
       .kind = EffectKind::kForce,
-      .equation = "T + b_h dtheta/dt in stance, theta the leg angle (M38, M93)",
+      .equation = "T + b_h dtheta/dt in stance, theta the leg angle (M38, M93); of a robot M99",
       .sentence = "the hip bearing resists turning in proportion to its speed",
       .for_legs = true,
       .for_ball = false,
       .dissipative = false,  // of the hop: the joint only takes (M38, M94)
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .for_robot = true};
 
   template <class T>
-  static void ChangeParameters(const T*, Parameters<T>& parameters) {
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    if (parameters.robot) {
+      for (T& b : parameters.robot->hip_viscous) b += p[0];
+      return;
+    }
     parameters.law_terms.active = parameters.law_terms.slopes_active = true;
   }
   template <class T>

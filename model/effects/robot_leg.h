@@ -27,6 +27,17 @@ inline constexpr std::array<std::string_view, kMaxLegs + 1> kWeakMotor = {
     "the motor of leg 3 is weaker or stronger than its controller thinks",
     "the motor of leg 4 is weaker or stronger than its controller thinks"};
 
+inline constexpr std::array<std::string_view, kMaxLegs + 1> kStiffBearing = {
+    "", "the hip of leg 1 (the hindmost) resists turning in proportion to its speed",
+    "the hip of leg 2 resists turning in proportion to its speed",
+    "the hip of leg 3 resists turning in proportion to its speed",
+    "the hip of leg 4 resists turning in proportion to its speed"};
+inline constexpr std::array<std::string_view, kMaxLegs + 1> kRubbingBearing = {
+    "", "the hip of leg 1 (the hindmost) rubs with a torque that only asks which way it turns",
+    "the hip of leg 2 rubs with a torque that only asks which way it turns",
+    "the hip of leg 3 rubs with a torque that only asks which way it turns",
+    "the hip of leg 4 rubs with a torque that only asks which way it turns"};
+
 inline constexpr std::array<std::string_view, kMaxLegs + 1> kGearWithPlay = {
     "the gears of the robot's motors have play: no torque passes while their teeth are apart",
     "the gear of the motor of leg 1 (the hindmost) has play: no torque passes while its teeth are "
@@ -48,6 +59,11 @@ constexpr EffectInfo InfoOfLeg(int leg, std::string_view name, std::string_view 
           .parameters = parameters,
           .for_robot = true,
           .robot_leg = leg};
+}
+
+constexpr EffectInfo Sharp(EffectInfo info) {
+  info.sharp = true;
+  return info;
 }
 
 template <int leg>
@@ -90,6 +106,40 @@ struct MotorGainOf {
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
     parameters.robot->gain_of[leg - 1] *= 1.0 + p[0];
+  }
+};
+
+template <int leg>
+struct HipViscousFrictionOf {
+  static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
+      "", "hip_viscous_friction_1", "hip_viscous_friction_2", "hip_viscous_friction_3",
+      "hip_viscous_friction_4"};
+  static constexpr std::array kParameters = {
+      EffectParameter{"b_h", "N m s/rad", 0.0, 0.0, 100.0, 0.02}};
+  static constexpr EffectInfo kInfo =
+      InfoOfLeg(leg, kNames[leg], "-b_h dphi/dt on the hub of that leg (M99)", kStiffBearing[leg],
+                kParameters);
+
+  template <class T>
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    parameters.robot->hip_viscous[leg - 1] += p[0];
+  }
+};
+
+template <int leg>
+struct HipCoulombFrictionOf {
+  static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
+      "", "hip_coulomb_friction_1", "hip_coulomb_friction_2", "hip_coulomb_friction_3",
+      "hip_coulomb_friction_4"};
+  static constexpr std::array kParameters = {
+      EffectParameter{"tau_c", "N m", 0.0, 0.0, 1000.0, 0.05}};
+  static constexpr EffectInfo kInfo = Sharp(
+      InfoOfLeg(leg, kNames[leg], "-tau_c tanh((dphi/dt)/(0.5 rad/s)) on the hub of that leg (M99)",
+                kRubbingBearing[leg], kParameters));
+
+  template <class T>
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    parameters.robot->hip_coulomb[leg - 1] += p[0];
   }
 };
 

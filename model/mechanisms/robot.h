@@ -174,6 +174,7 @@ class Robot final : public HybridSystem<T> {
   static int TeethAt(const Leg& leg, double twist);
   void FindTeeth(const T* z);
   T GearTorque(const Leg& leg, int i, const T* z) const;
+  T HipFriction(int leg, const T* z) const;
   T Command(int leg, const T& t, const T* z) const;
   T Torque(int leg, const T& t, const T* z) const;
   T ToldRate(int leg, const T* z, const T* dz) const;
@@ -212,6 +213,7 @@ class Robot final : public HybridSystem<T> {
   std::array<Leg, kMaxLegs> leg_;
   std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]
   std::array<T, kMaxLegs> hub_;   // inertia that turns with each leg's base [kg m^2]
+  std::array<bool, kMaxLegs> rubs_{};  // which hips have friction (M99)
   std::array<GuardRef, kMaxGuards> guards_;
   int guard_count_ = 0;
 };

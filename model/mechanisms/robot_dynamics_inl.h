@@ -42,6 +42,7 @@ typename Robot<T>::Push Robot<T>::PushOf(const Frame& frame, const T& t, const T
       push.on_rotor[i] = given - passed;
       given = passed;
     }
+    if (rubs_[i]) given -= HipFriction(i, z);
     push.on_motor[i] = robot_.control == MotorControl::kLocked ? T(0.0) : T(given + on_hip);
   }
   if (has_body_force_) {

@@ -22,6 +22,7 @@ void Robot<T>::SetUpMotor(int i) {
   leg.is_told =
       robot_.control == MotorControl::kRecorded && !inputs_.Has(OfMotor(InputKind::kLegAngle1, i));
   hub_[i] = robot_.rotor_inertia;
+  rubs_[i] = !IsZero(robot_.hip_viscous[i]) || !IsZero(robot_.hip_coulomb[i]);
   if (!Gear<T>::HasPlay(robot_, i) || robot_.control == MotorControl::kLocked) return;
   leg.gear_place = gears_++;
   leg.gear = Gear<T>(robot_, i);
@@ -65,6 +66,14 @@ T Robot<T>::Torque(int leg, const T& t, const T* z) const {
   if (robot_.control == MotorControl::kLocked) return T(0.0);
   const double side = leg_[leg].limit;
   return side == 0.0 ? Command(leg, t, z) : T(side * robot_.torque_limit);
+}
+
+// M99: what the friction of a hip holds against its turning [N m].
+template <class T>
+T Robot<T>::HipFriction(int leg, const T* z) const {
+  using std::tanh;
+  const T& rate = z[Rate(leg)];
+  return robot_.hip_viscous[leg] * rate + robot_.hip_coulomb[leg] * tanh(rate / kHipFrictionWidth);
 }
 
 // How fast what the motor is told changes within its piece, off its limit [N m/s].

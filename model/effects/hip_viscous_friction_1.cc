@@ -1,0 +1,6 @@
+#include "model/effects/robot_leg.h"
+
+namespace hoplab::effects {
+extern constexpr Effect hip_viscous_friction_1 =
+    MakeEffect<effect_detail::HipViscousFrictionOf<1>>();
+}
