@@ -98,13 +98,17 @@ bool Tips(const Parameters<double>& p, const mjData& data) {
   return std::abs(data.qpos[kPitch]) > tipped || data.qpos[kY] < p.r;
 }
 
+// Degree of freedom of a hip.
+int HipOf(const mjModel& model, int leg) {
+  return model.jnt_dofadr[mj_name2id(&model, mjOBJ_JOINT, fmt::format("hip{}", leg).c_str())];
+}
+
 void RecordRun(const Parameters<double>& p, mjModel& model, const Run& run, RandomStream& noise,
                const std::filesystem::path& file) {
   const RobotParameters<double>& robot = *p.robot;
   const MujocoData data = NewData(model);
   std::array<int, kMaxLegs> hip = {};
-  for (int i = 0; i < robot.legs; ++i)
-    hip[i] = model.jnt_dofadr[mj_name2id(&model, mjOBJ_JOINT, fmt::format("hip{}", i).c_str())];
+  for (int i = 0; i < robot.legs; ++i) hip[i] = HipOf(model, i);
   data->qpos[kY] = run.start[1];
   data->qvel[kX] = run.start[2];
   data->qvel[kY] = run.start[3];
@@ -195,6 +199,11 @@ void RecordRobot(const Parameters<double>& p, const Parameters<double>& told, in
   std::filesystem::create_directories(folder);
   MeetEllipsoidsAsArcs();
   const MujocoModel model = CompileMujoco(BeamRobotText(p));
+  for (int i = 0; i < p.robot->legs; ++i) {
+    const int hip = HipOf(*model, i);
+    model->dof_damping[hip] = p.robot->hip_viscous[i];
+    model->dof_frictionloss[hip] = p.robot->hip_coulomb[i];
+  }
   std::ofstream yaml(folder / "dataset.yaml");
   DescribeRobot(told, compares_torque, yaml);
   RandomStream random(static_cast<std::uint64_t>(seed), 1);

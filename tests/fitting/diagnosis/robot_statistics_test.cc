@@ -29,6 +29,8 @@ const Fault kFaults[] = {
     {"damping of one leg doubled", "leg_damping_%", "tau", 4e-4},
     {"pitch inertia +15 %", "pitch_inertia_scale", "gamma", 0.15},
     {"floor of friction 0.4, not 1", "foot_coulomb_friction", "inverse_mu", 1.5},
+    {"dry friction of 0.3 N m in one hip", "hip_coulomb_friction_%", "tau_c", 0.3},
+    {"viscous friction of 0.1 N m s in one hip", "hip_viscous_friction_%", "b_h", 0.1},
 };
 
 std::string NameFor(const Fault& fault, int seed) {
