@@ -42,8 +42,6 @@ constexpr Fault kFaults[] = {
      [](Parameters<double>& p, std::size_t) { p.robot->friction = 0.4; }},
     {"hip_viscous_friction_%",
      [](Parameters<double>& p, std::size_t leg) { p.robot->hip_viscous[leg] = 0.1; }},
-    {"hip_coulomb_friction_%",
-     [](Parameters<double>& p, std::size_t leg) { p.robot->hip_coulomb[leg] = 0.3; }},
 };
 
 // The robots of datasets/: legs of 10 g, half an arc of each fast to its motor.
