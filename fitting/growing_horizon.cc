@@ -41,10 +41,12 @@ std::vector<double> RoundsFrom(double known) {
 
 bool IsBehind(double cost, double other) { return std::isfinite(cost) && cost > other + kBehind; }
 
-// Costs of two rounds that ended at one minimum, as near as a round goes.
+// Costs of two rounds that ended at one minimum, as near as a round goes: by this share, and by a
+// nat at most. Where either came to nothing they are not alike.
 constexpr double kAlike = 1e-3;
 bool IsAlike(double cost, double other) {
-  return std::isfinite(cost) && std::abs(cost - other) <= kAlike * (1.0 + other);
+  return std::isfinite(cost) && std::isfinite(other) &&
+         std::abs(cost - other) <= std::min(kAlike * (1.0 + other), 1.0);
 }
 
 // The trials cut to the first `fraction` of their time, and what a round that begins at `shared`

@@ -80,16 +80,16 @@ function causesPart(causes, extension) {
   const align = `llrr${'r'.repeat(channels.length)}`;
   const left = Object.entries(run.left ?? {}).filter(([, l]) => isNumber(l?.amplitude) && l.amplitude > 0);
   const asked = causes.map((c) => c.name);
-  return section(main.length ? 'The causes' : 'Small corrections',
+  return section(main.length ? 'The causes' : causes.length ? 'Small corrections' : 'Set aside',
     main.length ? dataTable(['main cause', ...heads], main.map(row), align, 'What each cause explains, and the held-out errors without it') : undefined,
     small.length ? details('Small corrections the data also want, which may stand for details of the model', dataTable(['cause', ...heads], small.map(row), align)) : undefined,
     needed.length ? paragraph(`The model needs them, but most likely in place of something not listed: ${doubted(needed)}.`) : undefined,
-    leftOut.length ? paragraph(`Left out, since they would explain a little more and most likely do not act: ${doubted(leftOut)}.`) : undefined,
+    leftOut.length ? paragraph(`Left out, since they would explain ${causes.length ? 'a little more' : 'some'} and most likely do not act: ${doubted(leftOut)}.`) : undefined,
     ...causes.flatMap((c) => list(c.varies).filter((v) => v.told || !v.refitted).map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
       paragraph(variesText(v)),
       dataTable(['trial', v.name], v.trials.map((t) => [t.trial, quantity(t.value, v.unit, 3)]), 'lr')))),
     otherModelsPart(extension),
-    paragraph(`Probability that the cause is outside the catalogue: ${chance(run.probability_unlisted)}.`),
+    causes.length ? paragraph(`Probability that the cause is outside the catalogue: ${chance(run.probability_unlisted)}.`) : undefined,
     left.length && extension ? paragraph(`What is left is a smooth error of ${left.map(([ch, l]) => `${splitUnit(ch).name} ${quantity(l.amplitude, unit(ch), 3)} over ${quantity(l.time_scale_s, 's', 2)}`).join(', ')}: ${shareText(run.left_share ?? 0)} of the misfit.`) : undefined,
     explained(...asked, 'share', 'probability', 'main-cause', 'discrepancy'));
 }

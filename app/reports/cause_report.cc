@@ -296,7 +296,8 @@ std::string LeftOutLine(const Diagnosis& d, bool colours) {
                                 s.probability));
   if (names.empty()) return "";
   return Labelled("left out",
-                  "would explain a little more, but most likely does not act: " + Join(names),
+                  std::string(d.extension ? "would explain a little more" : "would explain some") +
+                      ", but most likely does not act: " + Join(names),
                   colours);
 }
 

@@ -41,6 +41,11 @@ double RelativeBound(const CandidateResult& c) {
   return most;
 }
 
+bool IsSetAside(const Diagnosis& d, const Candidate& candidate) {
+  return std::any_of(d.set_aside.begin(), d.set_aside.end(),
+                     [&](const SetAside& s) { return s.cause == candidate; });
+}
+
 }  // namespace
 
 std::string ExclusionLines(const Diagnosis& d, bool colours) {
@@ -49,6 +54,7 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
   for (const CandidateResult& c : d.naming.candidates) {
     if (!c.candidate.only_recording.empty()) continue;  // the same effect, more narrowly
     if (c.status == CandidateStatus::kExcluded || c.status == CandidateStatus::kNotNeeded) {
+      if (IsSetAside(d, c.candidate)) continue;
       if (BoundText(c).empty())
         unneeded.push_back(c.candidate.Name());
       else
@@ -72,7 +78,8 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
   std::string text;
   if (!bounds.empty()) text += Labelled("excluded", "beyond " + Capped(bounds), colours);
   if (!unneeded.empty())
-    text += Labelled("not needed", "beside the above: " + Capped(unneeded), colours);
+    text += Labelled("not needed", (d.extension ? "beside the above: " : "") + Capped(unneeded),
+                     colours);
   if (!unseen.empty())
     text += Labelled("never shown", "at typical sizes: " + Capped(unseen), colours);
   if (!untried.empty())

@@ -23,8 +23,16 @@ bool SomeMainIsLikely(const std::vector<CauseReport>& causes) {
 
 SetAside AsSetAside(const CauseReport& c, const ExtensionReport& report, const Naming& naming) {
   const int member = static_cast<int>(naming.MemberOf(c.candidate));
-  return {c.candidate,  c.cause, naming.best.ValuesOf(member), c.share, report.OfMisfit(c.share),
-          c.probability};
+  return {c.candidate,
+          c.cause,
+          naming.best.ValuesOf(member),
+          c.share,
+          report.OfMisfit(c.share),
+          c.probability,
+          c.group_probability,
+          c.evidence_probability,
+          c.features,
+          naming.GroupOf(c.candidate)};
 }
 
 }  // namespace

@@ -154,9 +154,12 @@ class Pipeline {
   // Nothing is told: the model as it is, with intervals that hold what the evidence wanted.
   void SetAllAside(const ExtensionReport& report, const std::vector<Candidate>& candidates) {
     d_.set_aside = AllCorrections(report, d_.naming);
-    TakeAllOut(d_.null, d_.naming);
+    const auto larger = LargerModelOf(d_.null, d_.naming.best, d_.naming.best_set.front(),
+                                      ProbabilityOf(d_.set_aside));
+    TakeAllOut(d_.set_aside, d_.null, d_.naming);
     std::vector<OtherModel> others = OtherModelsOf(d_.naming, NullAt(candidates), candidates);
     Doubt(d_.set_aside, others);
+    if (larger) others.push_back(*larger);
     HoldOtherModels(others, d_.null, d_.uncertainty);
     MeasureCandidates();
   }

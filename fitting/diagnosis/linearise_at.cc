@@ -16,11 +16,11 @@ namespace {
 
 // What a run with this effect costs decides which effects are differentiated together: one that
 // changes the leg's law, or is sharp, slows every column of its run.
-int CostClass(const Candidate& candidate) {
+int CostClass(const Candidate& candidate, bool of_robot) {
   const Effect& effect = *candidate.effect;
   if (effect.info.sharp) return 2;
   Parameters<double> p;
-  if (effect.info.for_robot) p.robot = RobotParameters<double>();
+  if (of_robot) p.robot = RobotParameters<double>();
   if (effect.formula) {
     effect.formula->ChangeParameters(p);
     return p.law_terms.active ? 1 : 0;
@@ -35,10 +35,12 @@ using Places = std::vector<int>;
 
 // Candidates that are differentiated together, by place: as many as one run of the simulator holds
 // directions, so that no run carries an effect it is not differentiated by.
-std::vector<Places> BatchesOf(std::span<const Candidate> tested) {
+std::vector<Places> BatchesOf(std::span<const Candidate> tested, Law law) {
+  const bool of_robot = MechanismOf(law) == MechanismKind::kRobot;
   std::array<Places, 3> classes;
   for (std::size_t i = 0; i < tested.size(); ++i)
-    classes[static_cast<std::size_t>(CostClass(tested[i]))].push_back(static_cast<int>(i));
+    classes[static_cast<std::size_t>(CostClass(tested[i], of_robot))].push_back(
+        static_cast<int>(i));
   std::vector<Places> batches;
   for (const Places& places : classes) {
     int directions = kWidestJet;
@@ -173,7 +175,7 @@ Linearisation LineariseAt(const FittedModel& model, std::span<const Candidate> t
     first_column.push_back(columns);
     columns += c.parameter_count();
   }
-  const std::vector<Places> batches = BatchesOf(tested);
+  const std::vector<Places> batches = BatchesOf(tested, model.problem.law);
   std::vector<Part> parts(train.size());
   ParallelFor(static_cast<int>(train.size()), jobs, [&](int i) {
     const auto at = static_cast<std::size_t>(i);

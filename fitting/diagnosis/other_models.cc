@@ -137,6 +137,17 @@ std::vector<OtherModel> OtherModelsOf(const Naming& naming, const Linearisation&
   return out;
 }
 
+std::optional<OtherModel> LargerModelOf(const FittedModel& told, const FittedModel& larger,
+                                        int candidate, double probability) {
+  const double log_odds = std::log(probability / (1.0 - probability));
+  if (!(log_odds > std::log(kRuledOut))) return std::nullopt;
+  OtherModel out = Rival(told, larger);
+  out.candidate = candidate;
+  out.log_odds = log_odds;
+  out.size = larger.ValuesOf(0) - NullValues({&larger.members.front(), 1});
+  return out;
+}
+
 void HoldOtherModels(std::span<const OtherModel> models, const FittedModel& told,
                      Uncertainty& uncertainty) {
   for (int k = 0; k < told.problem.shared_count(); ++k) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,11 @@ std::vector<OtherModel> WithOneMoreOf(const Naming& naming, const FittedModel& t
 /// The same of `naming.best`, and the rivals of its causes; the likeliest first.
 std::vector<OtherModel> OtherModelsOf(const Naming& naming, const Linearisation& at,
                                       std::span<const Candidate> others);
+
+/// `told` with all the causes of `larger`, whose names have this probability together; none where
+/// that rules it out.
+std::optional<OtherModel> LargerModelOf(const FittedModel& told, const FittedModel& larger,
+                                        int candidate, double probability);
 
 /// Both 95 % intervals of each value, widened until no more than 2.5 % of the probability lies past
 /// either end where the told model and any one of `models` are all there are; what they were is

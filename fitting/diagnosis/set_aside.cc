@@ -27,6 +27,8 @@ FittedModel Without(const FittedModel& model, const std::vector<SetAside>& membe
   return less;
 }
 
+double LogOddsOf(double probability) { return std::log(probability / (1.0 - probability)); }
+
 bool IsInAGroup(const Naming& naming, int candidate) {
   return std::any_of(naming.groups.begin(), naming.groups.end(), [&](const std::vector<int>& g) {
     return std::find(g.begin(), g.end(), candidate) != g.end();
@@ -77,7 +79,14 @@ bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_proble
   return true;
 }
 
-void TakeAllOut(const FittedModel& null, Naming& naming) {
+double ProbabilityOf(const std::vector<SetAside>& members) {
+  double least = 1.0;
+  for (const SetAside& m : members) least = std::min(least, m.group_probability);
+  return least;
+}
+
+void TakeAllOut(const std::vector<SetAside>& members, const FittedModel& null, Naming& naming) {
+  naming.unlisted_probability = 1.0 - ProbabilityOf(members);
   for (const std::vector<int>& group : naming.groups)
     for (const int i : group)
       naming.candidates[static_cast<std::size_t>(i)].status = CandidateStatus::kNotNeeded;
@@ -93,8 +102,11 @@ void TakeAllOut(const FittedModel& null, Naming& naming) {
 void Doubt(const std::vector<SetAside>& members, std::vector<OtherModel>& models) {
   for (OtherModel& model : models) {
     for (const SetAside& m : members) {
-      if (m.candidate != model.candidate) continue;
-      model.log_odds = std::min(model.log_odds, std::log(m.probability / (1.0 - m.probability)));
+      if (m.candidate == model.candidate)
+        model.log_odds = std::min(model.log_odds, LogOddsOf(m.probability));
+      else if (std::find(m.group.begin(), m.group.end(), model.candidate) != m.group.end())
+        model.log_odds =
+            std::min(model.log_odds, LogOddsOf(std::max(m.group_probability - m.probability, 0.0)));
     }
   }
   std::erase_if(models,

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "fitting/diagnosis/calibration.h"
 #include "fitting/diagnosis/name.h"
 #include "fitting/diagnosis/other_models.h"
 
@@ -16,6 +17,9 @@ struct SetAside {
   double share = 0.0;        // of what that model explains (CauseReport::share)
   double of_misfit = 0.0;    // of the plain model's misfit
   double probability = 0.0;  // that the name is right, calibrated
+  double group_probability = 0.0, evidence_probability = 0.0;  // as CauseReport has them
+  NameFeatures features;
+  std::vector<int> group;  // it and what does as well in its place, by place
 };
 
 /// Takes members out of `naming.best`, and out of every model compared with it; each is fitted and
@@ -24,10 +28,15 @@ struct SetAside {
 bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_problem,
              const RefitSettings& settings, Naming& naming);
 
-/// Takes all members out: `null`, the model without causes, is left.
-void TakeAllOut(const FittedModel& null, Naming& naming);
+/// That all of these names are right, or others that do as well.
+double ProbabilityOf(const std::vector<SetAside>& members);
 
-/// No model with one of `members` more is likelier than that member; those that are then ruled out
+/// Takes all members out: `null`, the model without causes, is left, and how likely the least
+/// likely of them is says what is not listed.
+void TakeAllOut(const std::vector<SetAside>& members, const FittedModel& null, Naming& naming);
+
+/// No model with one of `members` more, or with what does as well in its place, is likelier than
+/// that member; those that are then ruled out
 /// are dropped.
 void Doubt(const std::vector<SetAside>& members, std::vector<OtherModel>& models);
 

@@ -38,9 +38,10 @@ struct FootCoulombFriction {
   // A ground that holds, whatever the load, has no finite friction to be differentiated.
   template <class T>
   static void MakeSlippery(const T& inverse_mu, T& friction) {
-    const bool holds = !std::isfinite(Value(friction));
-    if (holds && !(Value(inverse_mu) > 0.0)) return;
-    friction = 1.0 / (holds ? inverse_mu : 1.0 / friction + inverse_mu);
+    if (std::isfinite(Value(friction)))
+      friction = friction / (1.0 + friction * inverse_mu);
+    else if (Value(inverse_mu) > 0.0)
+      friction = 1.0 / inverse_mu;
   }
 };
 

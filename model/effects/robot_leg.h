@@ -115,9 +115,9 @@ struct HipViscousFrictionOf {
       "", "hip_viscous_friction_1", "hip_viscous_friction_2", "hip_viscous_friction_3",
       "hip_viscous_friction_4"};
   static constexpr std::array kParameters = {
-      EffectParameter{"b_h", "N m s/rad", 0.0, 0.0, 100.0, 0.02}};
+      EffectParameter{"b_h", "N m s/rad", 0.0, 0.0, 100.0, 0.005}};
   static constexpr EffectInfo kInfo =
-      InfoOfLeg(leg, kNames[leg], "-b_h dphi/dt on the hub of that leg (M99)", kStiffBearing[leg],
+      InfoOfLeg(leg, kNames[leg], "-b_h dpsi/dt on the hub of that leg (M99)", kStiffBearing[leg],
                 kParameters);
 
   template <class T>
@@ -132,9 +132,9 @@ struct HipCoulombFrictionOf {
       "", "hip_coulomb_friction_1", "hip_coulomb_friction_2", "hip_coulomb_friction_3",
       "hip_coulomb_friction_4"};
   static constexpr std::array kParameters = {
-      EffectParameter{"tau_c", "N m", 0.0, 0.0, 1000.0, 0.05}};
+      EffectParameter{"tau_c", "N m", 0.0, 0.0, 1000.0, 0.03}};
   static constexpr EffectInfo kInfo = Sharp(
-      InfoOfLeg(leg, kNames[leg], "-tau_c tanh((dphi/dt)/(0.5 rad/s)) on the hub of that leg (M99)",
+      InfoOfLeg(leg, kNames[leg], "-tau_c tanh((dpsi/dt)/(0.5 rad/s)) on the hub of that leg (M99)",
                 kRubbingBearing[leg], kParameters));
 
   template <class T>

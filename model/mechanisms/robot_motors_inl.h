@@ -186,6 +186,10 @@ double Robot<T>::LongestStep(Mode mode, const T&, const T*) const {
   if (robot_.control == MotorControl::kLocked) return 2.0 / rate;
   if (lags_) rate = std::max(rate, 1.0 / Value(robot_.motor_lag));
   for (int i = 0; i < legs_; ++i) {
+    if (rubs_[i])
+      rate = std::max(
+          rate, (Value(robot_.hip_viscous[i]) + Value(robot_.hip_coulomb[i]) / kHipFrictionWidth) /
+                    Value(hub_[i]));
     if (leg_[i].is_told) continue;
     const double turned = Value(robot_.rotor_inertia) - (leg_[i].geared() ? Value(hub_[i]) : 0.0);
     rate = std::max(

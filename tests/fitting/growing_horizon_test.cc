@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/support/fit_cases.h"
 #include "tests/support/robot_drops.h"
@@ -71,9 +72,11 @@ TEST(GrowingHorizon, GivesUpElsewhereWhereItIsTheOthersMinimum) {
   GrowHorizonBeside(fit.Request(), {}, costs);
   SolveRequest request = fit.Request();
   EXPECT_EQ(GrowHorizonElsewhere(request, costs).status, SolveStatus::kGaveUp);
-  // One that fits better in every round is another.
-  for (double& cost : costs) cost += 1.0 + 0.1 * cost;
-  EXPECT_TRUE(IsUsable(GrowHorizonElsewhere(request, costs).status));
+  // One that fits better in every round is another, and so is one that comes to something.
+  RoundCosts worse = costs, none(costs.size(), std::numeric_limits<double>::infinity());
+  for (double& cost : worse) cost += 1.0 + 0.1 * cost;
+  EXPECT_TRUE(IsUsable(GrowHorizonElsewhere(request, worse).status));
+  EXPECT_TRUE(IsUsable(GrowHorizonElsewhere(request, none).status));
 }
 
 // The front leg meets the ground at the end of the first rows. What two rows say of its stiffness

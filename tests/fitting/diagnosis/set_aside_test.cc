@@ -48,6 +48,7 @@ TEST(SetAside, DoubtfulAreSmallUnlikelyCausesBesideALikelyOne) {
   FittedModel& best = naming.best;
   for (int i = 0; i < 4; ++i) {
     naming.best_set.push_back(i);
+    naming.groups.push_back({i});
     best.members.push_back(CandidateOf(testing::kSixEffects[static_cast<std::size_t>(i)]));
   }
   best.problem = Extend(best.problem, best.members);
@@ -110,7 +111,11 @@ TEST(SetAside, TakingAllOutLeavesTheModelWithoutCauses) {
                         fit.train, {});
   ASSERT_EQ(n.best_set.size(), 1u);
   const int named = n.best_set[0];
-  TakeAllOut(fit.settled, n);
+  SetAside member;
+  member.candidate = named;
+  member.group_probability = 0.3;
+  TakeAllOut({member}, fit.settled, n);
+  EXPECT_DOUBLE_EQ(n.unlisted_probability, 0.7);
   EXPECT_TRUE(n.best.members.empty());
   EXPECT_EQ(n.best.cost, fit.settled.cost);
   EXPECT_TRUE(n.best_set.empty() && n.groups.empty() && n.rivals.empty() && n.gaps.empty());
@@ -129,6 +134,14 @@ TEST(SetAside, AModelWithItIsNoLikelierThanItsName) {
   EXPECT_NEAR(odds(20.0, 0.2), std::log(0.25), 1e-12);
   EXPECT_EQ(odds(-2.0, 0.2), -2.0);                 // less likely by the data alone
   EXPECT_TRUE(std::isinf(odds(20.0, 0.9 / 20.0)));  // ruled out
+  // What does as well in its place shares what is left of the group.
+  OtherModel rival;
+  rival.candidate = 4;
+  rival.log_odds = 20.0;
+  std::vector<OtherModel> models = {rival};
+  Doubt({{3, CandidateOf("air_drag"), {}, 0.0, 0.0, 0.2, 0.3, 0.0, {}, {3, 4}}}, models);
+  ASSERT_EQ(models.size(), 1u);
+  EXPECT_NEAR(models[0].log_odds, std::log(0.1 / 0.9), 1e-12);
   EXPECT_FALSE(std::isinf(odds(20.0, 1.1 / 20.0)));
 }
 

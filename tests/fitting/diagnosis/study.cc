@@ -70,6 +70,21 @@ bool IsPlanted(const Truth& truth, const Candidate& c) {
 void ReadCauses(const Diagnosis& d, Outcome& out) {
   out.unlisted_probability = d.UnlistedProbability();
   out.left_share = d.left.share;
+  // What is set aside has a probability, too.
+  for (const SetAside& s : d.set_aside) {
+    Outcome::Seen seen;
+    seen.name = s.cause.Name();
+    seen.probability = s.probability;
+    seen.group_probability = s.group_probability;
+    seen.evidence = s.evidence_probability;
+    seen.features = s.features;
+    seen.right = IsPlanted(out.truth, s.cause);
+    for (const int i : s.group)
+      seen.group_right =
+          seen.group_right ||
+          IsPlanted(out.truth, d.naming.candidates[static_cast<std::size_t>(i)].candidate);
+    out.seen.push_back(std::move(seen));
+  }
   if (!d.extension) return;
   for (const CauseReport& c : d.extension->causes) {
     Outcome::Seen seen;
