@@ -36,7 +36,8 @@ std::string WholeTrialsSentence(const CarriedOn& carried) {
   }
   return fmt::format(
       "with it the simulation follows them to their end: {}; test error {}; chi2 {:.3g} a sample",
-      ValuesText(problem, carried.model.shared, carried.uncertainty), Join(errors), Chi2PerSample(carried.model));
+      ValuesText(problem, carried.model.shared, carried.uncertainty), Join(errors),
+      Chi2PerSample(carried.model));
 }
 
 Json WholeTrialsRecord(const Diagnosis& diagnosis) {

@@ -211,8 +211,8 @@ class Robot final : public HybridSystem<T> {
   double size_;               // of the legs, half of one unloaded [m]
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;
-  std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]
-  std::array<T, kMaxLegs> hub_;   // inertia that turns with each leg's base [kg m^2]
+  std::array<T, kMaxLegs> gain_;       // what each motor gives of what it is told [-]
+  std::array<T, kMaxLegs> hub_;        // inertia that turns with each leg's base [kg m^2]
   std::array<bool, kMaxLegs> rubs_{};  // which hips have friction (M99)
   std::array<GuardRef, kMaxGuards> guards_;
   int guard_count_ = 0;

@@ -38,8 +38,7 @@ constexpr Fault kFaults[] = {
      [](Parameters<double>& p, std::size_t leg) { p.robot->extra_damping[leg] = 4e-4; }},
     {"pitch_inertia_scale",
      [](Parameters<double>& p, std::size_t) { p.robot->pitch_inertia *= 1.15; }},
-    {"foot_coulomb_friction",
-     [](Parameters<double>& p, std::size_t) { p.robot->friction = 0.4; }},
+    {"foot_coulomb_friction", [](Parameters<double>& p, std::size_t) { p.robot->friction = 0.4; }},
     {"hip_viscous_friction_%",
      [](Parameters<double>& p, std::size_t leg) { p.robot->hip_viscous[leg] = 0.1; }},
 };

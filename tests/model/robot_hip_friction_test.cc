@@ -54,8 +54,8 @@ TEST(HipFriction, BrakesAFreeRotorAsItsClosedFormSays) {
   RobotParameters<double>& robot = *p.robot;
   robot.motor_kp = robot.motor_kd = 0.0;
   const double begins[] = {6.0, -2.0}, time = 0.12, J = robot.rotor_inertia, b = 8e-3, c = 4e-3;
-  SimulationRequest q = RobotDrop(
-      p, {0.0, 2.0, 0.3, 0.0, 0.0, 0.1, 0.5, 0.4, begins[0], begins[1], 0.0, 0.0}, time);
+  SimulationRequest q =
+      RobotDrop(p, {0.0, 2.0, 0.3, 0.0, 0.0, 0.1, 0.5, 0.4, begins[0], begins[1], 0.0, 0.0}, time);
   const auto final_rate = [&](const EffectSetting& friction, int leg) {
     const std::array effects = {friction};
     q.effects = effects;
