@@ -284,7 +284,7 @@ function diagnosisReport() {
   }
   const fitted = extension ? list(extension.parameters) : list(run.null?.parameters);
   // Where something remains, the noise alone makes the intervals too narrow.
-  const apart = extension?.remainder?.p_value <= 0.01 && fitted.some((p) => Array.isArray(p.ci95_between_trials));
+  const apart = (extension ? extension.remainder?.p_value <= 0.01 : run.null?.misfit) && fitted.some((p) => Array.isArray(p.ci95_between_trials));
   if (fitted.length) {
     section(extension ? 'The extended model' : 'The model as it is', parameterTable(fitted, apart), intervalPlot(fitted, apart),
       paragraph(run.sentences?.determined ? `Determined, before: ${run.sentences.determined}.` : ''),

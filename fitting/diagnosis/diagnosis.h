@@ -39,7 +39,7 @@ inline constexpr double kDoubtLevel = 0.05;
 /// Probability from which a cause is named without a doubt, and below which something that is not
 /// in the catalogue is the more likely cause.
 inline constexpr double kSure = 0.95, kLikely = 0.5;
-/// Where no main cause is likely and the model misses less than this share of the noise, nothing is
+/// Where no told cause is likely and the model misses less than this share of the noise, nothing is
 /// wrong with it that matters.
 inline constexpr double kSlight = 0.2;
 /// Share of the misfit's excess over noise an extension must explain to name a cause while some

@@ -13,8 +13,8 @@ double LeftShare(const Detection& seen, double square, int parameters);
 /// share is above `material`.
 void Judge(Diagnosis& diagnosis, double material);
 
-/// Whether something stands out that is much less than the noise (kSlight), and no main cause of
-/// `report` is likely.
+/// Whether something stands out that is much less than the noise (kSlight), and no cause that
+/// `report` tells is likely.
 bool IsSlight(const Detection& seen, const ExtensionReport& report);
 
 /// Whether causes are told.

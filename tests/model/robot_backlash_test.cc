@@ -224,10 +224,13 @@ TEST(RobotInTheAir, RestingMotorsAreDifferentiatedExactly) {
   Parameters<double> p = HeldParameters();
   std::array effects = {EffectSetting::Null(*FindEffect("swinging_leg_mass"))};
   for (const double lag : {0.0, 3e-4}) {
-    p.robot->motor_lag = lag;
-    SimulationRequest q = GearedDrop(p, 0.1);
-    q.effects = effects;
-    EXPECT_GE(ExpectRobotExact(q, {}, {D::EffectParameter(0, 0)}), 2);
+    for (const double friction : {0.0, 3.0}) {  // of the hips [N m]
+      p.robot->motor_lag = lag;
+      p.robot->hip_coulomb.fill(friction);
+      SimulationRequest q = GearedDrop(p, 0.1);
+      q.effects = effects;
+      EXPECT_GE(ExpectRobotExact(q, {}, {D::EffectParameter(0, 0)}), 2) << lag << ", " << friction;
+    }
   }
 }
 

@@ -70,40 +70,24 @@ bool IsPlanted(const Truth& truth, const Candidate& c) {
 void ReadCauses(const Diagnosis& d, Outcome& out) {
   out.unlisted_probability = d.UnlistedProbability();
   out.left_share = d.left.share;
-  // What is set aside has a probability, too.
-  for (const SetAside& s : d.set_aside) {
-    Outcome::Seen seen;
-    seen.name = s.cause.Name();
-    seen.probability = s.probability;
-    seen.group_probability = s.group_probability;
-    seen.evidence = s.evidence_probability;
-    seen.features = s.features;
-    seen.right = IsPlanted(out.truth, s.cause);
-    for (const int i : s.group)
-      seen.group_right =
-          seen.group_right ||
-          IsPlanted(out.truth, d.naming.candidates[static_cast<std::size_t>(i)].candidate);
-    out.seen.push_back(std::move(seen));
-  }
-  if (!d.extension) return;
-  for (const CauseReport& c : d.extension->causes) {
-    Outcome::Seen seen;
+  const auto see = [&](const auto& c, const std::vector<int>& group) -> Outcome::Seen& {
+    Outcome::Seen& seen = out.seen.emplace_back();
     seen.name = c.cause.Name();
-    seen.main = c.main;
     seen.probability = c.probability;
     seen.group_probability = c.group_probability;
     seen.evidence = c.evidence_probability;
     seen.features = c.features;
     seen.right = IsPlanted(out.truth, c.cause);
-    for (const std::vector<int>& group : d.naming.groups) {
-      if (group.front() != c.candidate) continue;
-      for (const int i : group)
-        seen.group_right =
-            seen.group_right ||
-            IsPlanted(out.truth, d.naming.candidates[static_cast<std::size_t>(i)].candidate);
-    }
-    out.seen.push_back(std::move(seen));
-  }
+    seen.group_right = std::any_of(group.begin(), group.end(), [&](int i) {
+      return IsPlanted(out.truth, d.naming.candidates[static_cast<std::size_t>(i)].candidate);
+    });
+    return seen;
+  };
+  // What is set aside has a probability, too.
+  for (const SetAside& s : d.set_aside) see(s, s.group);
+  if (!d.extension) return;
+  for (const CauseReport& c : d.extension->causes)
+    see(c, d.naming.GroupOf(c.candidate)).main = c.main;
 }
 
 // Pairs by name: the trap first (drag with a bias looks like a height offset), then pairs that act

@@ -225,6 +225,30 @@ TEST(Verdict, AStandInCastsADoubtOnTheWholeAndOnNoName) {
   EXPECT_DOUBLE_EQ(e.Probability(), 0.3);
 }
 
+// An angle off by a tenth of a degree, and no cause of that kind to choose from: many samples show
+// it, it is far below the noise, and drag is most likely not what it is.
+TEST(Diagnose, AMisfitFarBelowTheNoiseIsNotTold) {
+  const Diagnosis d = Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.0014)},
+                                          .train = 6,
+                                          .test = 2,
+                                          .rate_hz = 1000.0}),
+                               OptionsWith({"air_drag"}));
+  EXPECT_LE(d.detection.p_value, 1e-6);
+  EXPECT_EQ(NameOf(d.verdict), "adequate") << d.reason;
+  EXPECT_FALSE(d.extension);
+  EXPECT_TRUE(d.naming.best.members.empty());
+  ASSERT_EQ(d.set_aside.size(), 1u);
+  EXPECT_EQ(d.set_aside[0].cause.Name(), "air_drag");
+  EXPECT_DOUBLE_EQ(d.UnlistedProbability(), 1.0 - d.set_aside[0].group_probability);
+  // Of the model as it is, and the interval holds the other.
+  const ParameterUncertainty& E = d.uncertainty.parameters[0];
+  const double with_drag = d.naming.candidates[0].alone.shared[0];
+  ASSERT_TRUE(E.ci95 && E.ci95_given_model);
+  EXPECT_LT(with_drag, d.null.shared[0]);
+  EXPECT_LT(E.ci95->first, with_drag);
+  EXPECT_LT(E.ci95->first, E.ci95_given_model->first);
+}
+
 TEST(Diagnose, StatedNoiseThatIsTooSmallRaisesNoAlarm) {
   Dataset d = DatasetOf({.rate_hz = 250.0});
   for (ChannelSpec& c : d.channels) c.sigma = 0.0004;
