@@ -13,7 +13,7 @@ namespace hoplab {
 /// Most legs of a robot, seen from the side.
 inline constexpr int kMaxLegs = 4;
 
-/// Rate within which dry friction of a hip turns round (M38, M99) [rad/s].
+/// Rate within which dry friction of a hopper's hip turns round (M38) [rad/s].
 inline constexpr double kHipFrictionWidth = 0.5;
 
 /// A robot's body, motors and legs (section 8 of the equation sheet), beside the mass and gravity

@@ -13,7 +13,7 @@ struct HipCoulombFriction {
       .kind = EffectKind::kForce,
       .equation =
           "T + tau_c tanh((dtheta/dt)/(0.5 rad/s)) in stance, theta the leg angle (M38, M93); of a "
-          "robot M99",
+          "robot tau_c sign(dpsi/dt), which holds a hip at rest (M99)",
       .sentence =
           "the hip bearing or gear rubs with a torque that only asks which way the leg turns",
       .for_legs = true,

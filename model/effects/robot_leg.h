@@ -133,9 +133,9 @@ struct HipCoulombFrictionOf {
       "hip_coulomb_friction_4"};
   static constexpr std::array kParameters = {
       EffectParameter{"tau_c", "N m", 0.0, 0.0, 1000.0, 0.03}};
-  static constexpr EffectInfo kInfo = Sharp(
-      InfoOfLeg(leg, kNames[leg], "-tau_c tanh((dpsi/dt)/(0.5 rad/s)) on the hub of that leg (M99)",
-                kRubbingBearing[leg], kParameters));
+  static constexpr EffectInfo kInfo = Sharp(InfoOfLeg(
+      leg, kNames[leg], "-tau_c sign(dpsi/dt) on the hub of that leg, which is held at rest (M99)",
+      kRubbingBearing[leg], kParameters));
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

@@ -37,6 +37,8 @@ constexpr EventTraits kEvents[] = {
     {.name = "stick", .waits_to_open = true},
     {.name = "brush"},
     {.name = "gear_mesh"},
+    {.name = "hip_stop", .waits_to_open = true},
+    {.name = "hip_slip", .waits_to_open = true},
     {.name = "switch"},
     {.name = "corner", .changes_flow = true},
 };

@@ -27,6 +27,8 @@ enum class EventKind {
   kStick,           // a sliding foot comes to hold
   kBrush,           // a leg meets the ground and is off it at once
   kGearMesh,        // teeth of a motor's gear meet or part
+  kHipStop,         // a hip with dry friction stops turning: it is held, or turns back
+  kHipSlip,         // one that was held begins to turn
   kSwitch,          // mode change of a piecewise-smooth system without a leg
   kCorner           // a formula is about to go on by another branch
 };
@@ -109,8 +111,9 @@ struct GuardCrossing {
 /// |guard|/scale below which a guard counts as at zero: rounding of a state of size one.
 inline constexpr double kAtZero = 1e-11;
 
-/// Four legs of a robot that roll and slide, their motors limited and geared, have 33.
-inline constexpr int kMaxGuards = 33;
+/// Four legs of a robot that roll and slide, their motors limited and geared, their hips with dry
+/// friction, have 37.
+inline constexpr int kMaxGuards = 37;
 /// Most states of a mechanism, and of what a stepper integrates: with eight sensitivities of each.
 /// A robot on four legs with mass whose motors lag and have gears has 38.
 inline constexpr int kMaxStates = 38;

@@ -21,7 +21,7 @@ class DiscreteState {
   }
 
  private:
-  boost::container::static_vector<double, 112> values_;
+  boost::container::static_vector<double, 128> values_;
   std::size_t next_ = 0;
 };
 

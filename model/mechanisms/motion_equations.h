@@ -69,8 +69,9 @@ class MotionEquations {
       }
     }
   }
+  /// `holding`, if asked for: of each motor that is locked the moment that it takes.
   template <class T>
-  AllMotions<T> Solve(const AllMotions<T>& sides) const {
+  AllMotions<T> Solve(const AllMotions<T>& sides, T* holding = nullptr) const {
     T right[3] = {sides.x, sides.y, sides.pitch};
     AllMotions<T> of;
     for (int i = 0; i < legs_; ++i) {
@@ -93,9 +94,9 @@ class MotionEquations {
     of.x = (right[0] - a_[0][1] * of.y - a_[0][2] * of.pitch) * over_[0];
     for (int i = 0; i < legs_; ++i) {
       const Leg& leg = leg_[i];
-      of.motor[i] =
-          (of.motor[i] - leg.motor[0] * of.x - leg.motor[1] * of.y - leg.motor[2] * of.pitch) *
-          leg.over;
+      of.motor[i] -= leg.motor[0] * of.x + leg.motor[1] * of.y + leg.motor[2] * of.pitch;
+      if (holding) holding[i] = of.motor[i];
+      of.motor[i] *= leg.over;
       if (!leg.has_own) continue;
       of.own[i] = (sides.own[i] - leg.own[0] * (of.x - of.pitch * leg.y) -
                    leg.own[1] * (of.y + of.pitch * leg.x) - leg.own[2] * (of.pitch + of.motor[i])) *

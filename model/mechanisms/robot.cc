@@ -12,6 +12,7 @@
 #include "model/mechanisms/robot_dynamics_inl.h"
 #include "model/mechanisms/robot_events_inl.h"
 #include "model/mechanisms/robot_feet_inl.h"
+#include "model/mechanisms/robot_hips_inl.h"
 #include "model/mechanisms/robot_legs_inl.h"
 #include "model/mechanisms/robot_motors_inl.h"
 #include "model/mechanisms/robot_stances_inl.h"
@@ -129,6 +130,7 @@ Mode Robot<T>::Begin(Mode, T* z) {
     if (lags_) z[Given(i)] = Torque(i, T(0.0), z);
     BeginOnFoot(i, z);
   }
+  SettleHips(T(0.0), z);
   const Mode mode = ModeNow();
   ListGuards(mode);
   return mode;
@@ -152,6 +154,7 @@ Mode Robot<T>::Resume(std::span<const Foot> feet, const T* z) {
   }
   FindTeeth(z);
   FindLimits(0.0, z);
+  SettleHips(T(0.0), z);
   const Mode mode = ModeNow();
   ListGuards(mode);
   return mode;
@@ -170,9 +173,8 @@ void Robot<T>::SaveDiscreteState(DiscreteState& to) const {
     const Leg& leg = leg_[i];
     for (int value : {static_cast<int>(leg.stance), leg.turns, leg.limit, leg.piece, leg.teeth})
       to.Put(value);
-    to.Put(leg.slides);
-    to.Put(leg.sunk);
-    to.Put(leg.floor);
+    for (double value : {leg.slides, leg.sunk, leg.floor, leg.turns_by}) to.Put(value);
+    to.Put(leg.is_held ? 1 : 0);
     leg.law.Save(to);
   }
   inputs_.Save(to);
@@ -184,9 +186,8 @@ void Robot<T>::LoadDiscreteState(DiscreteState& from) {
     leg.stance = static_cast<Stance>(static_cast<int>(from.Take()));
     for (int* value : {&leg.turns, &leg.limit, &leg.piece, &leg.teeth})
       *value = static_cast<int>(from.Take());
-    leg.slides = from.Take();
-    leg.sunk = from.Take();
-    leg.floor = from.Take();
+    for (double* value : {&leg.slides, &leg.sunk, &leg.floor, &leg.turns_by}) *value = from.Take();
+    leg.is_held = from.Take() != 0.0;
     leg.law.Load(from);
   }
   inputs_.Load(from);
@@ -202,6 +203,8 @@ void Robot<T>::StartSearch(Mode mode, const double* z) {
     leg.slides = 0.0;
     leg.piece = leg.clock.PieceAt(0.0);
     leg.teeth = leg.geared() ? TeethAt(leg, z[Twist(leg)]) : 0;
+    leg.is_held = IsDry(i) && z[Rate(i)] == 0.0;
+    leg.turns_by = z[Rate(i)] == 0.0 ? 0.0 : z[Rate(i)] > 0.0 ? 1.0 : -1.0;
     if (mode == Mode::kFlight || z[Contact(i)] == 0.0) continue;
     leg.turns = TurnsOf(z[Pitch()] + z[Angle(i)]);
     leg.stance = leg.law.rolls() ? Stance::kRolling : Stance::kToe;

@@ -63,7 +63,9 @@ class Robot final : public HybridSystem<T> {
     int piece = 0;        // of its clock
     int teeth = 0;        // of its gear that are pressed, 0: none
     int gear_place = -1;  // of its gear among those with play; -1: it has none
-    bool is_told = false;  // its motor, a torque that was recorded
+    double turns_by = 0.0;  // way its hip turns against dry friction, 0: not
+    bool is_held = false;   // its hip, by dry friction
+    bool is_told = false;   // its motor, a torque that was recorded
     Gear<T> gear = {};
     RobotLeg<T> law = {};
     MotorClock<T> clock = {};
@@ -108,12 +110,16 @@ class Robot final : public HybridSystem<T> {
   Hip ClampOf(const Hip& hip) const;
   struct Frame;  // sine and cosine of the body's pitch over the ground
   Hip HipOf(const Frame& frame, int leg, const T* z) const;
-  struct Push;  // what legs and air do to body and motors
+  struct Push;    // what legs and air do to body and motors
+  struct Forces;  // what feet and hips bear
   Push PushOf(const Frame& frame, const T& t, const T* z) const;
-  void Accelerate(const Frame& frame, const Push& push, const T* z, T* dz) const;
-  void AddFirstMass(const Frame& frame, const T* z, T* dz) const;
-  void AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z, T* dz) const;
-  void LagShortly(const Frame& frame, Push& push, const T* z, T* dz) const;
+  // `holding`, if asked for: what each hip that is held bears [N m].
+  void Accelerate(const Frame& frame, const Push& push, const T* z, T* dz,
+                  T* holding = nullptr) const;
+  void AddFirstMass(const Frame& frame, const T* z, T* dz, T* holding) const;
+  void AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z, T* dz,
+                             T* holding) const;
+  void LagShortly(const Frame& frame, Push& push, const T* z, T* dz, T* holding = nullptr) const;
   void MissJump(int leg, const T& jump, const T* at, T* z) const;
   struct LegInertia;  // the mass of a leg in the way it is now
   struct LegLoad;     // forces on it
@@ -136,9 +142,7 @@ class Robot final : public HybridSystem<T> {
   LegMotion<T> MotionUnder(int i, const Hip& hip, const T* rates) const;
   Vector2<T> GroundForce(const Frame& frame, int i, const Push& push, const T* z,
                          const T* dz) const;
-  void GroundForces(const Frame& frame, const T& t, const T* z,
-                    std::array<ClampedLoad<T>, kMaxLegs>& loads,
-                    std::array<Vector2<T>, kMaxLegs>& ground) const;
+  Forces ForcesOf(const Frame& frame, const T& t, const T* z) const;
   void SlideOutsideCone(int i, double went, const T& t, const T* z);
   void TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& told, const T& t, T* z);
   void AskCones(int except, const T& t, T* z);
@@ -151,10 +155,11 @@ class Robot final : public HybridSystem<T> {
   MotionEquations EquationsOf(const Vector2<T>& com, const MovingLegs& legs) const;
   Sides Left(const Vector2<T>& com, const MovingLegs& legs, const Sides& sides,
              const AllMotions<double>& a) const;
-  void SolveMotion(const Vector2<T>& com, const MovingLegs& legs, const Sides& sides, T* dz) const;
+  void SolveMotion(const Vector2<T>& com, const MovingLegs& legs, const Sides& sides, T* dz,
+                   T* holding = nullptr) const;
   struct Impact;  // an instant at which a leg lands, leaves or changes its way
   Impact MomentaOf(const T* z, int without) const;
-  void GoOnWith(const Impact& now, T* z) const;
+  void GoOnWith(const Impact& now, T* z);
   void Blow(int i, T* z);
   void SpringOff(int i, T* z);
   void ChangeStance(int i, Stance to, T* z);
@@ -174,7 +179,14 @@ class Robot final : public HybridSystem<T> {
   static int TeethAt(const Leg& leg, double twist);
   void FindTeeth(const T* z);
   T GearTorque(const Leg& leg, int i, const T* z) const;
+  bool IsDry(int leg) const;
   T HipFriction(int leg, const T* z) const;
+  void LetHipsGo();
+  void FindTurns(const T* z);
+  void SettleHips(const T& t, const T* z);
+  bool HoldsHip() const;
+  void TurnHip(int leg, const T& holding);
+  T HipMargin(int leg, const T& holding, const T* z) const;
   T Command(int leg, const T& t, const T* z) const;
   T Torque(int leg, const T& t, const T* z) const;
   T ToldRate(int leg, const T* z, const T* dz) const;
@@ -214,6 +226,7 @@ class Robot final : public HybridSystem<T> {
   std::array<T, kMaxLegs> gain_;       // what each motor gives of what it is told [-]
   std::array<T, kMaxLegs> hub_;        // inertia that turns with each leg's base [kg m^2]
   std::array<bool, kMaxLegs> rubs_{};  // which hips have friction (M99)
+  bool has_dry_hips_ = false;
   std::array<GuardRef, kMaxGuards> guards_;
   int guard_count_ = 0;
 };

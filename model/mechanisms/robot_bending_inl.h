@@ -86,10 +86,7 @@ void Robot<T>::GoOnIfBrushed(int i, const T& t, T* z) {
   const Frame frame(z[Pitch()] - p_.slope);
   const Hip hip = HipOf(frame, i, z);
   if (!(Value(HeightOf(leg_[i], hip, z) - Reach(hip.angle)) > kAtZero * size_)) return;
-  std::array<ClampedLoad<T>, kMaxLegs> loads;
-  std::array<Vector2<T>, kMaxLegs> ground;
-  GroundForces(frame, t, z, loads, ground);
-  if (Value(ground[i].y) > 0.0) return;
+  if (Value(ForcesOf(frame, t, z).ground[i].y) > 0.0) return;
   SpringOff(i, z);
   z[Bent(i)] = T(0.0);
   LiftOff(i, z);

@@ -41,7 +41,8 @@ typename Robot<T>::Impact Robot<T>::MomentaOf(const T* z, int without) const {
 }
 
 template <class T>
-void Robot<T>::GoOnWith(const Impact& now, T* z) const {
+void Robot<T>::GoOnWith(const Impact& now, T* z) {
+  LetHipsGo();
   std::array<T, kMaxStates> rates;
   SolveMotion(now.com, now.legs, now.sides, rates.data());
   z[kVx] = rates[kVx];
@@ -51,11 +52,13 @@ void Robot<T>::GoOnWith(const Impact& now, T* z) const {
     z[Rate(i)] = rates[Rate(i)];
     if (follows_legs_) z[OwnRate(i)] = rates[OwnRate(i)];
   }
+  FindTurns(z);
 }
 
 // M90: leg i comes down as it moves in the air, and its foot stops, or goes on along the ground.
 template <class T>
 void Robot<T>::Blow(int i, T* z) {
+  LetHipsGo();
   Impact now = MomentaOf(z, i);
   LegInertia& leg = now.legs.inertia[i];
   const Hip& hip = now.legs.hip[i];

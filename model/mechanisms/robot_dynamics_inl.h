@@ -42,7 +42,7 @@ typename Robot<T>::Push Robot<T>::PushOf(const Frame& frame, const T& t, const T
       push.on_rotor[i] = given - passed;
       given = passed;
     }
-    if (rubs_[i]) given -= HipFriction(i, z);
+    if (rubs_[i] && !leg.is_held) given -= HipFriction(i, z);
     push.on_motor[i] = robot_.control == MotorControl::kLocked ? T(0.0) : T(given + on_hip);
   }
   if (has_body_force_) {
@@ -77,11 +77,12 @@ void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
 }
 
 template <class T>
-void Robot<T>::Accelerate(const Frame& frame, const Push& push, const T* z, T* dz) const {
+void Robot<T>::Accelerate(const Frame& frame, const Push& push, const T* z, T* dz,
+                          T* holding) const {
   for (int i = 0; i < legs_; ++i)
     if (leg_[i].geared())
       dz[RotorRate(leg_[i])] = push.on_rotor[i] / (robot_.rotor_inertia - hub_[i]);
-  if (Value(robot_.leg_mass) != 0.0) return AccelerateWithLegMass(frame, push, z, dz);
+  if (Value(robot_.leg_mass) != 0.0) return AccelerateWithLegMass(frame, push, z, dz, holding);
   const bool locked = robot_.control == MotorControl::kLocked;
   const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
   const T& turn = z[Pitch() + 1];
@@ -89,20 +90,23 @@ void Robot<T>::Accelerate(const Frame& frame, const Push& push, const T* z, T* d
   dz[kVx] = push.force_x / p_.m + gravity_x_ + spin * com.y + turn * turn * com.x;
   dz[kVy] = push.force_y / p_.m + gravity_y_ - spin * com.x + turn * turn * com.y;
   dz[Pitch() + 1] = spin;
-  for (int i = 0; i < legs_; ++i) dz[Rate(i)] = locked ? T(0.0) : T(push.on_motor[i] / hub_[i]);
-  if (has_leg_mass_) AddFirstMass(frame, z, dz);
+  for (int i = 0; i < legs_; ++i) {
+    dz[Rate(i)] = locked || leg_[i].is_held ? T(0.0) : T(push.on_motor[i] / hub_[i]);
+    if (holding) holding[i] = push.on_motor[i];
+  }
+  if (has_leg_mass_) AddFirstMass(frame, z, dz, holding);
 }
 
 // M86: a lag too short to integrate, to its first order: what a motor gives is behind by the lag
 // times the rate of what it is told.
 template <class T>
-void Robot<T>::LagShortly(const Frame& frame, Push& push, const T* z, T* dz) const {
+void Robot<T>::LagShortly(const Frame& frame, Push& push, const T* z, T* dz, T* holding) const {
   for (int i = 0; i < legs_; ++i) {
     if (leg_[i].limit != 0) continue;
     const T behind = gain_[i] * robot_.motor_lag * ToldRate(i, z, dz);
     (leg_[i].geared() ? push.on_rotor : push.on_motor)[i] -= behind;
   }
-  Accelerate(frame, push, z, dz);
+  Accelerate(frame, push, z, dz, holding);
 }
 
 // M86: where what a motor is told jumps, the lag withholds the lag times the jump of its impulse,

@@ -83,6 +83,12 @@ void Robot<T>::ListGuards(Mode mode) {
       if (!leg_[i].is_told) add({EventKind::kTorqueLimit, i, robot_.torque_limit});
   for (int i = 0; i < legs_; ++i)
     if (leg_[i].geared()) add({EventKind::kGearMesh, i, Value(leg_[i].gear.half)});
+  for (int i = 0; i < legs_; ++i) {
+    if (leg_[i].is_held)
+      add({EventKind::kHipSlip, i, Value(robot_.hip_coulomb[i])});
+    else if (IsDry(i))
+      add({EventKind::kHipStop, i, 1.0});
+  }
   if (mode == Mode::kFlight) add({EventKind::kApex, 0, 1.0});
   add({EventKind::kFallPitch, 0, 1.0});
 }
@@ -104,7 +110,7 @@ GuardSpec Robot<T>::Guard(Mode, int i) const {
   const GuardRef& guard = guards_[i];
   return {.event = guard.event,
           .scale = guard.scale,
-          .is_smooth = guard.event == EventKind::kGearMesh,
+          .is_smooth = guard.event == EventKind::kGearMesh || guard.event == EventKind::kHipSlip,
           .leg = guard.leg};
 }
 
@@ -115,8 +121,14 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
   std::array<Hip, kMaxLegs> hips;
   std::array<ClampedLoad<T>, kMaxLegs> loads;
   std::array<Vector2<T>, kMaxLegs> ground;
+  std::array<T, kMaxLegs> holding;
   const bool with_inertia = follows_legs_ && mode != Mode::kFlight;
-  if (with_inertia) GroundForces(frame, t, z, loads, ground);
+  if (with_inertia || HoldsHip()) {
+    const Forces forces = ForcesOf(frame, t, z);
+    loads = forces.load;
+    ground = forces.ground;
+    holding = forces.holding;
+  }
   for (int i = 0; i < legs_; ++i) {
     const Leg& leg = leg_[i];
     hips[i] = HipOf(frame, i, z);
@@ -163,6 +175,10 @@ void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
         break;
       case EventKind::kGearMesh:
         g[k] = GearMargin(leg_[i], z);
+        break;
+      case EventKind::kHipStop:
+      case EventKind::kHipSlip:
+        g[k] = HipMargin(i, holding[i], z);
         break;
       default:
         g[k] = z[kVy];  // apex
@@ -265,6 +281,7 @@ void Robot<T>::TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& to
       for (int i = 0; i < legs_ && lags_shortly_; ++i) MissJump(i, Torque(i, t, z) - told[i], z, z);
       break;
     case EventKind::kStick:
+    case EventKind::kHipStop:
       break;
     default:
       return;
@@ -308,6 +325,14 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
     case EventKind::kGearMesh:
       leg.teeth = leg.teeth != 0 ? 0 : Value(z[Twist(leg)]) > 0.0 ? 1 : -1;
       break;
+    case EventKind::kHipStop:
+      z[Rate(guard.leg)] = T(0.0);
+      break;
+    case EventKind::kHipSlip: {
+      const Forces forces = ForcesOf(Frame(z[Pitch()] - p_.slope), t, z);
+      TurnHip(guard.leg, forces.holding[guard.leg]);
+      break;
+    }
     case EventKind::kFallArc:
       end = Outcome::kFellArc;
       break;
@@ -320,6 +345,8 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
     default:
       break;  // apex
   }
+  const bool goes_on = guard.event == EventKind::kHipSlip || TraitsOf(guard.event).is_section;
+  if (!end && !goes_on) SettleHips(t, z);
   if (follows_legs_ && !end) TakeJump(guard, told, t, z);
   const Mode mode = ModeNow();
   ListGuards(mode);

@@ -21,10 +21,8 @@ void Robot<T>::Stick(int i, const T& t, T* z) {
 // A foot that begins to hold where it cannot slides, but not the way it just came.
 template <class T>
 void Robot<T>::SlideOutsideCone(int i, double went, const T& t, const T* z) {
-  std::array<ClampedLoad<T>, kMaxLegs> loads;
-  std::array<Vector2<T>, kMaxLegs> ground;
-  GroundForces(Frame(z[Pitch()] - p_.slope), t, z, loads, ground);
-  const double along = Value(ground[i].x), up = Value(ground[i].y);
+  const Forces forces = ForcesOf(Frame(z[Pitch()] - p_.slope), t, z);
+  const double along = Value(forces.ground[i].x), up = Value(forces.ground[i].y);
   if (!(up > 0.0) || std::abs(along) <= Value(robot_.friction) * up) return;
   const double way = along > 0.0 ? -1.0 : 1.0;
   if (way != went) leg_[i].slides = way;

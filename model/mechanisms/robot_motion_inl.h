@@ -41,7 +41,7 @@ MotionEquations Robot<T>::EquationsOf(const Vector2<T>& com, const MovingLegs& l
         own[k] = mass[3][k] + Value(leg.lean) * (m * scale[k] * form.up[k] - mass[1][k]);
     const double hub = Value(hub_[i]);
     equations.Add(Value(legs.hip[i].x), Value(legs.hip[i].y), mass, leg.has_own ? &own : nullptr,
-                  robot_.control == MotorControl::kLocked ? nullptr : &hub);
+                  robot_.control == MotorControl::kLocked || leg_[i].is_held ? nullptr : &hub);
   }
   equations.Eliminate();
   return equations;
@@ -72,12 +72,12 @@ typename Robot<T>::Sides Robot<T>::Left(const Vector2<T>& com, const MovingLegs&
 // Gives what the sides do to the rates, in the places of dz. The masses' own derivatives come in by
 // what the solution leaves of the sides.
 template <class T>
-void Robot<T>::SolveMotion(const Vector2<T>& com, const MovingLegs& legs, const Sides& sides,
-                           T* dz) const {
+void Robot<T>::SolveMotion(const Vector2<T>& com, const MovingLegs& legs, const Sides& sides, T* dz,
+                           T* holding) const {
   const MotionEquations equations = EquationsOf(com, legs);
   AllMotions<T> a;
   if constexpr (kJetWidth<T> == 0) {
-    a = equations.Solve(sides);
+    a = equations.Solve(sides, holding);
   } else {
     AllMotions<double> values{sides.x.a, sides.y.a, sides.pitch.a};
     for (int i = 0; i < legs_; ++i) {
@@ -85,7 +85,7 @@ void Robot<T>::SolveMotion(const Vector2<T>& com, const MovingLegs& legs, const 
       values.own[i] = sides.own[i].a;
     }
     values = equations.Solve(values);
-    a = equations.template Solve<T>(Left(com, legs, sides, values));
+    a = equations.template Solve<T>(Left(com, legs, sides, values), holding);
     a.x += values.x;
     a.y += values.y;
     a.pitch += values.pitch;
@@ -130,22 +130,29 @@ Vector2<T> Robot<T>::GroundForce(const Frame& frame, int i, const Push& push, co
 }
 
 template <class T>
-void Robot<T>::GroundForces(const Frame& frame, const T& t, const T* z,
-                            std::array<ClampedLoad<T>, kMaxLegs>& loads,
-                            std::array<Vector2<T>, kMaxLegs>& ground) const {
+struct Robot<T>::Forces {
+  std::array<ClampedLoad<T>, kMaxLegs> load;  // of each leg that is down
+  std::array<Vector2<T>, kMaxLegs> ground;    // on its foot, of one with mass (M92) [N]
+  std::array<T, kMaxLegs> holding;            // of each hip that is held [N m]
+};
+
+template <class T>
+typename Robot<T>::Forces Robot<T>::ForcesOf(const Frame& frame, const T& t, const T* z) const {
   Push push = PushOf(frame, t, z);
   std::array<T, kMaxStates> rates;
-  Accelerate(frame, push, z, rates.data());
-  if (lags_shortly_) LagShortly(frame, push, z, rates.data());
-  loads = push.load;
-  for (int i = 0; i < legs_; ++i)
-    if (IsDown(leg_[i])) ground[i] = GroundForce(frame, i, push, z, rates.data());
+  Forces forces;
+  Accelerate(frame, push, z, rates.data(), forces.holding.data());
+  if (lags_shortly_) LagShortly(frame, push, z, rates.data(), forces.holding.data());
+  forces.load = push.load;
+  for (int i = 0; i < legs_ && follows_legs_; ++i)
+    if (IsDown(leg_[i])) forces.ground[i] = GroundForce(frame, i, push, z, rates.data());
+  return forces;
 }
 
 // M83 to its first order, of legs that have a derivative by their mass, but none: what a kilogram
 // of each would add to the accelerations, by values.
 template <class T>
-void Robot<T>::AddFirstMass(const Frame& frame, const T* z, T* dz) const {
+void Robot<T>::AddFirstMass(const Frame& frame, const T* z, T* dz, T* holding) const {
   const auto turned = [&](const T& x, const T& y) {
     const double c = Value(frame.cos_pitch), s = Value(frame.sin_pitch);
     return Vector2<double>{c * Value(x) - s * Value(y), s * Value(x) + c * Value(y)};
@@ -180,14 +187,16 @@ void Robot<T>::AddFirstMass(const Frame& frame, const T* z, T* dz) const {
   dz[kVy] += robot_.leg_mass * (sides.y / m - com.x * added);
   dz[Pitch() + 1] += robot_.leg_mass * added;
   if (robot_.control == MotorControl::kLocked) return;
-  for (int i = 0; i < legs_; ++i)
-    dz[Rate(i)] += robot_.leg_mass * (sides.motor[i] / Value(hub_[i]));
+  for (int i = 0; i < legs_; ++i) {
+    if (!leg_[i].is_held) dz[Rate(i)] += robot_.leg_mass * (sides.motor[i] / Value(hub_[i]));
+    if (holding) holding[i] += robot_.leg_mass * sides.motor[i];
+  }
 }
 
 // M83 with the matrices of M89.
 template <class T>
-void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z,
-                                     T* dz) const {
+void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z, T* dz,
+                                     T* holding) const {
   const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
   const T& turn = z[Pitch() + 1];
   const T turn2 = turn * turn;
@@ -214,7 +223,7 @@ void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const
     sides.Add(i, hip, load);
     sides.motor[i] += push.on_motor[i];
   }
-  SolveMotion(com, legs, sides, dz);
+  SolveMotion(com, legs, sides, dz, holding);
 }
 
 }  // namespace hoplab

@@ -22,7 +22,9 @@ void Robot<T>::SetUpMotor(int i) {
   leg.is_told =
       robot_.control == MotorControl::kRecorded && !inputs_.Has(OfMotor(InputKind::kLegAngle1, i));
   hub_[i] = robot_.rotor_inertia;
-  rubs_[i] = !IsZero(robot_.hip_viscous[i]) || !IsZero(robot_.hip_coulomb[i]);
+  rubs_[i] = robot_.control != MotorControl::kLocked &&
+             (!IsZero(robot_.hip_viscous[i]) || !IsZero(robot_.hip_coulomb[i]));
+  has_dry_hips_ = has_dry_hips_ || IsDry(i);
   if (!Gear<T>::HasPlay(robot_, i) || robot_.control == MotorControl::kLocked) return;
   leg.gear_place = gears_++;
   leg.gear = Gear<T>(robot_, i);
@@ -66,14 +68,6 @@ T Robot<T>::Torque(int leg, const T& t, const T* z) const {
   if (robot_.control == MotorControl::kLocked) return T(0.0);
   const double side = leg_[leg].limit;
   return side == 0.0 ? Command(leg, t, z) : T(side * robot_.torque_limit);
-}
-
-// M99: what the friction of a hip holds against its turning [N m].
-template <class T>
-T Robot<T>::HipFriction(int leg, const T* z) const {
-  using std::tanh;
-  const T& rate = z[Rate(leg)];
-  return robot_.hip_viscous[leg] * rate + robot_.hip_coulomb[leg] * tanh(rate / kHipFrictionWidth);
 }
 
 // How fast what the motor is told changes within its piece, off its limit [N m/s].
@@ -154,7 +148,10 @@ std::optional<T> Robot<T>::PassKnot(Mode mode, double t, T* z) {
   if (motor >= 0) FindLimit(motor, t, z);
   if (misses) MissJump(motor, Torque(motor, instant, at) - before, at, z);
   const bool jumps = !kind || inputs_.of(*kind).held() || (motor >= 0 && !leg_[motor].is_told);
-  if (jumps) AskCones(/*except=*/-1, T(t), z);
+  if (jumps) {
+    SettleHips(T(t), z);
+    AskCones(/*except=*/-1, T(t), z);
+  }
   ListGuards(mode);
   return instant;
 }
@@ -186,10 +183,7 @@ double Robot<T>::LongestStep(Mode mode, const T&, const T*) const {
   if (robot_.control == MotorControl::kLocked) return 2.0 / rate;
   if (lags_) rate = std::max(rate, 1.0 / Value(robot_.motor_lag));
   for (int i = 0; i < legs_; ++i) {
-    if (rubs_[i])
-      rate = std::max(
-          rate, (Value(robot_.hip_viscous[i]) + Value(robot_.hip_coulomb[i]) / kHipFrictionWidth) /
-                    Value(hub_[i]));
+    if (rubs_[i]) rate = std::max(rate, Value(robot_.hip_viscous[i]) / Value(hub_[i]));
     if (leg_[i].is_told) continue;
     const double turned = Value(robot_.rotor_inertia) - (leg_[i].geared() ? Value(hub_[i]) : 0.0);
     rate = std::max(

@@ -98,17 +98,51 @@ bool Tips(const Parameters<double>& p, const mjData& data) {
   return std::abs(data.qpos[kPitch]) > tipped || data.qpos[kY] < p.r;
 }
 
-// Degree of freedom of a hip.
-int HipOf(const mjModel& model, int leg) {
-  return model.jnt_dofadr[mj_name2id(&model, mjOBJ_JOINT, fmt::format("hip{}", leg).c_str())];
+// Degree of freedom of a joint of a leg.
+int DofOf(const mjModel& model, const char* joint, int leg) {
+  const std::string name = fmt::format("{}{}", joint, leg);
+  return model.jnt_dofadr[mj_name2id(&model, mjOBJ_JOINT, name.c_str())];
+}
+// Of what its motor turns: the hip, or where its gear has play the rotor.
+int MotorOf(const mjModel& model, const RobotParameters<double>& robot, int leg) {
+  return DofOf(model, robot.play[leg] == 0.0 ? "hip" : "rotor", leg);
+}
+
+// What the motors give of what they are told, some time later.
+class LaggingMotors {
+ public:
+  explicit LaggingMotors(const RobotParameters<double>& robot) : robot_(robot) {}
+  double Give(int i, double told, double step) {
+    double& given = given_[i];
+    if (robot_.motor_lag == 0.0 || !begun_[i])
+      given = told;
+    else
+      given += (told - given) * -std::expm1(-step / robot_.motor_lag);
+    begun_[i] = true;
+    return robot_.motor_gain * robot_.gain_of[i] * given;
+  }
+
+ private:
+  const RobotParameters<double>& robot_;
+  std::array<double, kMaxLegs> given_ = {};
+  std::array<bool, kMaxLegs> begun_ = {};
+};
+
+// A joint with dry friction sticks: it creeps at a thousandth of a radian a second at most.
+void MakeDry(mjModel& model, int dof, double torque) {
+  model.dof_frictionloss[dof] = torque;
+  model.dof_solref[mjNREF * dof] = 2e-4;
+  model.dof_solref[mjNREF * dof + 1] = 1.0;
+  model.dof_solimp[mjNIMP * dof] = model.dof_solimp[mjNIMP * dof + 1] = 0.99;
 }
 
 void RecordRun(const Parameters<double>& p, mjModel& model, const Run& run, RandomStream& noise,
                const std::filesystem::path& file) {
   const RobotParameters<double>& robot = *p.robot;
   const MujocoData data = NewData(model);
-  std::array<int, kMaxLegs> hip = {};
-  for (int i = 0; i < robot.legs; ++i) hip[i] = HipOf(model, i);
+  std::array<int, kMaxLegs> motor = {};
+  for (int i = 0; i < robot.legs; ++i) motor[i] = MotorOf(model, robot, i);
+  LaggingMotors motors(robot);
   data->qpos[kY] = run.start[1];
   data->qvel[kX] = run.start[2];
   data->qvel[kY] = run.start[3];
@@ -116,8 +150,10 @@ void RecordRun(const Parameters<double>& p, mjModel& model, const Run& run, Rand
   data->qvel[kPitch] = run.start[5];
   for (int i = 0; i < robot.legs; ++i) {
     const Followed begin = FollowedAt(robot, run, i, 0.0);
-    data->qpos[hip[i]] = begin.angle;
-    data->qvel[hip[i]] = begin.rate;
+    for (int dof : {motor[i], DofOf(model, "hip", i)}) {
+      data->qpos[dof] = begin.angle;
+      data->qvel[dof] = begin.rate;
+    }
   }
   std::ofstream csv(file);
   csv << "time_s,body_x_m,body_y_m,body_pitch_rad";
@@ -129,10 +165,10 @@ void RecordRun(const Parameters<double>& p, mjModel& model, const Run& run, Rand
     std::array<double, kMaxLegs> told = {};
     for (int i = 0; i < robot.legs; ++i) {
       const Followed at = FollowedAt(robot, run, i, data->time);
-      told[i] = std::clamp(robot.motor_kp * (at.angle - data->qpos[hip[i]]) +
-                               robot.motor_kd * (at.rate - data->qvel[hip[i]]),
+      told[i] = std::clamp(robot.motor_kp * (at.angle - data->qpos[motor[i]]) +
+                               robot.motor_kd * (at.rate - data->qvel[motor[i]]),
                            -robot.torque_limit, robot.torque_limit);
-      data->ctrl[i] = robot.motor_gain * robot.gain_of[i] * told[i];
+      data->ctrl[i] = motors.Give(i, told[i], model.opt.timestep);
     }
     if (data->time >= row * kRow - 1e-9) {
       csv << fmt::format("{:.4f},{:.6f},{:.6f},{:.6f}", row * kRow,
@@ -140,7 +176,7 @@ void RecordRun(const Parameters<double>& p, mjModel& model, const Run& run, Rand
                          data->qpos[kY] + kPosition * noise.Normal(),
                          data->qpos[kPitch] + kAngle * noise.Normal());
       for (int i = 0; i < robot.legs; ++i)
-        csv << fmt::format(",{:.6f}", data->qpos[hip[i]] + kAngle * noise.Normal());
+        csv << fmt::format(",{:.6f}", data->qpos[motor[i]] + kAngle * noise.Normal());
       for (int i = 0; i < robot.legs; ++i)
         csv << fmt::format(",{:.5f}", told[i] + kTorque * noise.Normal());
       csv << '\n';
@@ -200,9 +236,9 @@ void RecordRobot(const Parameters<double>& p, const Parameters<double>& told, in
   MeetEllipsoidsAsArcs();
   const MujocoModel model = CompileMujoco(BeamRobotText(p));
   for (int i = 0; i < p.robot->legs; ++i) {
-    const int hip = HipOf(*model, i);
+    const int hip = DofOf(*model, "hip", i);
     model->dof_damping[hip] = p.robot->hip_viscous[i];
-    model->dof_frictionloss[hip] = p.robot->hip_coulomb[i];
+    if (p.robot->hip_coulomb[i] > 0.0) MakeDry(*model, hip, p.robot->hip_coulomb[i]);
   }
   std::ofstream yaml(folder / "dataset.yaml");
   DescribeRobot(told, compares_torque, yaml);

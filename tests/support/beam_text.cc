@@ -66,7 +66,8 @@ std::string BeamLegText(const BeamRig& rig, std::string_view hip, double rotor_i
   return text;
 }
 
-std::string BeamWorldText(const BeamRig& rig, std::string_view body, std::string_view actuators) {
+std::string BeamWorldText(const BeamRig& rig, std::string_view body, std::string_view actuators,
+                          std::string_view tendons) {
   return fmt::format(
       "<mujoco><compiler angle='radian'/>"
       "<option timestep='{}' gravity='0 0 {}' integrator='implicit' cone='elliptic' "
@@ -77,8 +78,8 @@ std::string BeamWorldText(const BeamRig& rig, std::string_view body, std::string
       "condim='3' friction='{} 0 0' priority='1' solref='{} 1' solimp='0.99 0.99 0.001'/>"
       "</default></default><worldbody>"
       "<geom type='plane' size='9 1 0.1' euler='0 {} 0' contype='1' conaffinity='0'/>"
-      "<body>{}</body></worldbody><actuator>{}</actuator></mujoco>",
-      kStep, -kBeamGravity, kBeamHingeInertia, rig.friction, kSoftness, -rig.slope, body,
+      "<body>{}</body></worldbody><tendon>{}</tendon><actuator>{}</actuator></mujoco>",
+      kStep, -kBeamGravity, kBeamHingeInertia, rig.friction, kSoftness, -rig.slope, body, tendons,
       actuators);
 }
 

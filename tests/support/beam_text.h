@@ -15,7 +15,8 @@ inline constexpr double kBeamHingeInertia = 1.6e-6;  // that each hinge adds [kg
 std::string BeamLegText(const BeamRig& rig, std::string_view hip, double rotor_inertia);
 
 /// A model with the floor of `rig` and one body on it: `body` its joints, inertia and legs,
-/// `actuators` its motors.
-std::string BeamWorldText(const BeamRig& rig, std::string_view body, std::string_view actuators);
+/// `actuators` its motors, `tendons` what couples its joints.
+std::string BeamWorldText(const BeamRig& rig, std::string_view body, std::string_view actuators,
+                          std::string_view tendons = "");
 
 }  // namespace hoplab::testing
