@@ -54,6 +54,7 @@ std::optional<double> FirstStancesOver(const FitProblem& problem) {
 
 std::optional<FollowedPart> FitFollowedPart(const FitProblem& problem, const FitOptions& options) {
   std::optional<FollowedPart> longest;
+  int shorter = kShorterParts;
   const double end = LongestTrial(problem.trials);
   for (double until = FirstStancesOver(problem).value_or(end); until < end; until *= kLonger) {
     FollowedPart part;
@@ -61,7 +62,11 @@ std::optional<FollowedPart> FitFollowedPart(const FitProblem& problem, const Fit
     part.problem = FirstPart(problem, until);
     part.result = Fit(part.problem, options);
     if (part.result.interrupted) break;
-    if (!part.result.ok || !part.result.stop.IsMinimum()) break;
+    if (!part.result.ok || !part.result.stop.IsMinimum()) {
+      if (longest || shorter-- == 0) break;
+      until /= kLonger * kLonger;
+      continue;
+    }
     longest = std::move(part);
   }
   return longest;

@@ -16,6 +16,8 @@ std::optional<double> FirstStancesOver(const FitProblem& problem);
 
 /// Each part of the trials that is tried is longer than the last by this.
 inline constexpr double kLonger = 1.5;
+/// Where the first one cannot be fitted, so many shorter ones are.
+inline constexpr int kShorterParts = 2;
 
 /// As much of every trial as a model can be fitted to.
 struct FollowedPart {

@@ -74,9 +74,8 @@ SolveResult GivenUp(SolveResult result) {
 
 SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& other,
                  RoundCosts& costs, bool only_elsewhere = false) {
+  const SolveRequest at_once = request;
   const std::vector<TrialProblem>& whole = *request.trials;
-  const int most = request.max_iterations;
-  const double tolerance = request.function_tolerance;
   for (const double fraction : RoundsFrom(known_until / LongestTrial(whole))) {
     const std::vector<TrialProblem> cut =
         CutToFraction(*request.problem, whole, request.shared, fraction);
@@ -84,7 +83,7 @@ SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& oth
     // Beyond what is known a round ends at its minimum: what it leaves the next one magnifies.
     if (known_until == 0.0) request.max_iterations = kIterations;
     if (known_until == 0.0 && TraitsOf(request.problem->law).has_costly_runs)
-      request.function_tolerance = std::max(tolerance, kRobotRound);
+      request.function_tolerance = std::max(at_once.function_tolerance, kRobotRound);
     SolveResult next = Solve(request);
     if (next.status == SolveStatus::kInterrupted) return next;
     costs.push_back(IsUsable(next.status) ? next.cost : std::numeric_limits<double>::infinity());
@@ -97,9 +96,13 @@ SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& oth
     request.initial_states = std::move(next.initial_states);
   }
   request.trials = &whole;
-  request.max_iterations = most;
-  request.function_tolerance = tolerance;
-  return Solve(request);
+  request.max_iterations = at_once.max_iterations;
+  request.function_tolerance = at_once.function_tolerance;
+  SolveResult grown = Solve(request);
+  if (IsUsable(grown.status) || grown.status == SolveStatus::kInterrupted) return grown;
+  // The rounds led to where no simulation follows all rows. The values they began with may.
+  SolveResult anew = Solve(at_once);
+  return IsUsable(anew.status) ? anew : grown;
 }
 
 }  // namespace

@@ -33,16 +33,19 @@ class StageByStage {
 
   // Longer and longer parts, as long as something is seen that has no sure name and longer ones
   // make it surer, each beginning with what the last one found; where nothing is seen, the whole
-  // trials.
+  // trials. Where no simulation follows the first one, shorter ones first.
   Diagnosis Run() {
     const double end = LongestTrial(whole_.trials);
     std::optional<Diagnosis> last;
+    int shorter = kShorterParts;
     for (double until = FirstStancesOver(whole_).value_or(end); until < end; until *= kLonger) {
       Diagnosis longer = OfFirst(until, last);
       if (longer.interrupted) return longer;
       if (!longer.refusal.empty()) {
         if (options_.stage) options_.stage("no verdict of that: " + longer.refusal);
-        break;
+        if (last || shorter-- == 0) break;
+        until /= kLonger * kLonger;
+        continue;
       }
       const bool nothing_seen = longer.verdict == Verdict::kAdequate;
       Tell(longer);

@@ -59,5 +59,22 @@ TEST(FollowedPart, APartHoldsTheFirstRowsOfEveryTrial) {
   EXPECT_DOUBLE_EQ(LongestTrial(problem.trials), 0.6);
 }
 
+// Motors that lag by so much that no values of the model without it follow its robot through the
+// first stances.
+TEST(FollowedPart, IsShorterThanTheFirstStancesWhereTheseCannotBeFollowed) {
+  FitOptions options;
+  options.jobs = 2;
+  const FitProblem problem =
+      MakeProblem(testing::RobotPronks(0.0, 0.6, "{motor_lag: {t_lag: 0.03}}"), {});
+  const std::optional<double> stances = FirstStancesOver(problem);
+  ASSERT_TRUE(stances);
+  const FitResult over = Fit(FirstPart(problem, *stances), options);
+  EXPECT_FALSE(over.ok && over.stop.IsMinimum()) << over.message;
+  const std::optional<FollowedPart> part = FitFollowedPart(problem, options);
+  ASSERT_TRUE(part);
+  EXPECT_LT(part->until, *stances);
+  EXPECT_TRUE(part->result.stop.IsMinimum());
+}
+
 }  // namespace
 }  // namespace hoplab

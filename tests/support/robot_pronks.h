@@ -11,8 +11,9 @@ namespace hoplab::testing {
 
 /// The robot of RobotDrops with its two legs turned in phase by a clock, its mass `com_x` [m] ahead
 /// of the middle; four trials of `duration` [s] to learn from, two held out, torques not compared.
-/// What the dataset says of it has the mass in the middle and a modulus of 24 in place of 22 GPa.
-inline Dataset RobotPronks(double com_x, double duration) {
+/// What the dataset says of it has the mass in the middle, a modulus of 24 in place of 22 GPa, and
+/// nothing of `effects`, a list as in a scenario.
+inline Dataset RobotPronks(double com_x, double duration, const std::string& effects = "{}") {
   Scenario pronks = RobotDrops(
       {{"mechanism.pitch_inertia_kg_m2", "0.03707"},
        {"mechanism.centre_of_mass_m", "[" + std::to_string(com_x) + ", 0]"},
@@ -25,6 +26,7 @@ inline Dataset RobotPronks(double com_x, double duration) {
         "{x_m: 0, y_m: 0.222, vx_m_per_s: 0.72, vy_m_per_s: 0, pitch_rad: 0.03, "
         "pitch_rate_rad_per_s: 0}"},
        {"stop.time_s", std::to_string(duration)},
+       {"effects", effects},
        {"dataset.trials", R"([
     {role: train},
     {role: train, initial: {x_m: 0, y_m: 0.213, vx_m_per_s: 0.76, vy_m_per_s: 0.02, pitch_rad: 0.045, pitch_rate_rad_per_s: 0.05}},

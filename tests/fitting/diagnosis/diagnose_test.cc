@@ -41,6 +41,23 @@ TEST(Diagnose, NamesByTheFirstStancesWhatWholeTrialsHide) {
   EXPECT_GE(E.ci95->second, 22e9);
 }
 
+// Models so wrong that what their first rows lead to follows no more of them.
+TEST(Diagnose, NamesWhatIsFarFromTheModel) {
+  for (const std::string& far : {std::string("{hip_viscous_friction_1: {b_h: 0.4}}"),
+                                 std::string("{motor_lag: {t_lag: 0.03}}")}) {
+    DiagnosisOptions options;
+    options.fit.jobs = 2;
+    options.candidates.only = {"hip_viscous_friction_1", "motor_gain_1", "motor_lag",
+                               "leg_stiffness_1"};
+    const Diagnosis d = Diagnose(testing::RobotPronks(0.0, 0.6, far), options);
+    ASSERT_EQ(d.refusal, "") << far;
+    EXPECT_EQ(d.verdict, Verdict::kNamed) << far;
+    ASSERT_TRUE(d.extension && d.extension->MainCauses().size() == 1u) << far;
+    const std::string name = d.extension->MainCauses().front()->cause.Name();
+    EXPECT_TRUE(far.starts_with("{" + name + ":")) << far << name;
+  }
+}
+
 // A name that was found stays where somebody waits for no more.
 TEST(Diagnose, KeepsWhatWasNamedWhereTheWholeTrialsAreNotWaitedFor) {
   std::atomic<bool> stop = false;
