@@ -189,7 +189,12 @@ std::string ValuesText(const FitProblem& problem, const Eigen::VectorXd& shared,
     if (const auto& interval = uncertainty.misfit ? u.Wider() : u.ci95)
       text += fmt::format(" ({} .. {})", Significant(interval->first * unit.factor, 4),
                           Significant(interval->second * unit.factor, 4));
-    values.push_back(unit.unit.empty() ? text : text + " " + unit.unit);
+    if (!unit.unit.empty()) text += " " + unit.unit;
+    if (u.at_bound)
+      text += " (the end of its range)";
+    else if (!u.ci95)
+      text = s.name + " not determined";
+    values.push_back(std::move(text));
   }
   return Join(values);
 }

@@ -50,6 +50,13 @@ bool HasNoGuide(const FitProblem& problem, const Effect& effect) {
                       [](const TrialProblem& t) { return t.parameters.on_guide; });
 }
 
+// On one leg what is of that leg alone is what is of all of them.
+bool IsOfAllLegs(const FitProblem& problem, const Effect& effect) {
+  const EffectInfo& info = effect.info;
+  return problem.robot_legs().count == 1 && info.robot_leg == 1 && info.name.ends_with("_1") &&
+         FindEffect(info.name.substr(0, info.name.size() - 2)) != nullptr;
+}
+
 }  // namespace
 
 std::string Candidate::Name() const {
@@ -80,7 +87,7 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
                    problem.robot_legs()) ||
         IsFitted(problem, *effect) || Simulates(problem, *effect))
       continue;
-    if (only.empty() && HasNoGuide(problem, *effect)) continue;
+    if (only.empty() && (HasNoGuide(problem, *effect) || IsOfAllLegs(problem, *effect))) continue;
     if (holds(without, effect) || (!only.empty() && !holds(only, effect))) continue;
     if (!problem.known.RulesOut(*effect)) candidates.push_back({effect, "", problem.known});
   }

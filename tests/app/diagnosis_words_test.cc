@@ -162,5 +162,24 @@ TEST(DiagnosisWords, NumbersAreNeverInvented) {
   EXPECT_EQ(SizeText(0.05, "-"), "0.050");
 }
 
+// A value that the data say nothing about is not told as one, nor one at a bound as an estimate.
+TEST(ValuesText, SaysWhatIsNotDetermined) {
+  const FitProblem problem =
+      MakeProblem(testing::ReadWithYaml("{sigma: 0.001}", "{sigma: 0.001}"), {});
+  ASSERT_GE(problem.shared_count(), 2);
+  Eigen::VectorXd shared = InitialShared(problem);
+  shared[0] = 22e9;
+  Uncertainty uncertainty;
+  uncertainty.parameters.resize(static_cast<std::size_t>(problem.shared_count()));
+  uncertainty.parameters[0].ci95 = {{21e9, 23e9}};
+  const std::string told = ValuesText(problem, shared, uncertainty);
+  EXPECT_NE(told.find("E 22.00 (21.00 .. 23.00) GPa"), std::string::npos) << told;
+  EXPECT_NE(told.find(problem.shared[1].name + " not determined"), std::string::npos) << told;
+  uncertainty.parameters[0].ci95.reset();
+  uncertainty.parameters[0].at_bound = true;
+  const std::string at_end = ValuesText(problem, shared, uncertainty);
+  EXPECT_NE(at_end.find("E 22.00 GPa (the end of its range)"), std::string::npos) << at_end;
+}
+
 }  // namespace
 }  // namespace hoplab

@@ -45,6 +45,25 @@ TEST(Candidates, OfAFreeBallHoldNoFrictionOfAGuide) {
   EXPECT_EQ(guides({}), 2);
 }
 
+// On one leg what rubs in its hip is what rubs in every hip; on two it is not.
+TEST(Candidates, OfARobotOnOneLegAreNotNamedTwice) {
+  FitProblem robot;
+  robot.law = Law::kRobot;
+  robot.trials.resize(1);
+  const auto count = [&](int legs, const std::string& start) {
+    robot.trials[0].parameters.robot = RobotParameters<double>();
+    robot.trials[0].parameters.robot->legs = legs;
+    const std::vector<std::string> names = NamesOf(CandidatesOf(robot, {}));
+    return std::count_if(names.begin(), names.end(),
+                         [&](const std::string& name) { return name.starts_with(start); });
+  };
+  for (const char* name : {"hip_viscous_friction", "hip_coulomb_friction", "motor_gain"}) {
+    EXPECT_EQ(count(1, name), 1) << name;
+    EXPECT_EQ(count(2, name), 3) << name;
+  }
+  EXPECT_EQ(count(2, "leg_stiffness"), 2);
+}
+
 TEST(Candidates, DoNotDependOnTheOrderInWhichTheyAreNamed) {
   const CandidateOptions options{.only = {"touchdown_loss", "air_drag"}};
   EXPECT_EQ(NamesOf(CandidatesOf(Problem(), options)),
