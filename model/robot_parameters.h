@@ -29,6 +29,7 @@ struct RobotParameters {
   T motor_gain{1.0};         // what a motor gives of what it is told [-]
   T motor_lag{0.0};          // how long what it gives follows what it is told [s]
   T friction{std::numeric_limits<double>::infinity()};  // under the feet [-]
+  T foot_slip{0.0};          // how fast feet that hold creep under a force along [m/(N s)]
   T clamp{0.0};              // length of every leg that its hub holds rigid [m]
   T damping{0.0};            // retardation time of every leg's material [s]
   T leg_mass{0.0};           // of every leg, beside the body's [kg]
@@ -68,9 +69,10 @@ struct RobotParameters {
   /// Every differentiable number, in one order: for converting.
   template <class Self, class Do>
   static void Each(Self& p, const Do& act) {
-    for (auto* v : {&p.pitch_inertia, &p.com_x, &p.com_y, &p.rotor_inertia, &p.motor_kp,
-                    &p.motor_kd, &p.motor_gain, &p.motor_lag, &p.friction, &p.clamp, &p.damping,
-                    &p.leg_mass, &p.lateral_stiffness, &p.period, &p.duty, &p.sweep, &p.offset})
+    for (auto* v :
+         {&p.pitch_inertia, &p.com_x, &p.com_y, &p.rotor_inertia, &p.motor_kp, &p.motor_kd,
+          &p.motor_gain, &p.motor_lag, &p.friction, &p.foot_slip, &p.clamp, &p.damping, &p.leg_mass,
+          &p.lateral_stiffness, &p.period, &p.duty, &p.sweep, &p.offset})
       act(*v);
     for (auto* list : {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.rate, &p.E_scale, &p.extra_damping,
                        &p.gain_of, &p.hip_viscous, &p.hip_coulomb, &p.play, &p.tooth_torque,
@@ -83,7 +85,7 @@ struct RobotParameters {
 template <class To, class From>
 RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   RobotParameters<To> to;
-  std::array<double, 17 + 15 * kMaxLegs> values{};
+  std::array<double, 18 + 15 * kMaxLegs> values{};
   std::size_t n = 0;
   RobotParameters<From>::Each(from, [&](const From& v) { values[n++] = Value(v); });
   n = 0;

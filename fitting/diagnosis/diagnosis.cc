@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <mutex>
 #include <utility>
@@ -142,6 +143,7 @@ class Pipeline {
     for (const CauseReport* c : d_.extension->ToldCauses()) {
       const int member = static_cast<int>(d_.naming.MemberOf(c->candidate));
       d_.extension->at_bound |= d_.naming.best.AtPhysicalBound(member);
+      NoteShapes(*c->cause.effect);
     }
     MeasureCandidates();
     for (const std::vector<FittedModel>& rivals : d_.naming.rivals) {
@@ -149,6 +151,27 @@ class Pipeline {
       Stage("looking for the trial that would tell the causes apart");
       d_.experiment = ProposeExperiment(rivals, train_, options_.fit.jobs);
     }
+  }
+
+  // Sizes and intervals are those for the shapes that are given.
+  void NoteShapes(const Effect& effect) {
+    std::string shapes, names;
+    for (const EffectParameter& p : effect.info.parameters) {
+      if (!p.is_shape) continue;
+      const std::string name(p.name), unit = p.unit == "-" ? "" : " " + std::string(p.unit);
+      char value[32];
+      std::snprintf(value, sizeof value, "%.4g", p.null);
+      shapes += (shapes.empty() ? "" : ", ") + name + " " + value + unit;
+      names += "," + std::string(effect.info.name) + "." + name;
+    }
+    if (shapes.empty()) return;
+    const std::string cause(effect.info.name);
+    std::string others;
+    for (const SharedParameter& s : d_.problem.shared) others += s.name + ",";
+    d_.notes.push_back(cause + ": its size is told for " + shapes +
+                       ", which are taken as given; `hoplab fit --free " + others + cause + "." +
+                       std::string(effect.info.parameters.front().name) + names +
+                       "` fits them, too");
   }
 
   // Nothing is told: the model as it is, with intervals that hold what the evidence wanted.

@@ -11,15 +11,22 @@ struct FootSlip {
   static constexpr EffectInfo kInfo = {
       .name = "foot_slip",
       .kind = EffectKind::kParameter,
-      .equation = "dx_c/dt gets -c_slip F_x, F_x the horizontal force on the hip (M29)",
+      .equation =
+          "dx_c/dt gets -c_slip F_x, F_x the horizontal force on the hip (M29), of a robot "
+          "that of each leg whose foot holds",
       .sentence = "the foot creeps over the ground against the force on it",
       .for_legs = true,
       .for_ball = false,
       .dissipative = true,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .for_robot = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    if (parameters.robot) {
+      parameters.robot->foot_slip += p[0];
+      return;
+    }
     parameters.law_terms.active = true;
     parameters.law_terms.foot_slip += p[0];
   }

@@ -31,7 +31,8 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
       lags_(robot_.control != MotorControl::kLocked &&
             Value(robot_.motor_lag) >= robot_detail::kShortestLag),
       lags_shortly_(!lags_ && robot_.control != MotorControl::kLocked &&
-                    !IsZero(robot_.motor_lag)) {
+                    !IsZero(robot_.motor_lag)),
+      creeps_(!IsZero(robot_.foot_slip)) {
   const Inertia<T> weight(p_);
   gravity_x_ = weight.gravity_x;
   gravity_y_ = weight.gravity_y;

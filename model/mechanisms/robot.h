@@ -220,6 +220,7 @@ class Robot final : public HybridSystem<T> {
   bool lags_, lags_shortly_;  // motors: with a state of their own, or to first order (M86)
   bool follows_legs_;         // these have enough mass for their shape to matter (M89, M98)
   bool foot_has_inertia_;     // and feet that may slide
+  bool creeps_;               // feet that hold do, under a force along (M29)
   double size_;               // of the legs, half of one unloaded [m]
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;

@@ -68,6 +68,8 @@ void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
     dz[Angle(i)] = locked ? T(0.0) : z[Rate(i)];
     dz[Contact(i)] = T(0.0);
     if (FootMoves(i)) dz[Contact(i)] = z[OwnRate(i)];
+    if (creeps_ && IsDown(leg_[i]) && leg_[i].slides == 0.0)
+      dz[Contact(i)] = -robot_.foot_slip * (push.load[i].fx + push.load[i].damped_x);
     if (follows_legs_) dz[Bent(i)] = Bends(i) ? z[OwnRate(i)] : T(0.0);
     if (lags_) dz[Given(i)] = (Torque(i, t, z) - z[Given(i)]) / robot_.motor_lag;
     if (leg_[i].geared()) dz[Twist(leg_[i])] = z[RotorRate(leg_[i])] - z[Rate(i)];

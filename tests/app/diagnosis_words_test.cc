@@ -165,7 +165,7 @@ TEST(DiagnosisWords, NumbersAreNeverInvented) {
 // A value that the data say nothing about is not told as one, nor one at a bound as an estimate.
 TEST(ValuesText, SaysWhatIsNotDetermined) {
   const FitProblem problem =
-      MakeProblem(testing::ReadWithYaml("{sigma: 0.001}", "{sigma: 0.001}"), {});
+      MakeProblem(testing::ReadWithYaml("{sigma: estimate}", "{sigma: 0.001}"), {});
   ASSERT_GE(problem.shared_count(), 2);
   Eigen::VectorXd shared = InitialShared(problem);
   shared[0] = 22e9;

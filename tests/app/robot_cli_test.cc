@@ -190,6 +190,16 @@ TEST_F(RobotCli, DiagnosisNamesTheGearWithPlay) {
   const auto& cause = record.at("causes")[0];
   EXPECT_EQ(cause.at("name"), "backlash_2");
   EXPECT_NEAR(cause.at("parameters")[0].at("value").get<double>(), 0.02, 0.0005);
+  // What the size is told for, and how to fit that, too.
+  EXPECT_NE(record.at("notes").dump().find(
+                "backlash_2: its size is told for tooth_torque 20 N m, tooth_damping 0.2 s/rad, "
+                "hub_share 0.1, which are taken as given"),
+            std::string::npos)
+      << record.at("notes");
+  const std::string free =
+      "--free E,leg_damping,backlash_2.play,backlash_2.tooth_torque,backlash_2.tooth_damping,"
+      "backlash_2.hub_share`";
+  EXPECT_NE(record.at("notes").dump().find(free), std::string::npos) << record.at("notes");
 }
 
 TEST_F(RobotCli, RefusesWhatDoesNotGoTogether) {
