@@ -41,6 +41,14 @@ constexpr Fault kFaults[] = {
     {"foot_coulomb_friction", [](Parameters<double>& p, std::size_t) { p.robot->friction = 0.4; }},
     {"hip_viscous_friction_%",
      [](Parameters<double>& p, std::size_t leg) { p.robot->hip_viscous[leg] = 0.1; }},
+    {"hip_coulomb_friction_%",
+     [](Parameters<double>& p, std::size_t leg) { p.robot->hip_coulomb[leg] = 0.3; }},
+    {"motor_lag", [](Parameters<double>& p, std::size_t) { p.robot->motor_lag = 0.005; }},
+    {"backlash_%",
+     [](Parameters<double>& p, std::size_t leg) {
+       p.robot->play[leg] = 0.02;
+       p.robot->hub_share[leg] = 0.1;
+     }},
 };
 
 // The robots of datasets/: legs of 10 g, half an arc of each fast to its motor.

@@ -31,6 +31,9 @@ const Fault kFaults[] = {
     {"floor of friction 0.4, not 1", "foot_coulomb_friction", "inverse_mu", 1.5},
     {"dry friction of 0.3 N m in one hip", "hip_coulomb_friction_%", "tau_c", 0.3},
     {"viscous friction of 0.1 N m s in one hip", "hip_viscous_friction_%", "b_h", 0.1},
+    {"motors 5 ms behind", "motor_lag", "t_lag", 0.005},
+    {"play of 20 mrad in one gear", "backlash_%", "play", 0.02},
+    {"feet that creep by 0.5 mm/s a newton", "foot_slip", "c_slip", 5e-4},
 };
 
 std::string NameFor(const Fault& fault, int seed) {
