@@ -52,22 +52,48 @@ std::optional<double> FirstStancesOver(const FitProblem& problem) {
   return until;
 }
 
+double LeastPart(const FitProblem& problem) {
+  double latest = 0.0;
+  for (const TrialProblem& trial : problem.trials) {
+    TrialEvaluation e;
+    TrialEvaluator(problem, trial).Evaluate({InitialShared(problem), trial.start, false}, e);
+    const auto first =
+        std::find_if(e.trajectory.events.begin(), e.trajectory.events.end(),
+                     [](const Event& event) { return event.kind == EventKind::kTouchdown; });
+    if (first != e.trajectory.events.end()) latest = std::max(latest, first->time);
+  }
+  return kAfterStances * latest;
+}
+
+Parts::Parts(const FitProblem& problem)
+    : least_(LeastPart(problem)), end_(LongestTrial(problem.trials)) {
+  until_ = FirstStancesOver(problem).value_or(end_);
+}
+void Parts::Follows() {
+  followed_ = true;
+  until_ *= kLonger;
+}
+void Parts::Fails() {
+  end_ = (1.0 - 1e-9) * until_;
+  if (followed_ || shorter_ == 0 || until_ / kLonger < least_) return;
+  --shorter_;
+  until_ /= kLonger;
+}
+
 std::optional<FollowedPart> FitFollowedPart(const FitProblem& problem, const FitOptions& options) {
   std::optional<FollowedPart> longest;
-  int shorter = kShorterParts;
-  const double end = LongestTrial(problem.trials);
-  for (double until = FirstStancesOver(problem).value_or(end); until < end; until *= kLonger) {
+  for (Parts parts(problem); parts.IsLeft();) {
     FollowedPart part;
-    part.until = until;
-    part.problem = FirstPart(problem, until);
+    part.until = parts.until();
+    part.problem = FirstPart(problem, part.until);
     part.result = Fit(part.problem, options);
     if (part.result.interrupted) break;
     if (!part.result.ok || !part.result.stop.IsMinimum()) {
-      if (longest || shorter-- == 0) break;
-      until /= kLonger * kLonger;
+      parts.Fails();
       continue;
     }
     longest = std::move(part);
+    parts.Follows();
   }
   return longest;
 }

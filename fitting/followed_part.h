@@ -14,10 +14,33 @@ FitProblem FirstPart(const FitProblem& problem, double until);
 /// fall before are left out; absent where all do.
 std::optional<double> FirstStancesOver(const FitProblem& problem);
 
+/// The least part of the trials that tells something of the legs: in the simulations at the nominal
+/// values the first leg of every trial has landed, and a tenth more [s].
+double LeastPart(const FitProblem& problem);
+
 /// Each part of the trials that is tried is longer than the last by this.
 inline constexpr double kLonger = 1.5;
 /// Where the first one cannot be fitted, so many shorter ones are.
 inline constexpr int kShorterParts = 2;
+
+/// Which first parts of the trials are tried, one after the other: the first stances, and longer
+/// and longer ones; where the first stances cannot be fitted, shorter ones, and from there none as
+/// long as what failed.
+class Parts {
+ public:
+  explicit Parts(const FitProblem& problem);
+  bool IsLeft() const { return until_ < end_; }
+  double until() const { return until_; }
+  bool IsShorterThanStances() const { return shorter_ < kShorterParts; }
+  /// This one can be fitted, or cannot.
+  void Follows();
+  void Fails();
+
+ private:
+  double until_, least_, end_;
+  int shorter_ = kShorterParts;
+  bool followed_ = false;
+};
 
 /// As much of every trial as a model can be fitted to.
 struct FollowedPart {

@@ -75,6 +75,7 @@ SolveResult GivenUp(SolveResult result) {
 SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& other,
                  RoundCosts& costs, bool only_elsewhere = false) {
   const SolveRequest at_once = request;
+  bool moved = false;
   const std::vector<TrialProblem>& whole = *request.trials;
   for (const double fraction : RoundsFrom(known_until / LongestTrial(whole))) {
     const std::vector<TrialProblem> cut =
@@ -92,6 +93,7 @@ SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& oth
                                  (only_elsewhere && IsAlike(costs.back(), other[round]))))
       return GivenUp(std::move(next));
     if (!IsUsable(next.status)) continue;
+    moved = true;
     request.shared = std::move(next.shared);
     request.initial_states = std::move(next.initial_states);
   }
@@ -99,10 +101,10 @@ SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& oth
   request.max_iterations = at_once.max_iterations;
   request.function_tolerance = at_once.function_tolerance;
   SolveResult grown = Solve(request);
-  if (IsUsable(grown.status) || grown.status == SolveStatus::kInterrupted) return grown;
+  if (!moved || IsUsable(grown.status) || grown.status == SolveStatus::kInterrupted) return grown;
   // The rounds led to where no simulation follows all rows. The values they began with may.
   SolveResult anew = Solve(at_once);
-  return IsUsable(anew.status) ? anew : grown;
+  return IsUsable(anew.status) || anew.status == SolveStatus::kInterrupted ? anew : grown;
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ struct RobotParameters {
   std::array<T, kMaxLegs> E_scale{T(1.0), T(1.0), T(1.0), T(1.0)};        // [-]
   std::array<T, kMaxLegs> extra_damping{T(0.0), T(0.0), T(0.0), T(0.0)};  // beside damping [s]
   std::array<T, kMaxLegs> gain_of{T(1.0), T(1.0), T(1.0), T(1.0)};        // beside motor_gain [-]
+  std::array<T, kMaxLegs> leg_zero{T(0.0), T(0.0), T(0.0), T(0.0)};       // M100 [rad]
   // Friction of the hips (M99).
   std::array<T, kMaxLegs> hip_viscous{T(0.0), T(0.0), T(0.0), T(0.0)};  // [N m s/rad]
   std::array<T, kMaxLegs> hip_coulomb{T(0.0), T(0.0), T(0.0), T(0.0)};  // [N m]
@@ -75,8 +76,8 @@ struct RobotParameters {
           &p.lateral_stiffness, &p.period, &p.duty, &p.sweep, &p.offset})
       act(*v);
     for (auto* list : {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.rate, &p.E_scale, &p.extra_damping,
-                       &p.gain_of, &p.hip_viscous, &p.hip_coulomb, &p.play, &p.tooth_torque,
-                       &p.tooth_damping, &p.hub_share, &p.phase})
+                       &p.gain_of, &p.leg_zero, &p.hip_viscous, &p.hip_coulomb, &p.play,
+                       &p.tooth_torque, &p.tooth_damping, &p.hub_share, &p.phase})
       for (auto& v : *list) act(v);
   }
 };
@@ -85,7 +86,7 @@ struct RobotParameters {
 template <class To, class From>
 RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   RobotParameters<To> to;
-  std::array<double, 18 + 15 * kMaxLegs> values{};
+  std::array<double, 18 + 16 * kMaxLegs> values{};
   std::size_t n = 0;
   RobotParameters<From>::Each(from, [&](const From& v) { values[n++] = Value(v); });
   n = 0;

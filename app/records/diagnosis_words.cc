@@ -180,6 +180,9 @@ std::string CauseText(const Candidate& candidate) {
 std::string ValuesText(const FitProblem& problem, const Eigen::VectorXd& shared,
                        const Uncertainty& uncertainty) {
   std::vector<std::string> values;
+  const bool is_assessed =
+      std::any_of(uncertainty.parameters.begin(), uncertainty.parameters.end(),
+                  [](const ParameterUncertainty& u) { return u.ci95.has_value(); });
   for (int k = 0; k < problem.shared_count(); ++k) {
     const SharedParameter& s = problem.shared[static_cast<std::size_t>(k)];
     const ParameterUncertainty& u = uncertainty.parameters[static_cast<std::size_t>(k)];
@@ -192,7 +195,7 @@ std::string ValuesText(const FitProblem& problem, const Eigen::VectorXd& shared,
     if (!unit.unit.empty()) text += " " + unit.unit;
     if (u.at_bound)
       text += " (the end of its range)";
-    else if (!u.ci95)
+    else if (!u.ci95 && is_assessed)
       text = s.name + " not determined";
     values.push_back(std::move(text));
   }

@@ -35,16 +35,13 @@ class StageByStage {
   // make it surer, each beginning with what the last one found; where nothing is seen, the whole
   // trials. Where no simulation follows the first one, shorter ones first.
   Diagnosis Run() {
-    const double end = LongestTrial(whole_.trials);
     std::optional<Diagnosis> last;
-    int shorter = kShorterParts;
-    for (double until = FirstStancesOver(whole_).value_or(end); until < end; until *= kLonger) {
-      Diagnosis longer = OfFirst(until, last);
+    for (Parts parts(whole_); parts.IsLeft();) {
+      Diagnosis longer = OfFirst(parts.until(), last);
       if (longer.interrupted) return longer;
-      if (!longer.refusal.empty()) {
-        if (options_.stage) options_.stage("no verdict of that: " + longer.refusal);
-        if (last || shorter-- == 0) break;
-        until /= kLonger * kLonger;
+      if (const std::string why = WhyNoVerdict(longer, parts); !why.empty()) {
+        if (options_.stage) options_.stage("no verdict of that: " + why);
+        parts.Fails();
         continue;
       }
       const bool nothing_seen = longer.verdict == Verdict::kAdequate;
@@ -53,6 +50,7 @@ class StageByStage {
       last = std::move(longer);
       if (last->verdict == Verdict::kNamed) return WithWholeTrials(std::move(*last));
       if (nothing_seen && WholeIsMinimum()) break;
+      parts.Follows();
     }
     if (last && !WholeIsMinimum() && !Stopped()) return WithWholeTrials(std::move(*last));
     Diagnosis whole = DiagnoseFitted(std::move(WholeNull()), options_, FoundIn(last, whole_));
@@ -67,6 +65,13 @@ class StageByStage {
   // A model's own errors grow from landing to landing, too, and make names less sure again.
   static bool IsLessSure(const Diagnosis& longer, const std::optional<Diagnosis>& shorter) {
     return shorter && NamesSomething(*shorter) && Sureness(longer) < Sureness(*shorter);
+  }
+  // That nothing is seen before the first stances are over says nothing of a model that does not
+  // follow these.
+  static std::string WhyNoVerdict(const Diagnosis& d, const Parts& parts) {
+    if (d.refusal.empty() && parts.IsShorterThanStances() && d.verdict == Verdict::kAdequate)
+      return "nothing is seen so early";
+    return d.refusal;
   }
   // Of the names, stand-ins aside: longer parts have more of them, and they are told in any case.
   // Where nothing is named, that nothing is there.
@@ -98,7 +103,8 @@ class StageByStage {
     null.until = until;
     null.note =
         "what is told is of " + what + ": what is wrong with a model grows from landing to landing";
-    return DiagnoseFitted(std::move(null), options_, FoundIn(last, part));
+    const Beforehand found = null.result.ok ? FoundIn(last, part) : Beforehand();
+    return DiagnoseFitted(std::move(null), options_, found);
   }
 
   // What was found in shorter parts, for a search in longer ones.

@@ -143,8 +143,8 @@ class Pipeline {
     for (const CauseReport* c : d_.extension->ToldCauses()) {
       const int member = static_cast<int>(d_.naming.MemberOf(c->candidate));
       d_.extension->at_bound |= d_.naming.best.AtPhysicalBound(member);
-      NoteShapes(*c->cause.effect);
     }
+    NoteShapes(d_.extension->ToldCauses());
     MeasureCandidates();
     for (const std::vector<FittedModel>& rivals : d_.naming.rivals) {
       if (rivals.size() < 2 || d_.experiment) continue;
@@ -154,24 +154,28 @@ class Pipeline {
   }
 
   // Sizes and intervals are those for the shapes that are given.
-  void NoteShapes(const Effect& effect) {
-    std::string shapes, names;
-    for (const EffectParameter& p : effect.info.parameters) {
-      if (!p.is_shape) continue;
-      const std::string name(p.name), unit = p.unit == "-" ? "" : " " + std::string(p.unit);
-      char value[32];
-      std::snprintf(value, sizeof value, "%.4g", p.null);
-      shapes += (shapes.empty() ? "" : ", ") + name + " " + value + unit;
-      names += "," + std::string(effect.info.name) + "." + name;
+  void NoteShapes(const std::vector<const CauseReport*>& told) {
+    std::string what, free;
+    for (const SharedParameter& s : d_.naming.best.problem.shared)
+      free += (free.empty() ? "" : ",") + s.name;
+    std::vector<const Effect*> noted;
+    for (const CauseReport* c : told) {
+      const Effect* effect = c->cause.effect;
+      if (std::find(noted.begin(), noted.end(), effect) != noted.end()) continue;
+      noted.push_back(effect);
+      for (const EffectParameter& p : effect->info.parameters) {
+        if (!p.is_shape) continue;
+        const std::string name = std::string(effect->info.name) + "." + std::string(p.name);
+        char value[32];
+        std::snprintf(value, sizeof value, " %.4g", p.null);
+        what += (what.empty() ? "" : ", ") + name + value;
+        if (p.unit != "-") what += " " + std::string(p.unit);
+        free += "," + name;
+      }
     }
-    if (shapes.empty()) return;
-    const std::string cause(effect.info.name);
-    std::string others;
-    for (const SharedParameter& s : d_.problem.shared) others += s.name + ",";
-    d_.notes.push_back(cause + ": its size is told for " + shapes +
-                       ", which are taken as given; `hoplab fit --free " + others + cause + "." +
-                       std::string(effect.info.parameters.front().name) + names +
-                       "` fits them, too");
+    if (!what.empty())
+      d_.notes.push_back("sizes are told for " + what + ", which are taken as given; `hoplab fit " +
+                         "--free " + free + "` fits them, too");
   }
 
   // Nothing is told: the model as it is, with intervals that hold what the evidence wanted.

@@ -38,6 +38,13 @@ inline constexpr std::array<std::string_view, kMaxLegs + 1> kRubbingBearing = {
     "the hip of leg 3 rubs with a torque that only asks which way it turns",
     "the hip of leg 4 rubs with a torque that only asks which way it turns"};
 
+inline constexpr std::array<std::string_view, kMaxLegs + 1> kLegAskew = {
+    "the legs sit on their motors at another angle than the encoders read",
+    "leg 1 (the hindmost) sits on its motor at another angle than the encoder reads",
+    "leg 2 sits on its motor at another angle than the encoder reads",
+    "leg 3 sits on its motor at another angle than the encoder reads",
+    "leg 4 sits on its motor at another angle than the encoder reads"};
+
 inline constexpr std::array<std::string_view, kMaxLegs + 1> kGearWithPlay = {
     "the gears of the robot's motors have play: no torque passes while their teeth are apart",
     "the gear of the motor of leg 1 (the hindmost) has play: no torque passes while its teeth are "
@@ -61,6 +68,10 @@ constexpr EffectInfo InfoOfLeg(int leg, std::string_view name, std::string_view 
           .robot_leg = leg};
 }
 
+constexpr EffectInfo Dissipative(EffectInfo info) {
+  info.dissipative = true;
+  return info;
+}
 constexpr EffectInfo Sharp(EffectInfo info) {
   info.sharp = true;
   return info;
@@ -109,6 +120,25 @@ struct MotorGainOf {
   }
 };
 
+/// Of a leg; of all of them where `leg` is 0.
+template <int leg>
+struct LegZeroOffset {
+  static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
+      "leg_zero_offset", "leg_zero_offset_1", "leg_zero_offset_2", "leg_zero_offset_3",
+      "leg_zero_offset_4"};
+  static constexpr std::array kParameters = {
+      EffectParameter{"offset", "rad", 0.0, -0.5, 0.5, 0.02}};
+  static constexpr EffectInfo kInfo =
+      InfoOfLeg(leg, kNames[leg], "the leg's angle is the encoder's + offset (M100)",
+                kLegAskew[leg], kParameters);
+
+  template <class T>
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    for (int i = 0; i < kMaxLegs; ++i)
+      if (leg == 0 || i == leg - 1) parameters.robot->leg_zero[static_cast<std::size_t>(i)] += p[0];
+  }
+};
+
 template <int leg>
 struct HipViscousFrictionOf {
   static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
@@ -117,8 +147,8 @@ struct HipViscousFrictionOf {
   static constexpr std::array kParameters = {
       EffectParameter{"b_h", "N m s/rad", 0.0, 0.0, 100.0, 0.005}};
   static constexpr EffectInfo kInfo =
-      InfoOfLeg(leg, kNames[leg], "-b_h dpsi/dt on the hub of that leg (M99)", kStiffBearing[leg],
-                kParameters);
+      Dissipative(InfoOfLeg(leg, kNames[leg], "-b_h dpsi/dt on the hub of that leg (M99)",
+                            kStiffBearing[leg], kParameters));
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
@@ -133,9 +163,9 @@ struct HipCoulombFrictionOf {
       "hip_coulomb_friction_4"};
   static constexpr std::array kParameters = {
       EffectParameter{"tau_c", "N m", 0.0, 0.0, 1000.0, 0.03}};
-  static constexpr EffectInfo kInfo = Sharp(InfoOfLeg(
+  static constexpr EffectInfo kInfo = Dissipative(Sharp(InfoOfLeg(
       leg, kNames[leg], "-tau_c sign(dpsi/dt) on the hub of that leg, which is held at rest (M99)",
-      kRubbingBearing[leg], kParameters));
+      kRubbingBearing[leg], kParameters)));
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

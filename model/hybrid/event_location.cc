@@ -30,8 +30,11 @@ GuardRates GuardWatch::RatesAt(Mode mode, double t, const double* z, const doubl
 ArmedGuards GuardWatch::Arm(Mode mode, const GuardRates& at) const {
   ArmedGuards armed{};
   const int count = values_.GuardCount(mode);
-  for (int i = 0; i < count; ++i)
-    armed[i] = at.value[i] > kAtZero || (std::abs(at.value[i]) <= kAtZero && at.rate[i] > 0.0);
+  for (int i = 0; i < count; ++i) {
+    const bool waits = TraitsOf(values_.Guard(mode, i).event).waits_to_open;
+    armed[i] = at.value[i] > kAtZero ||
+               (std::abs(at.value[i]) <= kAtZero && at.rate[i] > (waits ? -kGrazingRate : 0.0));
+  }
   return armed;
 }
 

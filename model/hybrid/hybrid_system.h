@@ -49,7 +49,7 @@ class HybridSystem {
   /// where it begins in stance with the place of its contact; gives the mode it is in.
   virtual Mode Begin(Mode mode, T* /*z*/) { return mode; }
   /// The same for a run that goes on where another one ended, with its feet; `z` is whole.
-  virtual Mode Resume(std::span<const Foot> /*feet*/, const T* /*z*/) { return Mode::kFlight; }
+  virtual Mode Resume(std::span<const Foot> /*feet*/, T* /*z*/) { return Mode::kFlight; }
   /// What its legs do now; empty of what is no robot.
   virtual void TellFeet(std::vector<Foot>& feet) const { feet.clear(); }
   virtual void SaveDiscreteState(DiscreteState& /*to*/) const {}

@@ -140,7 +140,7 @@ Mode Robot<T>::Begin(Mode, T* z) {
 // Turns, pieces and limits follow from the state; where a contact's root is searched, from the arc
 // at rest.
 template <class T>
-Mode Robot<T>::Resume(std::span<const Foot> feet, const T* z) {
+Mode Robot<T>::Resume(std::span<const Foot> feet, T* z) {
   HOPLAB_CHECK(static_cast<int>(feet.size()) == legs_);
   for (int i = 0; i < legs_; ++i) {
     Leg& leg = leg_[i];

@@ -38,7 +38,7 @@ class Robot final : public HybridSystem<T> {
   bool CompletesAnyStart() const override { return true; }
   void CompleteStart(T* z, int given) const override;
   Mode Begin(Mode mode, T* z) override;
-  Mode Resume(std::span<const Foot> feet, const T* z) override;
+  Mode Resume(std::span<const Foot> feet, T* z) override;
   void TellFeet(std::vector<Foot>& feet) const override;
   void SaveDiscreteState(DiscreteState& to) const override;
   void LoadDiscreteState(DiscreteState& from) override;
@@ -145,6 +145,7 @@ class Robot final : public HybridSystem<T> {
   Forces ForcesOf(const Frame& frame, const T& t, const T* z) const;
   void SlideOutsideCone(int i, double went, const T& t, const T* z);
   void TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& told, const T& t, T* z);
+  void Settle(int except, const T& t, T* z);
   void AskCones(int except, const T& t, T* z);
   LegMotion<T> MotionOf(int i, const Hip& hip, const T* z) const;
   Vector2<T> PressOf(int i, const Hip& hip, const T* z) const;
@@ -183,7 +184,7 @@ class Robot final : public HybridSystem<T> {
   T HipFriction(int leg, const T* z) const;
   void LetHipsGo();
   void FindTurns(const T* z);
-  void SettleHips(const T& t, const T* z);
+  void SettleHips(const T& t, T* z);
   bool HoldsHip() const;
   void TurnHip(int leg, const T& holding);
   T HipMargin(int leg, const T& holding, const T* z) const;

@@ -51,6 +51,9 @@ void Robot<T>::GoOnWith(const Impact& now, T* z) {
   for (int i = 0; i < legs_; ++i) {
     z[Rate(i)] = rates[Rate(i)];
     if (follows_legs_) z[OwnRate(i)] = rates[OwnRate(i)];
+    // A foot that the blow turns round slides that way from here on.
+    if (FootMoves(i) && leg_[i].slides * Value(z[OwnRate(i)]) < 0.0)
+      leg_[i].slides = -leg_[i].slides;
   }
   FindTurns(z);
 }

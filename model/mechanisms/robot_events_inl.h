@@ -284,9 +284,10 @@ void Robot<T>::TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& to
     case EventKind::kHipStop:
       break;
     default:
-      return;
+      return SettleHips(t, z);
   }
-  AskCones(guard.leg, t, z);
+  // A foot that has just landed, or come to rest, was asked before the hips had settled.
+  Settle(has_dry_hips_ ? -1 : guard.leg, t, z);
 }
 
 template <class T>
@@ -346,8 +347,12 @@ ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
       break;  // apex
   }
   const bool goes_on = guard.event == EventKind::kHipSlip || TraitsOf(guard.event).is_section;
-  if (!end && !goes_on) SettleHips(t, z);
-  if (follows_legs_ && !end) TakeJump(guard, told, t, z);
+  if (!end && !goes_on) {
+    if (follows_legs_)
+      TakeJump(guard, told, t, z);
+    else
+      SettleHips(t, z);
+  }
   const Mode mode = ModeNow();
   ListGuards(mode);
   return {.next = mode, .end = end, .turned_out = turned_out};

@@ -49,9 +49,10 @@ void Robot<T>::FindTurns(const T* z) {
 }
 
 // Hips that do not turn are held, but where that asks for more than friction gives: of those the
-// one that asks for most is let go, until none is left.
+// one that asks for most is let go, until none is left. What would turn one that is held stops at
+// once.
 template <class T>
-void Robot<T>::SettleHips(const T& t, const T* z) {
+void Robot<T>::SettleHips(const T& t, T* z) {
   if (!has_dry_hips_) return;
   FindTurns(z);
   for (int i = 0; i < legs_; ++i) leg_[i].is_held = IsDry(i) && leg_[i].turns_by == 0.0;
@@ -66,9 +67,20 @@ void Robot<T>::SettleHips(const T& t, const T* z) {
       most = share;
       first = i;
     }
-    if (first < 0) return;
+    if (first < 0) break;
     TurnHip(first, holding[first]);
   }
+  for (int i = 0; i < legs_; ++i)
+    if (leg_[i].is_held) z[Rate(i)] = T(0.0);
+}
+
+// Where accelerations or torques jump, so does what holds hips and feet; one that begins to move
+// bears on the others.
+template <class T>
+void Robot<T>::Settle(int except, const T& t, T* z) {
+  SettleHips(t, z);
+  AskCones(except, t, z);
+  if (foot_has_inertia_) SettleHips(t, z);
 }
 
 template <class T>

@@ -34,7 +34,9 @@ void Robot<T>::SetUpMotor(int i) {
 template <class T>
 T Robot<T>::MotorAngle(int leg, const T* z) const {
   const Leg& own = leg_[leg];
-  return own.geared() ? T(z[Angle(leg)] + z[Twist(own)]) : z[Angle(leg)];
+  T angle = z[Angle(leg)] - robot_.leg_zero[leg];
+  if (own.geared()) angle += z[Twist(own)];
+  return angle;
 }
 template <class T>
 T Robot<T>::MotorRate(int leg, const T* z) const {
@@ -81,7 +83,8 @@ T Robot<T>::ToldRate(int leg, const T* z, const T* dz) const {
 }
 
 // A start gives the body's motion, and the pitch and its rate; motors begin on their reference, or
-// where it is told. A gear begins in the middle of its play, its rotor as fast as its hip.
+// where it is told, by their encoders (M100). A gear begins in the middle of its play, its rotor as
+// fast as its hip.
 template <class T>
 void Robot<T>::CompleteStart(T* z, int given) const {
   const bool own = given > 6, clock = robot_.control == MotorControl::kClock;
@@ -100,6 +103,7 @@ void Robot<T>::CompleteStart(T* z, int given) const {
         z[Angle(i)] = to.angle;
         z[Rate(i)] = to.rate;
       }
+      z[Angle(i)] += robot_.leg_zero[i];
     }
     if (leg.geared() && given <= Twist(leg)) z[RotorRate(leg)] = z[Rate(i)];
   }
@@ -148,10 +152,7 @@ std::optional<T> Robot<T>::PassKnot(Mode mode, double t, T* z) {
   if (motor >= 0) FindLimit(motor, t, z);
   if (misses) MissJump(motor, Torque(motor, instant, at) - before, at, z);
   const bool jumps = !kind || inputs_.of(*kind).held() || (motor >= 0 && !leg_[motor].is_told);
-  if (jumps) {
-    SettleHips(T(t), z);
-    AskCones(/*except=*/-1, T(t), z);
-  }
+  if (jumps) Settle(/*except=*/-1, T(t), z);
   ListGuards(mode);
   return instant;
 }

@@ -192,8 +192,8 @@ TEST_F(RobotCli, DiagnosisNamesTheGearWithPlay) {
   EXPECT_NEAR(cause.at("parameters")[0].at("value").get<double>(), 0.02, 0.0005);
   // What the size is told for, and how to fit that, too.
   EXPECT_NE(record.at("notes").dump().find(
-                "backlash_2: its size is told for tooth_torque 20 N m, tooth_damping 0.2 s/rad, "
-                "hub_share 0.1, which are taken as given"),
+                "sizes are told for backlash_2.tooth_torque 20 N m, backlash_2.tooth_damping 0.2 "
+                "s/rad, backlash_2.hub_share 0.1, which are taken as given"),
             std::string::npos)
       << record.at("notes");
   const std::string free =

@@ -43,6 +43,8 @@ constexpr Fault kFaults[] = {
      [](Parameters<double>& p, std::size_t leg) { p.robot->hip_viscous[leg] = 0.1; }},
     {"hip_coulomb_friction_%",
      [](Parameters<double>& p, std::size_t leg) { p.robot->hip_coulomb[leg] = 0.3; }},
+    {"leg_zero_offset_%",
+     [](Parameters<double>& p, std::size_t leg) { p.robot->leg_zero[leg] = 0.02; }},
     {"motor_lag", [](Parameters<double>& p, std::size_t) { p.robot->motor_lag = 0.005; }},
     {"backlash_%",
      [](Parameters<double>& p, std::size_t leg) {

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "model/hybrid/engine.h"
+#include "model/mechanisms/robot.h"
 #include "tests/support/robot_columns.h"
 #include "tests/support/robot_requests.h"
 #include "tests/support/tolerances.h"
@@ -177,6 +181,96 @@ TEST(HipFriction, LetsGoOfAHipThatDoesNotJump) {
     }
     EXPECT_GE(slips, 2) << leg_mass;
   }
+}
+
+// How far outside their cones feet are that hold or slide, and hips that are held or turn, four
+// times a millisecond.
+class ConeRows final : public RowReader<double> {
+ public:
+  ConeRows(const HybridSystem<double>& system, double horizon)
+      : system_(system), count_(static_cast<int>(4e3 * horizon)) {}
+  int count() const override { return count_; }
+  double Time(int i) const override { return 0.25e-3 * (i + 0.5); }
+  void Read(int, Mode mode, const double& time, const double* z) override {
+    double g[kMaxGuards];
+    system_.Guards(mode, time, z, g);
+    for (int k = 0; k < system_.GuardCount(mode); ++k) {
+      const GuardSpec guard = system_.Guard(mode, k);
+      if (guard.event != EventKind::kSlide && guard.event != EventKind::kStick &&
+          guard.event != EventKind::kHipSlip && guard.event != EventKind::kHipStop)
+        continue;
+      ++asked;
+      outside = std::max(outside, -g[k] / guard.scale);
+    }
+  }
+  double outside = 0.0;
+  int asked = 0;
+
+ private:
+  const HybridSystem<double>& system_;
+  int count_;
+};
+
+// No foot holds and no hip is held by more friction than there is, and none moves the other way
+// than its friction has it, whichever of them lets go or comes to rest first.
+TEST(HipFriction, AllStayWithinTheirCones) {
+  double outside = 0.0;
+  int asked = 0, runs = 0;
+  std::map<EventKind, int> seen;
+  for (const bool walks : {false, true}) {
+    for (unsigned seed = 1; seed <= 100; ++seed) {
+      MechanismSetup<double> setup;
+      Parameters<double>& p = setup.parameters = walks ? Walking() : RobotParametersFor(3);
+      p.robot->friction = 0.3 + 0.004 * seed;
+      p.robot->damping = 3e-4;
+      p.robot->leg_mass = 0.1;
+      p.robot->hip_coulomb.fill(0.1 * (1 + seed % 8));
+      const SimulationRequest q = RandomRobotDrop(p, seed, 0.35);
+      setup.parameters = q.parameters;
+      MechanismSetup<Jet<1>> rate_setup;
+      rate_setup.parameters = ConvertParameters<Jet<1>>(setup.parameters);
+      Robot<double> robot(setup), values(setup);
+      Robot<Jet<1>> rates(rate_setup);
+      ConeRows rows(robot, q.horizon);
+      Trajectory run;
+      IntegratorOptions options;
+      Engine<double> engine({robot, values, rates}, options, {.horizon = q.horizon}, rows, run);
+      std::vector<double> z(static_cast<std::size_t>(robot.size()), 0.0);
+      std::copy(q.initial.begin(), q.initial.end(), z.begin());
+      robot.CompleteStart(z.data(), static_cast<int>(q.initial.size()));
+      engine.Run(Mode::kFlight, z.data());
+      EXPECT_NE(run.outcome, Outcome::kChattering) << seed << walks;
+      for (const Event& e : run.events) ++seen[e.kind];
+      outside = std::max(outside, rows.outside);
+      asked += rows.asked;
+      ++runs;
+    }
+  }
+  std::printf("  %d runs, %d cones, %d hips stop, %d slip, %d feet slide: outside by %.1e\n", runs,
+              asked, seen[EventKind::kHipStop], seen[EventKind::kHipSlip], seen[EventKind::kSlide],
+              outside);
+  EXPECT_GT(seen[EventKind::kHipSlip], 50);
+  EXPECT_GT(seen[EventKind::kSlide], 20);
+  EXPECT_LT(outside, 1e-6);
+}
+
+// A hip that is held where a run goes on forgets how fast it might have turned.
+TEST(HipFriction, AHeldHipHasNoDerivativeByItsRate) {
+  Parameters<double> p = RobotParametersFor(2);
+  p.robot->friction = 0.8;
+  SimulationRequest q = RobotDrop(
+      p, {0.0, 0.3, 0.3, 0.0, 0.02, 0.1, p.robot->angle[0], p.robot->angle[1], 0.0, 0.0}, 0.05);
+  const std::array effects = {Friction("hip_coulomb_friction_1", 0.5)};
+  const std::array directions = {SensitivityDirection::InitialState(8),
+                                 SensitivityDirection::InitialState(9)};
+  q.effects = effects;
+  q.directions = directions;
+  const Trajectory run = Simulate(q);
+  ASSERT_EQ(run.outcome, Outcome::kCompleted);
+  // By (component, direction): the angle of leg 1 by its rate, that of leg 2 by its own.
+  EXPECT_EQ(run.final_sensitivities[2 * 6], 0.0);
+  EXPECT_EQ(run.final_sensitivities[2 * 8], 0.0);
+  EXPECT_GT(std::abs(run.final_sensitivities[2 * 7 + 1]), 1e-6);
 }
 
 // ---- derivatives -----------------------------------------------------------------------------

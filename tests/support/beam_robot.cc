@@ -151,7 +151,7 @@ void RecordRun(const Parameters<double>& p, mjModel& model, const Run& run, Rand
   for (int i = 0; i < robot.legs; ++i) {
     const Followed begin = FollowedAt(robot, run, i, 0.0);
     for (int dof : {motor[i], DofOf(model, "hip", i)}) {
-      data->qpos[dof] = begin.angle;
+      data->qpos[dof] = begin.angle + robot.leg_zero[i];
       data->qvel[dof] = begin.rate;
     }
   }
@@ -162,12 +162,13 @@ void RecordRun(const Parameters<double>& p, mjModel& model, const Run& run, Rand
   csv << '\n';
   for (int row = 0; data->time <= PlanFor(robot).longest && !Tips(p, *data);) {
     mj_step1(&model, data.get());
-    std::array<double, kMaxLegs> told = {};
+    std::array<double, kMaxLegs> read = {}, told = {};  // encoders, torques
     for (int i = 0; i < robot.legs; ++i) {
       const Followed at = FollowedAt(robot, run, i, data->time);
-      told[i] = std::clamp(robot.motor_kp * (at.angle - data->qpos[motor[i]]) +
-                               robot.motor_kd * (at.rate - data->qvel[motor[i]]),
-                           -robot.torque_limit, robot.torque_limit);
+      read[i] = data->qpos[motor[i]] - robot.leg_zero[i];
+      told[i] = std::clamp(
+          robot.motor_kp * (at.angle - read[i]) + robot.motor_kd * (at.rate - data->qvel[motor[i]]),
+          -robot.torque_limit, robot.torque_limit);
       data->ctrl[i] = motors.Give(i, told[i], model.opt.timestep);
     }
     if (data->time >= row * kRow - 1e-9) {
@@ -176,7 +177,7 @@ void RecordRun(const Parameters<double>& p, mjModel& model, const Run& run, Rand
                          data->qpos[kY] + kPosition * noise.Normal(),
                          data->qpos[kPitch] + kAngle * noise.Normal());
       for (int i = 0; i < robot.legs; ++i)
-        csv << fmt::format(",{:.6f}", data->qpos[motor[i]] + kAngle * noise.Normal());
+        csv << fmt::format(",{:.6f}", read[i] + kAngle * noise.Normal());
       for (int i = 0; i < robot.legs; ++i)
         csv << fmt::format(",{:.5f}", told[i] + kTorque * noise.Normal());
       csv << '\n';

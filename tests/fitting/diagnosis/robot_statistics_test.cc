@@ -34,6 +34,8 @@ const Fault kFaults[] = {
     {"motors 5 ms behind", "motor_lag", "t_lag", 0.005},
     {"play of 20 mrad in one gear", "backlash_%", "play", 0.02},
     {"feet that creep by 0.5 mm/s a newton", "foot_slip", "c_slip", 5e-4},
+    {"a leg 20 mrad askew on its motor", "leg_zero_offset_%", "offset", 0.02},
+    {"pitch read 10 mrad askew", "sensor_offset_pitch", "offset", 0.01},
 };
 
 std::string NameFor(const Fault& fault, int seed) {

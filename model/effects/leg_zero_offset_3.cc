@@ -1,0 +1,5 @@
+#include "model/effects/robot_leg.h"
+
+namespace hoplab::effects {
+extern constexpr Effect leg_zero_offset_3 = MakeEffect<effect_detail::LegZeroOffset<3>>();
+}
