@@ -37,7 +37,7 @@ constexpr EventTraits kEvents[] = {
     {.name = "stick", .waits_to_open = true},
     {.name = "brush"},
     {.name = "gear_mesh"},
-    {.name = "hip_stop", .waits_to_open = true},
+    {.name = "hip_stop", .waits_to_open = true, .opens_slowly = true},
     {.name = "hip_slip", .waits_to_open = true},
     {.name = "switch"},
     {.name = "corner", .changes_flow = true},

@@ -46,6 +46,8 @@ struct EventTraits {
   /// At zero where its mode begins it may open by the second order of time: there it fires at once
   /// only if it comes down faster than grazing.
   bool waits_to_open = false;
+  /// It opens so at its own pace: it may open and close within one step, and is looked for there.
+  bool opens_slowly = false;
   bool begins_hop = false;    // a hop is on its way from here
   bool ends_hop = false;      // ... and complete here, unless the reset says no
   bool is_hop = false;        // each one counts as a hop

@@ -31,9 +31,9 @@ ArmedGuards GuardWatch::Arm(Mode mode, const GuardRates& at) const {
   ArmedGuards armed{};
   const int count = values_.GuardCount(mode);
   for (int i = 0; i < count; ++i) {
-    const bool waits = TraitsOf(values_.Guard(mode, i).event).waits_to_open;
+    const bool slow = TraitsOf(values_.Guard(mode, i).event).opens_slowly;
     armed[i] = at.value[i] > kAtZero ||
-               (std::abs(at.value[i]) <= kAtZero && at.rate[i] > (waits ? -kGrazingRate : 0.0));
+               (std::abs(at.value[i]) <= kAtZero && at.rate[i] > (slow ? -kGrazingRate : 0.0));
   }
   return armed;
 }
