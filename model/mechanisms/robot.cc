@@ -30,8 +30,7 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
       has_leg_mass_(!IsZero(robot_.leg_mass)),
       lags_(robot_.control != MotorControl::kLocked &&
             Value(robot_.motor_lag) >= robot_detail::kShortestLag),
-      lags_shortly_(!lags_ && robot_.control != MotorControl::kLocked &&
-                    !IsZero(robot_.motor_lag)),
+      lags_shortly_(!lags_ && robot_.control != MotorControl::kLocked && !IsZero(robot_.motor_lag)),
       creeps_(!IsZero(robot_.foot_slip)) {
   const Inertia<T> weight(p_);
   gravity_x_ = weight.gravity_x;
