@@ -13,9 +13,6 @@ namespace hoplab {
 /// Most legs of a robot, seen from the side.
 inline constexpr int kMaxLegs = 4;
 
-/// Rate within which dry friction of a hopper's hip turns round (M38) [rad/s].
-inline constexpr double kHipFrictionWidth = 0.5;
-
 /// A robot's body, motors and legs (section 8 of the equation sheet), beside the mass and gravity
 /// it has with every mechanism. SI units and radians; angles as in section 8.
 template <class T>

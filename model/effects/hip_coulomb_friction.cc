@@ -5,6 +5,9 @@
 namespace hoplab {
 namespace {
 
+// Rate within which dry friction of a hopper's hip turns round (M38) [rad/s].
+constexpr double kHipFrictionWidth = 0.5;
+
 struct HipCoulombFriction {
   static constexpr std::array kParameters = {
       EffectParameter{"tau_c", "N m", 0.0, 0.0, 1000.0, 0.03}};

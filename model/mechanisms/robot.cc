@@ -13,6 +13,7 @@
 #include "model/mechanisms/robot_events_inl.h"
 #include "model/mechanisms/robot_feet_inl.h"
 #include "model/mechanisms/robot_hips_inl.h"
+#include "model/mechanisms/robot_jumps_inl.h"
 #include "model/mechanisms/robot_legs_inl.h"
 #include "model/mechanisms/robot_motors_inl.h"
 #include "model/mechanisms/robot_stances_inl.h"

@@ -267,29 +267,6 @@ void Robot<T>::BeginOnFoot(int i, T* z) {
   if (!(Value(load.fy) > 0.0)) LiftOff(i, z);
 }
 
-// Where rates jump, so does what the motors are told: on which side of its limit each is then is
-// part of the event, and a short lag misses the jump (M86).
-template <class T>
-void Robot<T>::TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& told, const T& t,
-                        T* z) {
-  switch (guard.event) {
-    case EventKind::kTouchdown:
-    case EventKind::kLiftoff:
-    case EventKind::kRollingToToe:
-    case EventKind::kToeToRolling:
-      FindLimits(Value(t), z);
-      for (int i = 0; i < legs_ && lags_shortly_; ++i) MissJump(i, Torque(i, t, z) - told[i], z, z);
-      break;
-    case EventKind::kStick:
-    case EventKind::kHipStop:
-      break;
-    default:
-      return SettleHips(t, z);
-  }
-  // A foot that has just landed, or come to rest, was asked before the hips had settled.
-  Settle(has_dry_hips_ ? -1 : guard.leg, t, z);
-}
-
 template <class T>
 ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
   const GuardRef guard = guards_[i];

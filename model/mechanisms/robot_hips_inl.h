@@ -74,15 +74,6 @@ void Robot<T>::SettleHips(const T& t, T* z) {
     if (leg_[i].is_held) z[Rate(i)] = T(0.0);
 }
 
-// Where accelerations or torques jump, so does what holds hips and feet; one that begins to move
-// bears on the others.
-template <class T>
-void Robot<T>::Settle(int except, const T& t, T* z) {
-  SettleHips(t, z);
-  AskCones(except, t, z);
-  if (foot_has_inertia_) SettleHips(t, z);
-}
-
 template <class T>
 bool Robot<T>::HoldsHip() const {
   for (int i = 0; i < legs_; ++i)

@@ -59,6 +59,49 @@ TEST(FollowedPart, APartHoldsTheFirstRowsOfEveryTrial) {
   EXPECT_DOUBLE_EQ(LongestTrial(problem.trials), 0.6);
 }
 
+// Longer and longer, or, where the first stances fail, shorter, and then none as long as what
+// failed.
+TEST(FollowedPart, PartsGrowFromTheFirstStancesAndShrinkWhereTheseFail) {
+  const FitProblem problem = MakeProblem(testing::RobotPronks(0.0, 0.6), {});
+  const double stances = *FirstStancesOver(problem);
+  Parts grows(problem);
+  ASSERT_TRUE(grows.IsLeft());
+  EXPECT_EQ(grows.until(), stances);
+  grows.Follows();
+  EXPECT_DOUBLE_EQ(grows.until(), kLonger * stances);
+  EXPECT_FALSE(grows.IsShorterThanStances());
+  grows.Fails();
+  EXPECT_FALSE(grows.IsLeft());
+
+  Parts shrinks(problem);
+  shrinks.Fails();
+  ASSERT_TRUE(shrinks.IsLeft());
+  EXPECT_DOUBLE_EQ(shrinks.until(), stances / kLonger);
+  EXPECT_TRUE(shrinks.IsShorterThanStances());
+  EXPECT_GT(shrinks.until(), LeastPart(problem));
+  Parts follows = shrinks;
+  follows.Follows();
+  EXPECT_FALSE(follows.IsLeft());
+  for (int k = 0; k < kShorterParts; ++k) shrinks.Fails();
+  EXPECT_FALSE(shrinks.IsLeft());
+}
+
+// A leg of every trial has landed in the least part, and none has in half of it.
+TEST(FollowedPart, TheLeastPartHoldsALanding) {
+  const FitProblem problem = MakeProblem(testing::RobotPronks(0.0, 0.6), {});
+  const double least = LeastPart(problem);
+  for (const TrialProblem& trial : problem.trials) {
+    TrialEvaluation e;
+    TrialEvaluator(problem, trial).Evaluate({InitialShared(problem), trial.start, false}, e);
+    const auto landed =
+        std::find_if(e.trajectory.events.begin(), e.trajectory.events.end(),
+                     [](const Event& event) { return event.kind == EventKind::kTouchdown; });
+    ASSERT_NE(landed, e.trajectory.events.end());
+    EXPECT_LT(landed->time, least);
+    EXPECT_GT(landed->time, 0.5 * least);
+  }
+}
+
 // Motors that lag by so much that no values of the model without it follow its robot through the
 // first stances.
 TEST(FollowedPart, IsShorterThanTheFirstStancesWhereTheseCannotBeFollowed) {
