@@ -9,6 +9,7 @@
 
 #include "app/terminal/quantity.h"
 #include "base/text.h"
+#include "fitting/diagnosis/verdict.h"
 
 namespace hoplab {
 namespace {
@@ -99,9 +100,12 @@ std::string CausesSentence(const Diagnosis& d, std::size_t most) {
     names.push_back(std::move(name));
   }
   const bool sure = e.Probability() >= kSure;
-  std::string text = sure                         ? "The simulation lacks "
-                     : e.Probability() >= kLikely ? "The simulation probably lacks "
-                                                  : "The simulation may lack ";
+  // How little it is, where it is.
+  const double misfit = MisfitOverNoise(d.detection);
+  std::string text = !sure && misfit > 0.0 && misfit < kSlight
+                         ? fmt::format("The simulation is off by {:.2f} of the noise and ", misfit)
+                         : "The simulation ";
+  text += sure ? "lacks " : e.Probability() >= kLikely ? "probably lacks " : "may lack ";
   text += FirstOf(names, most);
   if (!sure) text += fmt::format(" (P {:.2f})", e.Probability());
   return text + "; " + HeldOutClause(d) + ".";

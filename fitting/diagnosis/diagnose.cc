@@ -26,6 +26,10 @@ std::string WithTwoDecimals(double value) {
   return text;
 }
 
+// What shows in whole trials alone, where nothing is seen in the first stances, is one cause that
+// needs time, or two. More of them stand for the model's own error, which grows.
+constexpr int kMostLateOnes = 2;
+
 class StageByStage {
  public:
   StageByStage(FitProblem whole, const DiagnosisOptions& options)
@@ -53,7 +57,10 @@ class StageByStage {
       parts.Follows();
     }
     if (last && !WholeIsMinimum() && !Stopped()) return WithWholeTrials(std::move(*last));
-    Diagnosis whole = DiagnoseFitted(std::move(WholeNull()), options_, FoundIn(last, whole_));
+    DiagnosisOptions late = options_;
+    if (last && last->verdict == Verdict::kAdequate)
+      late.max_effects = std::min(late.max_effects, kMostLateOnes);
+    Diagnosis whole = DiagnoseFitted(std::move(WholeNull()), late, FoundIn(last, whole_));
     const bool keeps_last = !whole.refusal.empty() || IsLessSure(whole, last);
     if (last && NamesSomething(*last) && keeps_last && !whole.interrupted)
       return WithWholeTrials(std::move(*last));

@@ -33,12 +33,6 @@ void WeighWhatIsLeft(Diagnosis& d, double material) {
   d.left.material = d.left.probability > 0.5 && d.left.share > material;
 }
 
-// What the model misses, over the noise.
-double MisfitOverNoise(const Detection& seen) {
-  const double excess = seen.chi2 - seen.degrees_of_freedom;
-  return excess > 0.0 ? std::sqrt(excess / seen.degrees_of_freedom) : 0.0;
-}
-
 // Something stands out, but it is much less than the noise and no main cause is likely.
 void JudgeSlight(Diagnosis& d) {
   d.verdict = Verdict::kAdequate;
@@ -103,6 +97,11 @@ void WithdrawExclusions(Diagnosis& d) {
 }
 
 }  // namespace
+
+double MisfitOverNoise(const Detection& seen) {
+  const double excess = seen.chi2 - seen.degrees_of_freedom;
+  return excess > 0.0 ? std::sqrt(excess / seen.degrees_of_freedom) : 0.0;
+}
 
 bool IsSlight(const Detection& seen, const ExtensionReport& report) {
   const std::vector<const CauseReport*> told = report.ToldCauses();

@@ -13,6 +13,9 @@ double LeftShare(const Detection& seen, double square, int parameters);
 /// share is above `material`.
 void Judge(Diagnosis& diagnosis, double material);
 
+/// What the model misses, root mean square over the noise; 0 where it misses no more than that.
+double MisfitOverNoise(const Detection& seen);
+
 /// Whether something stands out that is much less than the noise (kSlight), and no cause that
 /// `report` tells is likely.
 bool IsSlight(const Detection& seen, const ExtensionReport& report);

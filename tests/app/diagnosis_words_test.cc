@@ -91,6 +91,19 @@ TEST_F(VerdictSentenceTest, SaysHowLikelyANameInDoubtIs) {
       << VerdictSentence(d_);
 }
 
+TEST_F(VerdictSentenceTest, SaysHowLittleIsMissedWhereANameIsInDoubt) {
+  Accept({Add("air_drag")}, 0.8);
+  d_.verdict = Verdict::kConfounded;
+  d_.detection.degrees_of_freedom = 10000;
+  d_.detection.chi2 = 10144.0;  // 0.12^2 more
+  const std::string small = "The simulation is off by 0.12 of the noise and probably lacks ";
+  EXPECT_EQ(VerdictSentence(d_).find(small + "air_drag (P 0.80); "), 0u) << VerdictSentence(d_);
+  d_.detection.chi2 = 10500.0;
+  EXPECT_EQ(VerdictSentence(d_).find("The simulation probably lacks "), 0u) << VerdictSentence(d_);
+  d_.detection.chi2 = 9900.0;  // noise that was stated too large
+  EXPECT_EQ(VerdictSentence(d_).find("The simulation probably lacks "), 0u) << VerdictSentence(d_);
+}
+
 TEST_F(VerdictSentenceTest, ClaimsNothingThatTheHeldOutTrialsDoNotShow) {
   Accept({Add("air_drag", "train-2.csv")});
   d_.verdict = Verdict::kNamed;
