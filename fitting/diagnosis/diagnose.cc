@@ -26,9 +26,9 @@ std::string WithTwoDecimals(double value) {
   return text;
 }
 
-// What shows in whole trials alone, where nothing is seen in the first stances, is one cause that
-// needs time, or two. More of them stand for the model's own error, which grows.
-constexpr int kMostLateOnes = 2;
+// What shows in whole trials alone, where nothing is seen in the first stances, is a cause that
+// needs time, or up to three. More of them stand for the model's own error, which grows.
+constexpr int kMostLateOnes = 3;
 
 class StageByStage {
  public:

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -56,6 +57,26 @@ TEST(Diagnose, NamesWhatIsFarFromTheModel) {
     const std::string name = d.extension->MainCauses().front()->cause.Name();
     EXPECT_TRUE(far.starts_with("{" + name + ":")) << far << name;
   }
+}
+
+// Three small things that need time: nothing is seen in the first stances.
+TEST(Diagnose, FindsThreeCausesThatShowLate) {
+  DiagnosisOptions options;
+  options.fit.jobs = 2;
+  options.candidates.only = {"sensor_scale_x", "camera_roll", "constant_force", "motor_gain_1"};
+  std::string stages;
+  options.stage = [&](std::string_view stage) { stages += std::string(stage) + "\n"; };
+  const Diagnosis d =
+      Diagnose(testing::RobotPronks(0.0, 0.6,
+                                    "{sensor_scale_x: {gain: 0.001725}, camera_roll: {roll: "
+                                    "0.00115}, constant_force: {force_x: 0.023}}"),
+               options);
+  EXPECT_NE(stages.find("up to there: adequate"), stages.npos) << stages;
+  EXPECT_FALSE(d.until);
+  ASSERT_TRUE(d.extension);
+  std::set<std::string> names;
+  for (const CauseReport& c : d.extension->causes) names.insert(c.cause.Name());
+  EXPECT_EQ(names, std::set<std::string>({"sensor_scale_x", "camera_roll", "constant_force"}));
 }
 
 // A name that was found stays where somebody waits for no more.

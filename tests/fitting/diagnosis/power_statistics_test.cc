@@ -24,13 +24,16 @@ double OwnLevel() {
       boost::math::complement(boost::math::chi_squared(1.0), kDelta80Threshold));
 }
 
-/// p-value of the planted effect's own score at the null fit; NaN where that is not reached.
+/// p-value of the planted effect's own score at the null fit, under white noise as the detection of
+/// a diagnosis has it; NaN where that is not reached.
 double OwnP(const Truth& truth) {
   const TempFolder temp;
   const SealedCase sealed(temp.path() / "case", truth);
   ProblemOptions options;
   options.law = std::string(NameOf(truth.law));
-  const DatasetFit fit = FitTraces(MakeProblem(ReadDataset(sealed.dataset()), options), {});
+  FitOptions white;
+  white.discrepancy = Discrepancy::kNone;
+  const DatasetFit fit = FitTraces(MakeProblem(ReadDataset(sealed.dataset()), options), white);
   if (!fit.result.ok) return std::nan("");
   const std::array tested = {Candidate{FindEffect(sealed.Open().effects.front().name)}};
   const FitProblem problem = Extend(fit.problem, tested);
