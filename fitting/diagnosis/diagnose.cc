@@ -58,9 +58,13 @@ class StageByStage {
     }
     if (last && !WholeIsMinimum() && !Stopped()) return WithWholeTrials(std::move(*last));
     DiagnosisOptions late = options_;
-    if (last && last->verdict == Verdict::kAdequate)
-      late.max_effects = std::min(late.max_effects, kMostLateOnes);
+    const bool nothing_early = last && last->verdict == Verdict::kAdequate;
+    if (nothing_early) late.max_effects = std::min(late.max_effects, kMostLateOnes);
     Diagnosis whole = DiagnoseFitted(std::move(WholeNull()), late, FoundIn(last, whole_));
+    if (late.max_effects < options_.max_effects && whole.extension)
+      whole.notes.push_back("nothing is seen in the first stances, so no more than " +
+                            std::to_string(late.max_effects) +
+                            " causes were sought in the whole trials");
     const bool keeps_last = !whole.refusal.empty() || IsLessSure(whole, last);
     if (last && NamesSomething(*last) && keeps_last && !whole.interrupted)
       return WithWholeTrials(std::move(*last));

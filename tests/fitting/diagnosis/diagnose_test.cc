@@ -1,6 +1,7 @@
 // A robot's trials by their first stances, then as a whole.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <set>
 #include <string>
@@ -77,6 +78,10 @@ TEST(Diagnose, FindsThreeCausesThatShowLate) {
   std::set<std::string> names;
   for (const CauseReport& c : d.extension->causes) names.insert(c.cause.Name());
   EXPECT_EQ(names, std::set<std::string>({"sensor_scale_x", "camera_roll", "constant_force"}));
+  EXPECT_NE(std::find(d.notes.begin(), d.notes.end(),
+                      "nothing is seen in the first stances, so no more than 3 causes were sought "
+                      "in the whole trials"),
+            d.notes.end());
 }
 
 // A name that was found stays where somebody waits for no more.
