@@ -64,7 +64,7 @@ class StageByStage {
     if (late.max_effects < options_.max_effects && whole.extension)
       whole.notes.push_back("nothing is seen in the first stances, so no more than " +
                             std::to_string(late.max_effects) +
-                            " causes were sought in the whole trials");
+                            " causes together are told of the whole trials");
     const bool keeps_last = !whole.refusal.empty() || IsLessSure(whole, last);
     if (last && NamesSomething(*last) && keeps_last && !whole.interrupted)
       return WithWholeTrials(std::move(*last));

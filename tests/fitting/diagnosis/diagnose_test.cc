@@ -79,8 +79,8 @@ TEST(Diagnose, FindsThreeCausesThatShowLate) {
   for (const CauseReport& c : d.extension->causes) names.insert(c.cause.Name());
   EXPECT_EQ(names, std::set<std::string>({"sensor_scale_x", "camera_roll", "constant_force"}));
   EXPECT_NE(std::find(d.notes.begin(), d.notes.end(),
-                      "nothing is seen in the first stances, so no more than 3 causes were sought "
-                      "in the whole trials"),
+                      "nothing is seen in the first stances, so no more than 3 causes together "
+                      "are told of the whole trials"),
             d.notes.end());
 }
 
