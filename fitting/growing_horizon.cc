@@ -39,14 +39,28 @@ std::vector<double> RoundsFrom(double known) {
   return shares;
 }
 
-bool IsBehind(double cost, double other) { return std::isfinite(cost) && cost > other + kBehind; }
+bool IsBehind(double cost, const Round& other) {
+  return std::isfinite(cost) && cost > other.cost + kBehind;
+}
 
 // Costs of two rounds that ended at one minimum, as near as a round goes: by this share, and by a
 // nat at most. Where either came to nothing they are not alike.
 constexpr double kAlike = 1e-3;
-bool IsAlike(double cost, double other) {
-  return std::isfinite(cost) && std::isfinite(other) &&
-         std::abs(cost - other) <= std::min(kAlike * (1.0 + other), 1.0);
+bool IsAlike(double cost, const Round& other, double share) {
+  return std::isfinite(cost) && std::isfinite(other.cost) &&
+         std::abs(cost - other.cost) <= std::min(share * (1.0 + other.cost), 1.0);
+}
+
+// The same place: rounds that begin there end alike.
+constexpr double kSameCost = 1e-6, kSameValue = 1e-4;
+bool IsSame(const FitProblem& problem, const Round& round, const Round& other) {
+  if (!IsAlike(round.cost, other, kSameCost)) return false;
+  for (int k = 0; k < problem.shared_count(); ++k) {
+    const double size =
+        std::max(problem.shared[static_cast<std::size_t>(k)].scale, std::abs(other.shared[k]));
+    if (!(std::abs(round.shared[k] - other.shared[k]) <= kSameValue * size)) return false;
+  }
+  return true;
 }
 
 // The trials cut to the first `fraction` of their time, and what a round that begins at `shared`
@@ -72,8 +86,19 @@ SolveResult GivenUp(SolveResult result) {
   return result;
 }
 
-SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& other,
-                 RoundCosts& costs, bool only_elsewhere = false) {
+// Another search of the same trials, and what it makes this one give up.
+struct Beside {
+  const Rounds& other;
+  bool where_alike = false;  // and not only where the values are the same
+  bool EndsAfter(const FitProblem& problem, const Round& round, std::size_t place) const {
+    if (place >= other.size()) return false;
+    if (IsBehind(round.cost, other[place])) return true;
+    return where_alike ? IsAlike(round.cost, other[place], kAlike)
+                       : IsSame(problem, round, other[place]);
+  }
+};
+
+SolveResult Grow(SolveRequest request, double known_until, const Beside& beside, Rounds& rounds) {
   const SolveRequest at_once = request;
   bool moved = false;
   const std::vector<TrialProblem>& whole = *request.trials;
@@ -85,14 +110,14 @@ SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& oth
     if (known_until == 0.0) request.max_iterations = kIterations;
     if (known_until == 0.0 && TraitsOf(request.problem->law).has_costly_runs)
       request.function_tolerance = std::max(at_once.function_tolerance, kRobotRound);
+    const std::size_t place = rounds.size();
+    if (place < beside.other.size()) request.give_up_above = beside.other[place].cost + kBehind;
     SolveResult next = Solve(request);
     if (next.status == SolveStatus::kInterrupted) return next;
-    costs.push_back(IsUsable(next.status) ? next.cost : std::numeric_limits<double>::infinity());
-    const std::size_t round = costs.size() - 1;
-    if (round < other.size() && (IsBehind(costs.back(), other[round]) ||
-                                 (only_elsewhere && IsAlike(costs.back(), other[round]))))
-      return GivenUp(std::move(next));
-    if (!IsUsable(next.status)) continue;
+    const bool usable = IsUsable(next.status);
+    rounds.push_back({usable ? next.cost : std::numeric_limits<double>::infinity(), next.shared});
+    if (beside.EndsAfter(*request.problem, rounds.back(), place)) return GivenUp(std::move(next));
+    if (!usable) continue;
     moved = true;
     request.shared = std::move(next.shared);
     request.initial_states = std::move(next.initial_states);
@@ -100,6 +125,7 @@ SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& oth
   request.trials = &whole;
   request.max_iterations = at_once.max_iterations;
   request.function_tolerance = at_once.function_tolerance;
+  request.give_up_above = at_once.give_up_above;
   SolveResult grown = Solve(request);
   if (!moved || IsUsable(grown.status) || grown.status == SolveStatus::kInterrupted) return grown;
   // The rounds led to where no simulation follows all rows. The values they began with may.
@@ -110,17 +136,17 @@ SolveResult Grow(SolveRequest request, double known_until, const RoundCosts& oth
 }  // namespace
 
 SolveResult GrowHorizon(SolveRequest request, double known_until) {
-  RoundCosts costs;
-  return Grow(std::move(request), known_until, {}, costs);
+  Rounds rounds;
+  return Grow(std::move(request), known_until, {{}}, rounds);
 }
 
-SolveResult GrowHorizonBeside(SolveRequest request, const RoundCosts& other, RoundCosts& costs) {
-  return Grow(std::move(request), 0.0, other, costs);
+SolveResult GrowHorizonBeside(SolveRequest request, const Rounds& other, Rounds& rounds) {
+  return Grow(std::move(request), 0.0, {other}, rounds);
 }
 
-SolveResult GrowHorizonElsewhere(SolveRequest request, const RoundCosts& other) {
-  RoundCosts costs;
-  return Grow(std::move(request), 0.0, other, costs, /*only_elsewhere=*/true);
+SolveResult GrowHorizonElsewhere(SolveRequest request, const Rounds& other) {
+  Rounds rounds;
+  return Grow(std::move(request), 0.0, {other, /*where_alike=*/true}, rounds);
 }
 
 }  // namespace hoplab

@@ -12,17 +12,23 @@ namespace hoplab {
 /// the one that was interrupted.
 SolveResult GrowHorizon(SolveRequest request, double known_until = 0.0);
 
-/// Costs of the rounds of a search that ended; infinite where a round came to nothing.
-using RoundCosts = std::vector<double>;
+/// Where a round of a search ended, and at what cost; infinite where it came to nothing.
+struct Round {
+  double cost = 0.0;
+  Eigen::VectorXd shared;
+  bool operator==(const Round&) const = default;
+};
+using Rounds = std::vector<Round>;
 
-/// The same, and `costs` gets those of its rounds. Where `other` has the costs of another search of
-/// the same trials, this one gives up (kGaveUp, no cost) after a round that fits clearly
-/// worse: it is in another order of events, and later rows will not bring it back.
-SolveResult GrowHorizonBeside(SolveRequest request, const RoundCosts& other, RoundCosts& costs);
+/// The same, and `rounds` gets its rounds. Where `other` has those of another search of the same
+/// trials and values, this one gives up (kGaveUp, no cost) after a round that fits clearly worse:
+/// it is in another order of events, and later rows will not bring it back. It gives up, too, after
+/// a round that ends at the other's values: later rounds would be the other's.
+SolveResult GrowHorizonBeside(SolveRequest request, const Rounds& other, Rounds& rounds);
 
 /// The same from another place, for what the first search did not find: it gives up, too, after a
-/// round that fits as well as the other's. There it is at the other's minimum, and later rounds
-/// would be the other's.
-SolveResult GrowHorizonElsewhere(SolveRequest request, const RoundCosts& other);
+/// round that fits as well as the other's. There it is at the other's minimum, wherever that is
+/// flat.
+SolveResult GrowHorizonElsewhere(SolveRequest request, const Rounds& other);
 
 }  // namespace hoplab

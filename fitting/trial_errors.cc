@@ -39,30 +39,38 @@ OwnValues DrawnStart(const TrialProblem& trial, RandomStream& random) {
 }
 
 // The start of a held-out trial, the shared values held. Which of a robot's legs lands first turns
-// with its pitch, and a search does not pass from one order to the other: one that ends badly
-// begins again elsewhere. `poor`: the cost a sample of such an end.
+// with its pitch, and a search does not pass from one order to the other: it begins where a model
+// alike has its start, if one is known, and one that ends badly begins again elsewhere. `poor`: the
+// cost a sample of such an end.
 OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
-                     const Eigen::VectorXd& shared, double poor, const FitOptions& options) {
+                     const Eigen::VectorXd& shared, double poor, const FitOptions& options,
+                     const TrialErrors* like) {
   const std::vector<TrialProblem> one = {trial};
   SolveRequest request;
   request.problem = &problem;
   request.trials = &one;
   request.shared = shared;
-  request.initial_states = {trial.start};
   request.hold_shared = true;
   request.function_tolerance = 1e-10;  // of thousands: far below one standard error
   request.loss = options.loss;
   request.stop = options.stop;
   const bool grows = TraitsOf(problem.law).lands_leg_by_leg;
-  RoundCosts costs;
-  SolveResult best = grows ? GrowHorizonBeside(request, {}, costs) : Solve(request);
   const auto is_poor = [&](const SolveResult& r) {
     return !r.complete || r.cost > poor * static_cast<double>(trial.sample_count);
   };
+  if (grows && like && like->complete && like->start.size() == trial.start.size()) {
+    request.initial_states = {like->start};
+    const SolveResult found = Solve(request);
+    if (found.status == SolveStatus::kConverged && !is_poor(found))
+      return found.initial_states.front();
+  }
+  request.initial_states = {trial.start};
+  Rounds rounds;
+  SolveResult best = grows ? GrowHorizonBeside(request, {}, rounds) : Solve(request);
   RandomStream random(options.seed, 0);
   for (int k = 0; k < kMoreRestarts && grows && is_poor(best); ++k) {
     request.initial_states = {DrawnStart(trial, random)};
-    SolveResult other = GrowHorizonElsewhere(request, costs);
+    SolveResult other = GrowHorizonElsewhere(request, rounds);
     if (other.initial_states.empty()) continue;
     if ((other.complete && !best.complete) ||
         (other.complete == best.complete && other.cost < best.cost))
@@ -132,7 +140,8 @@ void AddSampleLikelihoods(const FitProblem& problem, const TrialEvaluator& evalu
 }  // namespace
 
 std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult& fit,
-                                      const FitOptions& options, bool test_only) {
+                                      const FitOptions& options, bool test_only,
+                                      const std::vector<TrialErrors>* like) {
   std::vector<OwnValues> initial_states(problem.trials.size());
   std::size_t train = 0;
   for (std::size_t i = 0; i < problem.trials.size(); ++i) {
@@ -148,7 +157,8 @@ std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult
     out.role = trial.role;
     if (test_only && trial.role == TrialRole::kTrain) return;
     if (trial.role == TrialRole::kTest)
-      initial_states[i] = RefitStart(problem, trial, fit.shared, poor, options);
+      initial_states[i] = RefitStart(problem, trial, fit.shared, poor, options,
+                                     like ? &(*like)[static_cast<std::size_t>(i)] : nullptr);
     const TrialEvaluator evaluator(problem, trial);
     TrialEvaluation e;
     evaluator.Evaluate({fit.shared, initial_states[i], false}, e);

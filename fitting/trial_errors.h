@@ -47,9 +47,11 @@ struct RoleErrors {
 /// Errors at the fitted values. Train trials keep their fitted initial states; a test trial's start
 /// is refitted under its prior with the shared values held (a nominal start may be off by more than
 /// the model is).
-/// With `test_only` nothing but the role and the file of a train trial is filled in.
+/// With `test_only` nothing but the role and the file of a train trial is filled in. A robot's
+/// starts are sought from those of `like` first, the errors of a model that differs little.
 std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult& fit,
-                                      const FitOptions& options, bool test_only = false);
+                                      const FitOptions& options, bool test_only = false,
+                                      const std::vector<TrialErrors>* like = nullptr);
 RoleErrors Summarise(const FitProblem& problem, const std::vector<TrialErrors>& trials,
                      TrialRole role);
 

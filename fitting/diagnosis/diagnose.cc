@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "datasets/suspect_things.h"
+#include "fitting/diagnosis/after_verdict.h"
 #include "fitting/diagnosis/diagnosis.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/null_fit.h"
@@ -239,6 +240,7 @@ Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
       TraitsOf(problem.law).lands_leg_by_leg && options.span == Segmentation::kAuto;
   d = by_stages ? StageByStage(std::move(problem), options).Run()
                 : DiagnoseFitted(FitPlain(std::move(problem), options, options.span), options);
+  TellBesides(d, options);
   d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
   return d;
 }

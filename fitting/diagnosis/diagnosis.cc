@@ -7,7 +7,6 @@
 #include <mutex>
 #include <utility>
 
-#include "base/parallel.h"
 #include "fitting/diagnosis/believe.h"
 #include "fitting/diagnosis/heterogeneity.h"
 #include "fitting/diagnosis/linearise_at.h"
@@ -17,12 +16,6 @@
 
 namespace hoplab {
 namespace {
-
-// Of the most that a cause gains alone: below that it is not measured on held-out trials.
-constexpr double kLeastGain = 0.01;
-// Streams of the seed.
-constexpr std::uint64_t kDetectionStream = 11, kRemainderStream = 12, kBootstrapStream = 13,
-                        kForcesStream = 14;
 
 std::vector<Movement> MovementsOf(const FittedModel& null, const Uncertainty& uncertainty,
                                   const FittedModel& best) {
@@ -64,7 +57,6 @@ class Pipeline {
   void Stage(std::string_view text) const {
     if (options_.stage) options_.stage(text);
   }
-  std::uint64_t Seed(std::uint64_t stream) const { return options_.fit.seed * 64 + stream; }
   Diagnosis Finish() {
     d_.interrupted = Stopped();
     return std::move(d_);
@@ -81,7 +73,7 @@ class Pipeline {
     // Whether anything is there is asked of white noise: a discrepancy is one of the answers.
     const Linearisation at = LineariseAt(d_.plain, all, train_, options_.fit.jobs);
     NoteFailed(at);
-    d_.detection = Detect(at, candidates, basis_, Seed(kDetectionStream));
+    d_.detection = Detect(at, candidates, basis_, options_.Seed(Draws::kDetection));
     d_.localisation =
         Localise(Linearise(d_.plain.problem, d_.plain.problem.shared_count(), train_,
                            d_.plain.shared, d_.plain.initial_states, options_.fit.jobs));
@@ -145,12 +137,6 @@ class Pipeline {
       d_.extension->at_bound |= d_.naming.best.AtPhysicalBound(member);
     }
     NoteShapes(d_.extension->ToldCauses());
-    MeasureCandidates();
-    for (const std::vector<FittedModel>& rivals : d_.naming.rivals) {
-      if (rivals.size() < 2 || d_.experiment) continue;
-      Stage("looking for the trial that would tell the causes apart");
-      d_.experiment = ProposeExperiment(rivals, train_, options_.fit.jobs);
-    }
   }
 
   // Sizes and intervals are those for the shapes that are given.
@@ -188,7 +174,6 @@ class Pipeline {
     Doubt(d_.set_aside, others);
     if (larger) others.push_back(*larger);
     HoldOtherModels(others, d_.null, d_.uncertainty);
-    MeasureCandidates();
   }
 
   // What the best extension is worth, without the sizes trial by trial.
@@ -199,14 +184,14 @@ class Pipeline {
     report.uncertainty = AssessUncertainty(best.problem, train_, best.shared, best.initial_states,
                                            options_.fit.loss, options_.fit.jobs);
     report.after = MeasureHeldOut(best, options_.fit.jobs);
-    report.gain =
-        CompareHeldOut(d_.null, d_.before, report.after, Seed(kBootstrapStream), &report.left_out);
+    report.gain = CompareHeldOut(d_.null, d_.before, report.after, options_.Seed(Draws::kBootstrap),
+                                 &report.left_out);
     report.movements = MovementsOf(d_.null, d_.uncertainty, best);
     const std::vector<Candidate> others = CandidatesBeside(best, candidates);
     std::vector<Candidate> all = others;
     all.insert(all.end(), basis_.probes.begin(), basis_.probes.end());
     const Linearisation at = LineariseAt(best, all, train_, options_.fit.jobs);
-    report.remainder = Detect(at, others, basis_, Seed(kRemainderStream));
+    report.remainder = Detect(at, others, basis_, options_.Seed(Draws::kRemainder));
     report.other_models = OtherModelsOf(d_.naming, at, others);
     Doubt(set_aside, report.other_models);
     HoldOtherModels(report.other_models, best, report.uncertainty);
@@ -217,7 +202,7 @@ class Pipeline {
                                .extended_square = report.white_square,
                                .after = &report.after,
                                .material = options_.material,
-                               .seed = Seed(kBootstrapStream)},
+                               .seed = options_.Seed(Draws::kBootstrap)},
                               Settings());
     Believe(report, d_, HeterogeneityOf(best, train_, options_.fit.jobs));
     return report;
@@ -240,27 +225,13 @@ class Pipeline {
     return report;
   }
 
-  // Every candidate added alone.
-  void MeasureCandidates() {
-    d_.candidate_gains.resize(d_.naming.candidates.size());
-    double most = 0.0;
-    for (const CandidateResult& c : d_.naming.candidates) most = std::max(most, c.gain);
-    ParallelFor(static_cast<int>(d_.candidate_gains.size()), options_.fit.jobs, [&](int i) {
-      const CandidateResult& c = d_.naming.candidates[static_cast<std::size_t>(i)];
-      // What gained nothing on the fitted trials has nothing to show on the others.
-      if (!c.alone.ok() || c.gain < std::max(1.0, kLeastGain * most) || Stopped()) return;
-      d_.candidate_gains[static_cast<std::size_t>(i)] = CompareHeldOut(
-          d_.null, d_.before, MeasureHeldOut(c.alone, 1, true), Seed(kBootstrapStream), nullptr);
-    });
-  }
-
   // As free forces, what no cause explains.
   void DescribeWhatIsMissing() {
     const bool left = NamesSomething(d_) && d_.left.material;
     if (d_.verdict != Verdict::kUnexplained && !left) return;
     const FittedModel& model = d_.extension ? d_.naming.best : d_.plain;
     const Linearisation at = LineariseAt(model, basis_.probes, train_, options_.fit.jobs);
-    d_.free_forces = Reconstruct(at, basis_, Seed(kForcesStream));
+    d_.free_forces = Reconstruct(at, basis_, options_.Seed(Draws::kForces));
   }
 
   const DiagnosisOptions& options_;

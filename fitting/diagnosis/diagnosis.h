@@ -54,6 +54,9 @@ inline constexpr double kExplained = 0.95, kProbable = 0.8, kUnlikely = 0.2;
 inline constexpr IntegratorOptions kDiagnosisSteps{.relative_tolerance = 1e-7,
                                                    .absolute_tolerance = 1e-8};
 
+/// What draws random numbers, each from a stream of its own.
+enum class Draws : std::uint64_t { kDetection = 11, kRemainder, kBootstrap, kForces };
+
 struct DiagnosisOptions {
   ProblemOptions problem{.integrator = kDiagnosisSteps};
   FitOptions fit;  // jobs, stop and seed serve the whole diagnosis
@@ -61,6 +64,7 @@ struct DiagnosisOptions {
   CandidateOptions candidates;
   int max_effects = 5;
   double material = kMaterial;
+  std::uint64_t Seed(Draws of) const { return fit.seed * 64 + static_cast<std::uint64_t>(of); }
   /// Called where a stage begins, and how far it is (may come from several threads, one at a time).
   std::function<void(std::string_view stage)> stage = nullptr;
   /// `of` is what is planned so far: more may follow from what is found.
@@ -204,7 +208,7 @@ struct Beforehand {
   bool slow_ones_only_beside = false;
 };
 
-/// Diagnoses what a fit of the model as it is leaves.
+/// Diagnoses what a fit of the model as it is leaves, up to the verdict.
 Diagnosis DiagnoseFitted(DatasetFit null, const DiagnosisOptions& options,
                          const Beforehand& beforehand = {});
 

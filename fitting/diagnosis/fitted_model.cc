@@ -194,7 +194,7 @@ void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
   request.shared = others;
   // A robot's search over all rows at once may end in another order of events.
   const bool grows = TraitsOf(model.problem.law).lands_leg_by_leg;
-  RoundCosts of_without;
+  Rounds of_without;
   const SolveResult without = grows ? GrowHorizonBeside(request, {}, of_without) : Solve(request);
   const SolveResult* best = &without;
   std::vector<SolveResult> looks;
@@ -202,7 +202,7 @@ void RefitBeyondThresholds(FittedModel& model, const FittedModel& base,
   for (const Eigen::VectorXd& begun : beginnings) {
     if (settings.stop && *settings.stop) return;
     request.shared = begun;
-    RoundCosts own;
+    Rounds own;
     const SolveResult& found =
         looks.emplace_back(grows ? GrowHorizonBeside(request, of_without, own) : Solve(request));
     if (LedOn(found) && (found.cost < best->cost || !LedOn(*best))) best = &found;

@@ -108,7 +108,8 @@ void AddBlocks(const TrialErrors& before, const TrialErrors& after, double lengt
 
 }  // namespace
 
-HeldOutErrors MeasureHeldOut(const FittedModel& model, int jobs, bool test_only) {
+HeldOutErrors MeasureHeldOut(const FittedModel& model, int jobs, bool test_only,
+                             const HeldOutErrors* like) {
   FitResult fit;
   fit.ok = model.ok();
   fit.shared = model.shared;
@@ -117,7 +118,7 @@ HeldOutErrors MeasureHeldOut(const FittedModel& model, int jobs, bool test_only)
   FitOptions options;
   options.jobs = jobs;
   HeldOutErrors out;
-  out.trials = AssessTrials(model.problem, fit, options, test_only);
+  out.trials = AssessTrials(model.problem, fit, options, test_only, like ? &like->trials : nullptr);
   out.test = Summarise(model.problem, out.trials, TrialRole::kTest);
   out.features = Features(model.problem, out.trials);
   return out;

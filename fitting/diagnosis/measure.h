@@ -37,8 +37,10 @@ struct HeldOutGain {
   bool IsClaim() const { return ci95 && ci95->first > 0.0; }
 };
 
-/// With `test_only` the errors of train trials are left out.
-HeldOutErrors MeasureHeldOut(const FittedModel& model, int jobs, bool test_only = false);
+/// With `test_only` the errors of train trials are left out. `like`: of a model that differs little
+/// (AssessTrials).
+HeldOutErrors MeasureHeldOut(const FittedModel& model, int jobs, bool test_only = false,
+                             const HeldOutErrors* like = nullptr);
 
 /// Gain of `after` over `before`; trials one of the two cannot simulate to their end are left out
 /// and named in `left_out`. Rows are whitened, so blocks may be shorter than a hop: as long as the

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fitting/trial_errors.h"
 #include "tests/support/fit_cases.h"
 #include "tests/support/robot_drops.h"
 
@@ -14,13 +15,14 @@ namespace {
 
 TEST(GrowingHorizon, EndsWhereASearchOverAllRowsEnds) {
   const testing::SmallFit fit;
-  RoundCosts costs;
-  const SolveResult grown = GrowHorizonBeside(fit.Request(), {}, costs), all = Solve(fit.Request());
+  Rounds rounds;
+  const SolveResult grown = GrowHorizonBeside(fit.Request(), {}, rounds),
+                    all = Solve(fit.Request());
   EXPECT_NEAR(grown.cost, all.cost, 1e-6 * all.cost);
-  ASSERT_FALSE(costs.empty());
+  ASSERT_FALSE(rounds.empty());
   // More rows, more noise to miss.
-  for (std::size_t i = 1; i < costs.size(); ++i) EXPECT_GT(costs[i], costs[i - 1]);
-  EXPECT_GT(grown.cost, costs.back());
+  for (std::size_t i = 1; i < rounds.size(); ++i) EXPECT_GT(rounds[i].cost, rounds[i - 1].cost);
+  EXPECT_GT(grown.cost, rounds.back().cost);
 }
 
 TEST(GrowingHorizon, GoesOnFromWhatIsKnown) {
@@ -41,40 +43,54 @@ TEST(GrowingHorizon, GoesOnFromWhatIsKnown) {
   EXPECT_LT(rounds.size(), every_round);
 }
 
+// One that ends a round at the other's values is that other from there on.
+TEST(GrowingHorizon, GivesUpBesideOneItHasJoined) {
+  const testing::SmallFit fit;
+  Rounds rounds, again;
+  GrowHorizonBeside(fit.Request(), {}, rounds);
+  EXPECT_EQ(GrowHorizonBeside(fit.Request(), rounds, again).status, SolveStatus::kGaveUp);
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again.front(), rounds.front());
+}
+
+// At the same costs, but at other values, it goes on.
 TEST(GrowingHorizon, GoesOnBesideOneThatFitsAsWell) {
   const testing::SmallFit fit;
-  RoundCosts costs, again;
-  const SolveResult first = GrowHorizonBeside(fit.Request(), {}, costs);
-  const SolveResult second = GrowHorizonBeside(fit.Request(), costs, again);
+  Rounds rounds, again;
+  const SolveResult first = GrowHorizonBeside(fit.Request(), {}, rounds);
+  Rounds elsewhere = rounds;
+  for (Round& round : elsewhere) round.shared *= 1.01;
+  const SolveResult second = GrowHorizonBeside(fit.Request(), elsewhere, again);
   EXPECT_EQ(second.cost, first.cost);
-  EXPECT_EQ(again, costs);
+  EXPECT_EQ(again, rounds);
 }
 
 // Values held far off fit every round worse than values that are free.
 TEST(GrowingHorizon, GivesUpBesideOneThatFitsClearlyBetter) {
   const testing::SmallFit fit;
-  RoundCosts costs, own;
-  GrowHorizonBeside(fit.Request(), {}, costs);
+  Rounds rounds, own;
+  GrowHorizonBeside(fit.Request(), {}, rounds);
   SolveRequest held = fit.Request();
   held.held = {0, 1};
-  const SolveResult worse = GrowHorizonBeside(held, costs, own);
+  const SolveResult worse = GrowHorizonBeside(held, rounds, own);
   EXPECT_EQ(worse.status, SolveStatus::kGaveUp);
   EXPECT_FALSE(worse.complete);
   EXPECT_TRUE(std::isinf(worse.cost));
-  EXPECT_LT(own.size(), costs.size());
+  EXPECT_LT(own.size(), rounds.size());
   EXPECT_TRUE(std::isfinite(GrowHorizon(held).cost));
 }
 
 // A search that ends its first round where another did is that other.
 TEST(GrowingHorizon, GivesUpElsewhereWhereItIsTheOthersMinimum) {
   const testing::SmallFit fit;
-  RoundCosts costs;
-  GrowHorizonBeside(fit.Request(), {}, costs);
+  Rounds rounds;
+  GrowHorizonBeside(fit.Request(), {}, rounds);
   SolveRequest request = fit.Request();
-  EXPECT_EQ(GrowHorizonElsewhere(request, costs).status, SolveStatus::kGaveUp);
+  EXPECT_EQ(GrowHorizonElsewhere(request, rounds).status, SolveStatus::kGaveUp);
   // One that fits better in every round is another, and so is one that comes to something.
-  RoundCosts worse = costs, none(costs.size(), std::numeric_limits<double>::infinity());
-  for (double& cost : worse) cost += 1.0 + 0.1 * cost;
+  Rounds worse = rounds, none = rounds;
+  for (Round& round : worse) round.cost += 1.0 + 0.1 * round.cost;
+  for (Round& round : none) round.cost = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(IsUsable(GrowHorizonElsewhere(request, worse).status));
   EXPECT_TRUE(IsUsable(GrowHorizonElsewhere(request, none).status));
 }
@@ -101,6 +117,26 @@ TEST(GrowingHorizon, ALegStillInTheAirKeepsItsStiffness) {
   EXPECT_TRUE(fit.stop.IsMinimum());
   EXPECT_NEAR(fit.shared[0], 22e9, 0.02 * 22e9);
   EXPECT_NEAR(fit.shared[1], 22e9, 0.02 * 22e9);
+}
+
+// The start of a held-out drop that a model alike had leads to where rounds from the stated one do.
+TEST(GrowingHorizon, AHeldOutStartIsFoundFromThatOfAModelAlike) {
+  const FitProblem problem = MakeProblem(GenerateDataset(testing::RobotDrops(), {}).dataset, {});
+  FitResult fit = Fit(problem, {});
+  ASSERT_TRUE(fit.ok) << fit.message;
+  const std::vector<TrialErrors> like = AssessTrials(problem, fit, {}, /*test_only=*/true);
+  fit.shared *= 1.01;
+  const TrialErrors from_stated = AssessTrials(problem, fit, {}, /*test_only=*/true).back();
+  const TrialErrors from_like = AssessTrials(problem, fit, {}, /*test_only=*/true, &like).back();
+  EXPECT_NE(from_like.start, like.back().start);
+  EXPECT_NEAR(from_like.chi2, from_stated.chi2, 1e-6 * from_stated.chi2);
+  EXPECT_GT(from_like.chi2, 1.01 * like.back().chi2);
+  // A start from which nothing is followed is no beginning.
+  std::vector<TrialErrors> astray = like;
+  astray.back().start[1] = 5.0;
+  const TrialErrors from_astray =
+      AssessTrials(problem, fit, {}, /*test_only=*/true, &astray).back();
+  EXPECT_NEAR(from_astray.chi2, from_stated.chi2, 1e-6 * from_stated.chi2);
 }
 
 }  // namespace

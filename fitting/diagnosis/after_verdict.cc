@@ -1,0 +1,48 @@
+#include "fitting/diagnosis/after_verdict.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+
+namespace hoplab {
+namespace {
+
+// Of the most that a cause gains alone: below that it is not measured on held-out trials.
+constexpr double kLeastGain = 0.01;
+
+bool IsStopped(const DiagnosisOptions& options) { return options.fit.stop && *options.fit.stop; }
+
+void MeasureCandidates(Diagnosis& d, const DiagnosisOptions& options) {
+  d.candidate_gains.resize(d.naming.candidates.size());
+  double most = 0.0;
+  for (const CandidateResult& c : d.naming.candidates) most = std::max(most, c.gain);
+  ParallelFor(static_cast<int>(d.candidate_gains.size()), options.fit.jobs, [&](int i) {
+    const CandidateResult& c = d.naming.candidates[static_cast<std::size_t>(i)];
+    // What gained nothing on the fitted trials has nothing to show on the others.
+    if (!c.alone.ok() || c.gain < std::max(1.0, kLeastGain * most) || IsStopped(options)) return;
+    const HeldOutErrors alone = MeasureHeldOut(c.alone, 1, /*test_only=*/true, &d.before);
+    d.candidate_gains[static_cast<std::size_t>(i)] =
+        CompareHeldOut(d.null, d.before, alone, options.Seed(Draws::kBootstrap), nullptr);
+  });
+}
+
+void ProposeNextTrial(Diagnosis& d, const DiagnosisOptions& options) {
+  if (!d.extension || d.verdict == Verdict::kUnexplained) return;
+  const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
+  for (const std::vector<FittedModel>& rivals : d.naming.rivals) {
+    if (rivals.size() < 2 || d.experiment || IsStopped(options)) continue;
+    if (options.stage) options.stage("looking for the trial that would tell the causes apart");
+    d.experiment = ProposeExperiment(rivals, train, options.fit.jobs);
+  }
+}
+
+}  // namespace
+
+void TellBesides(Diagnosis& d, const DiagnosisOptions& options) {
+  const bool something_was_tried = d.extension || !d.set_aside.empty();
+  if (!d.refusal.empty() || !something_was_tried || IsStopped(options)) return;
+  MeasureCandidates(d, options);
+  ProposeNextTrial(d, options);
+}
+
+}  // namespace hoplab

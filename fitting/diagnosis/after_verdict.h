@@ -1,0 +1,12 @@
+#pragma once
+
+#include "fitting/diagnosis/diagnosis.h"
+
+namespace hoplab {
+
+/// What is told beside a verdict, once it stands: what each candidate gains alone on held-out
+/// trials and, where a name is told and others do as well, the trial that would tell them apart. A
+/// diagnosis that is stopped goes without.
+void TellBesides(Diagnosis& diagnosis, const DiagnosisOptions& options);
+
+}  // namespace hoplab

@@ -1,0 +1,61 @@
+#include "fitting/diagnosis/after_verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/diagnosed_hops.h"
+
+namespace hoplab {
+namespace {
+
+using testing::DatasetOf;
+using testing::EffectOfSize;
+using testing::OptionsWith;
+
+const DiagnosisOptions& LookAlikeOptions() {
+  static const DiagnosisOptions options = OptionsWith({"touchdown_loss", "touchdown_angle_bias"});
+  return options;
+}
+
+// Two causes that do as well, without what is told beside the verdict.
+Diagnosis LookAlikes() {
+  static const Diagnosis told =
+      Diagnose(DatasetOf({.effects = {EffectOfSize("touchdown_loss", 0.02)}, .seed = 7}),
+               LookAlikeOptions());
+  Diagnosis d = told;
+  d.experiment.reset();
+  d.candidate_gains.clear();
+  return d;
+}
+
+TEST(AfterVerdict, ATrialIsProposedWhereACauseIsTold) {
+  Diagnosis d = LookAlikes();
+  ASSERT_EQ(d.verdict, Verdict::kConfounded);
+  TellBesides(d, LookAlikeOptions());
+  ASSERT_TRUE(d.experiment);
+  EXPECT_GT(d.experiment->expected_nats, 0.0);
+  EXPECT_EQ(d.candidate_gains.size(), 2u);
+  // Which of two wrong names does as well is no question to record a trial for.
+  Diagnosis unexplained = LookAlikes();
+  unexplained.verdict = Verdict::kUnexplained;
+  TellBesides(unexplained, LookAlikeOptions());
+  EXPECT_FALSE(unexplained.experiment);
+  EXPECT_EQ(unexplained.candidate_gains.size(), 2u);
+  EXPECT_TRUE(std::any_of(unexplained.candidate_gains.begin(), unexplained.candidate_gains.end(),
+                          [](const auto& gain) { return gain && gain->nats_per_sample > 0.0; }));
+}
+
+TEST(AfterVerdict, NothingIsAddedToADiagnosisThatIsStopped) {
+  const std::atomic<bool> stop = true;
+  DiagnosisOptions options = LookAlikeOptions();
+  options.fit.stop = &stop;
+  Diagnosis d = LookAlikes();
+  TellBesides(d, options);
+  EXPECT_FALSE(d.experiment);
+  EXPECT_TRUE(d.candidate_gains.empty());
+  EXPECT_FALSE(d.interrupted);
+}
+
+}  // namespace
+}  // namespace hoplab
