@@ -210,7 +210,8 @@ DesignSearchResult SearchSeparating(std::span<const FittedModel> rivals,
   ParallelFor(static_cast<int>(promising.size()), request.jobs, [&](int i) {
     if (request.stop && *request.stop) return;
     settled[i] = search.Try(promising[i].point, [&](const TrialProblem& trial, DesignTried& tried) {
-      Promise(ForecastByRefits(rivals, train, trial, 1), rivals, weights, out.before, tried);
+      Promise(ForecastByRefits(rivals, train, trial, request.jobs), rivals, weights, out.before,
+              tried);
       tried.refitted = true;
     });
   });

@@ -20,7 +20,8 @@ void MeasureCandidates(Diagnosis& d, const DiagnosisOptions& options) {
     const CandidateResult& c = d.naming.candidates[static_cast<std::size_t>(i)];
     // What gained nothing on the fitted trials has nothing to show on the others.
     if (!c.alone.ok() || c.gain < std::max(1.0, kLeastGain * most) || IsStopped(options)) return;
-    const HeldOutErrors alone = MeasureHeldOut(c.alone, 1, /*test_only=*/true, &d.before);
+    const HeldOutErrors alone =
+        MeasureHeldOut(c.alone, options.fit.jobs, /*test_only=*/true, &d.before);
     d.candidate_gains[static_cast<std::size_t>(i)] =
         CompareHeldOut(d.null, d.before, alone, options.Seed(Draws::kBootstrap), nullptr);
   });

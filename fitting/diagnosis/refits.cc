@@ -28,6 +28,7 @@ Refits::Refits(const FittedModel& plain, const FittedModel& null,
   refit_.train = &train_;
   refit_.stop = options.stop;
   refit_.discrepancy = options.discrepancy;
+  refit_.jobs = options.jobs;
 }
 
 // Each cause alike, one expected in all; one trial picked out of many must pay for the picking.
@@ -169,7 +170,7 @@ FittedModel Refits::Refitted(const CandidateSet& set) const {
   std::vector<Candidate> candidates;
   for (const int i : added) candidates.push_back(CandidateAt(i));
   const FittedModel& base = White(part);
-  const Linearisation at = LineariseAt(base, candidates, train_, 1);
+  const Linearisation at = LineariseAt(base, candidates, train_, options_.jobs);
   const Eigen::Index n = ParameterCount(candidates);
   const Hypothesis all{0, static_cast<int>(n), Eigen::VectorXd::Constant(n, -1.0),
                        Eigen::VectorXd::Constant(n, 1.0)};

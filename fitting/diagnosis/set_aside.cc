@@ -66,11 +66,9 @@ bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_proble
     group.front() = best;
     for (std::size_t k = 1; k < group.size(); ++k) others.push_back(&group[k]);
   }
-  RefitSettings single = settings;
-  single.jobs = 1;
   ParallelFor(static_cast<int>(others.size()), settings.jobs, [&](int i) {
     FittedModel& other = *others[static_cast<std::size_t>(i)];
-    other = Without(other, members, null_problem, single);
+    other = Without(other, members, null_problem, settings);
   });
   naming.best = best;
   for (const int i : as_good)

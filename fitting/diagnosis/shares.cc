@@ -58,7 +58,8 @@ std::vector<CauseReport> TakeApart(const Naming& naming, const SharesRequest& re
     // a refit that ends above has ended in the wrong place.
     const double missed = std::min(2.0 * without.cost, request.plain_square);
     cause.share = fall > 0.0 ? (missed - request.extended_square) / fall : 0.0;
-    const HeldOutErrors errors = MeasureHeldOut(without, 1, /*test_only=*/true, request.after);
+    const HeldOutErrors errors =
+        MeasureHeldOut(without, settings.jobs, /*test_only=*/true, request.after);
     if (!errors.test.rmse.empty()) cause.rmse_without = errors.test.rmse;
     cause.gain = CompareHeldOut(without, errors, *request.after, request.seed, nullptr);
     cause.main =

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "base/parallel.h"
+#include "fitting/diagnosis/verdict.h"
 #include "fitting/generate.h"
 #include "tests/fitting/diagnosis/study.h"
 #include "tests/support/robot_drops.h"
@@ -45,11 +46,12 @@ std::string NameFor(const Fault& fault, int seed) {
   return name;
 }
 
-Dataset RobotWith(const Fault& fault, int seed) {
+// `share` of the fault's size; of 0 a sound robot.
+Dataset RobotWith(const Fault& fault, int seed, double share = 1.0) {
   Scenario scenario = RobotDrops();
   EffectSpec spec{NameFor(fault, seed), {}, {"a planted effect"}};
-  spec.parameters.push_back({fault.parameter, fault.size, {"a planted effect"}});
-  scenario.effects = {spec};
+  spec.parameters.push_back({fault.parameter, share * fault.size, {"a planted effect"}});
+  if (share > 0.0) scenario.effects = {spec};
   GenerateOptions options;
   options.seed = NoiseSeed(Table::kNaming, 1000 + seed);
   return GenerateDataset(scenario, options).dataset;
@@ -129,6 +131,85 @@ TEST(RobotStatistics, NamesWhatIsWrongAndWhichLeg) {
       "in %.1f %% (bound 2 %%), another name in %.1f %%.",
       PerCent(named, all), PerCent(wrong_leg, all), PerCent(wrong_name, all));
   EXPECT_TRUE(IsAtMost(wrong_leg, all, 0.02));
+}
+
+// What was said of a small fault, or of none.
+struct SmallAnswer {
+  double over_noise = 0.0;
+  bool seen = false;
+  std::vector<std::pair<double, bool>> told;  // P of a name, and whether it is right
+  std::string said;
+};
+
+SmallAnswer SmallAnswerOf(const Fault& fault, int seed, double share) {
+  DiagnosisOptions options;
+  options.fit.jobs = 1;
+  const Diagnosis d = Diagnose(RobotWith(fault, seed, share), options);
+  SmallAnswer answer;
+  answer.seen = d.refusal.empty() && d.detection.p_value <= kDetectionLevel;
+  answer.over_noise = MisfitOverNoise(d.detection);
+  answer.said = d.refusal.empty() ? std::string(NameOf(d.verdict)) : d.refusal;
+  if (!d.extension) return answer;
+  for (const CauseReport* c : d.extension->ToldCauses()) {
+    const bool right = share > 0.0 && c->cause.Name() == NameFor(fault, seed);
+    answer.told.emplace_back(c->probability, right);
+    answer.said += ", " + c->cause.Name() + Cell(" %.3f", c->probability);
+  }
+  return answer;
+}
+
+// Of a robot a name in doubt is as often right as it says, and a sound robot has none.
+TEST(RobotStatistics, SmallFaultsAndHowSureTheirNamesAre) {
+  constexpr double kShares[] = {0.0, 0.02, 0.05, 0.1};
+  constexpr double kSteps[] = {0.0, 0.2, 0.5, 0.8, 0.95, 1.01};
+  constexpr int kBins = static_cast<int>(std::size(kSteps)) - 1;
+  const int seeds = SeedCount(4), faults = static_cast<int>(std::size(kFaults));
+  const int shares = static_cast<int>(std::size(kShares)), cases = faults * seeds;
+  std::vector<SmallAnswer> answers(static_cast<std::size_t>(shares * cases));
+  const int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  ParallelFor(shares * cases, jobs, [&](int i) {
+    const int share = i % shares, fault = i / shares % faults, seed = i / shares / faults;
+    // Sound robots differ by their noise alone: a seed for each.
+    const int drawn = share == 0 ? 100 + seed * faults + fault : seed;
+    answers[static_cast<std::size_t>(share * cases + seed * faults + fault)] =
+        SmallAnswerOf(kFaults[fault], drawn, kShares[share]);
+  });
+
+  Report report("9-robot-small", "Robots with small faults");
+  report.Say("The same robot, %d seeds a fault, sizes that are so much smaller.", seeds);
+  report.Head({"share of the size", "cases", "misfit over noise, median", "seen", "right name told",
+               "wrong name told", "a wrong one with P >= 0.5"});
+  struct Bin {
+    long told = 0, right = 0;
+    double sum = 0.0;
+  } bins[kBins];
+  for (int s = 0; s < shares; ++s) {
+    std::vector<double> over;
+    long seen = 0, right = 0, wrong = 0, likely = 0;
+    for (int i = 0; i < cases; ++i) {
+      const SmallAnswer& a = answers[static_cast<std::size_t>(s * cases + i)];
+      over.push_back(a.over_noise);
+      seen += a.seen;
+      for (const auto& [P, is_right] : a.told) {
+        (is_right ? right : wrong) += 1;
+        likely += !is_right && P >= kLikely;
+        int bin = 0;
+        while (P >= kSteps[bin + 1]) ++bin;
+        ++bins[bin].told;
+        bins[bin].right += is_right;
+        bins[bin].sum += P;
+      }
+      std::printf("%.2f %s %.2f: %s\n", kShares[s], kFaults[i % faults].effect.c_str(), a.over_noise,
+                  a.said.c_str());
+    }
+    std::sort(over.begin(), over.end());
+    report.Row({Cell("%g", kShares[s]), Cell("%d", cases), Cell("%.2f", over[over.size() / 2]),
+                Cell("%ld", seen), Cell("%ld", right), Cell("%ld", wrong), Cell("%ld", likely)});
+  }
+  report.Head({"P of a told name", "told", "right", "mean P"});
+  for (int b = 0; b < kBins; ++b)
+    report.Row({Cell("%g ..", kSteps[b]), Cell("%ld", bins[b].told), Cell("%ld", bins[b].right),
+                Cell("%.2f", bins[b].told ? bins[b].sum / bins[b].told : 0.0)});
 }
 
 }  // namespace
