@@ -199,17 +199,23 @@ TEST(RobotStatistics, SmallFaultsAndHowSureTheirNamesAre) {
         bins[bin].right += is_right;
         bins[bin].sum += P;
       }
-      std::printf("%.2f %s %.2f: %s\n", kShares[s], kFaults[i % faults].effect.c_str(), a.over_noise,
-                  a.said.c_str());
+      std::printf("%.2f %s %.2f: %s\n", kShares[s], kFaults[i % faults].effect.c_str(),
+                  a.over_noise, a.said.c_str());
     }
     std::sort(over.begin(), over.end());
     report.Row({Cell("%g", kShares[s]), Cell("%d", cases), Cell("%.2f", over[over.size() / 2]),
                 Cell("%ld", seen), Cell("%ld", right), Cell("%ld", wrong), Cell("%ld", likely)});
+    if (kShares[s] == 0.0) {
+      EXPECT_TRUE(IsAtMost(right + wrong, cases, 0.05)) << "false alarms";
+    }
   }
+  report.Say("How often a told name is right:");
   report.Head({"P of a told name", "told", "right", "mean P"});
   for (int b = 0; b < kBins; ++b)
     report.Row({Cell("%g ..", kSteps[b]), Cell("%ld", bins[b].told), Cell("%ld", bins[b].right),
                 Cell("%.2f", bins[b].told ? bins[b].sum / bins[b].told : 0.0)});
+  EXPECT_TRUE(IsAtLeast(bins[kBins - 1].right, bins[kBins - 1].told, kSure));
+  EXPECT_TRUE(IsAtLeast(bins[kBins - 2].right, bins[kBins - 2].told, kSteps[kBins - 2]));
 }
 
 }  // namespace
