@@ -27,8 +27,8 @@ using Rounds = std::vector<Round>;
 SolveResult GrowHorizonBeside(SolveRequest request, const Rounds& other, Rounds& rounds);
 
 /// The same from another place, for what the first search did not find: it gives up, too, after a
-/// round that fits as well as the other's. There it is at the other's minimum, wherever that is
-/// flat.
+/// round that fits as well as the other's, whatever its values. There it is at the other's minimum,
+/// and later rounds would be the other's.
 SolveResult GrowHorizonElsewhere(SolveRequest request, const Rounds& other);
 
 }  // namespace hoplab

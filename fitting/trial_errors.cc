@@ -39,8 +39,8 @@ OwnValues DrawnStart(const TrialProblem& trial, RandomStream& random) {
 }
 
 // The start of a held-out trial, the shared values held. Which of a robot's legs lands first turns
-// with its pitch, and a search does not pass from one order to the other: it begins where a model
-// alike has its start, if one is known, and one that ends badly begins again elsewhere. `poor`: the
+// with its pitch, and a search does not pass from one order to the other: it begins where another
+// model has its start, if one is known, and one that ends badly begins again elsewhere. `poor`: the
 // cost a sample of such an end.
 OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
                      const Eigen::VectorXd& shared, double poor, const FitOptions& options,

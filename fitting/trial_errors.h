@@ -48,7 +48,8 @@ struct RoleErrors {
 /// is refitted under its prior with the shared values held (a nominal start may be off by more than
 /// the model is).
 /// With `test_only` nothing but the role and the file of a train trial is filled in. A robot's
-/// starts are sought from those of `like` first, the errors of a model that differs little.
+/// starts are sought from those of `like` first, the errors of another model of these trials; where
+/// that comes to no good end, as without it.
 std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult& fit,
                                       const FitOptions& options, bool test_only = false,
                                       const std::vector<TrialErrors>* like = nullptr);

@@ -37,8 +37,8 @@ struct HeldOutGain {
   bool IsClaim() const { return ci95 && ci95->first > 0.0; }
 };
 
-/// With `test_only` the errors of train trials are left out. `like`: of a model that differs little
-/// (AssessTrials).
+/// With `test_only` the errors of train trials are left out. `like`: of another model of
+/// these trials (AssessTrials).
 HeldOutErrors MeasureHeldOut(const FittedModel& model, int jobs, bool test_only = false,
                              const HeldOutErrors* like = nullptr);
 

@@ -54,7 +54,7 @@ TEST(ParallelFor, ALoopInTheLastItemGetsTheThreadsThatAreLeft) {
   EXPECT_EQ(last.most, 3);
   // So has one that is alone.
   Crowd alone;
-  ParallelFor(1, 3, [&](int) { ParallelFor(6, 3, [&](int) { alone.Enter(); }); });
+  ParallelFor(1, 3, [&](int) { ParallelFor(60, 3, [&](int) { alone.Enter(); }); });
   EXPECT_EQ(alone.most, 3);
 }
 
