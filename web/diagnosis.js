@@ -64,10 +64,15 @@ function variesText(v) {
 const shareOf = (c) => shareText(c.share_of_misfit ?? c.share);
 const chance = (p) => (isNumber(p) ? p.toFixed(2) : notComputed);
 
+const valuesText = (parameters) => parameters.map((p) => `${parameters.length > 1 ? `${p.name} ` : ''}${quantity(p.value, p.unit, 3)}`).join(', ');
+const unconfirmedText = (c) => `${causeText({...c, effect: c.name})} (${shareOf(c)}; ${valuesText(c.parameters)} by the first parts, ${valuesText(c.parameters_by_whole_trials)} by the whole trials)`;
+
 // The extension taken apart: what each cause explains, how likely the name is, and the held-out error without it.
 function causesPart(causes, extension) {
-  const leftOut = list(run.set_aside);
-  if (!causes.length && !leftOut.length) return undefined;
+  const setAside = list(run.set_aside);
+  const unconfirmed = setAside.filter((c) => list(c.parameters_by_whole_trials).length);
+  const leftOut = setAside.filter((c) => !unconfirmed.includes(c));
+  if (!causes.length && !setAside.length) return undefined;
   const channels = Object.keys(causes[0]?.held_out_rmse_without ?? {});
   const unit = (c) => splitUnit(c).unit;
   const row = (c) => [causeText({...c, effect: c.name}), c.parameters.map((p) => `${p.name} = ${quantity(p.value, p.unit, 3)}`).join('; '),
@@ -85,6 +90,7 @@ function causesPart(causes, extension) {
     small.length ? details('Small corrections the data also want, which may stand for details of the model', dataTable(['cause', ...heads], small.map(row), align)) : undefined,
     needed.length ? paragraph(`The model needs them, but most likely in place of something not listed: ${doubted(needed)}.`) : undefined,
     leftOut.length ? paragraph(`Left out, since they would explain ${causes.length ? 'a little more' : 'some'} and most likely do not act: ${doubted(leftOut)}.`) : undefined,
+    unconfirmed.length ? paragraph(`Left out, since the whole trials know ${unconfirmed.length === 1 ? 'it' : 'them'} in another size: ${unconfirmed.map(unconfirmedText).join(', ')}. What acts keeps its size; what stands in for an error of the model does not.`) : undefined,
     ...causes.flatMap((c) => list(c.varies).filter((v) => v.told || !v.refitted).map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
       paragraph(variesText(v)),
       dataTable(['trial', v.name], v.trials.map((t) => [t.trial, quantity(t.value, v.unit, 3)]), 'lr')))),

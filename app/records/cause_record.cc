@@ -138,7 +138,9 @@ Json SetAsideRecord(const Diagnosis& d) {
                    {"parameters", SizesOfCause(s.cause, s.values)},
                    {"probability", NumberOrNull(s.probability)},
                    {"share", NumberOrNull(s.share)},
-                   {"share_of_misfit", NumberOrNull(s.of_misfit)}});
+                   {"share_of_misfit", NumberOrNull(s.of_misfit)},
+                   {"parameters_by_whole_trials",
+                    s.by_whole_trials ? SizesOfCause(s.cause, *s.by_whole_trials) : Json()}});
   return out;
 }
 

@@ -261,6 +261,33 @@ std::string OtherModelsLine(const Diagnosis& d, bool colours) {
                   colours);
 }
 
+std::string ValuesText(const Candidate& c, const Eigen::VectorXd& values) {
+  std::vector<std::string> texts;
+  for (int k = 0; k < c.parameter_count(); ++k) {
+    const EffectParameter& p = c.Parameter(k);
+    const std::string name = c.parameter_count() > 1 ? std::string(p.name) + " " : "";
+    texts.push_back(name + SizeText(values[k], std::string(p.unit)));
+  }
+  return Join(texts);
+}
+
+// What is left out since the whole trials know it in another size.
+std::string UnconfirmedLine(const Diagnosis& d, bool colours) {
+  std::vector<std::string> texts;
+  for (const SetAside& s : d.set_aside)
+    if (s.by_whole_trials)
+      texts.push_back(
+          fmt::format("{} ({} of the misfit; {} by the first parts, {} by the whole trials)",
+                      CauseText(s.cause), ShareText(s.of_misfit), ValuesText(s.cause, s.values),
+                      ValuesText(s.cause, *s.by_whole_trials)));
+  if (texts.empty()) return "";
+  return Labelled("left out",
+                  "of another size in the whole trials, so it most likely stands for something "
+                  "else: " +
+                      Join(texts),
+                  colours);
+}
+
 // What no cause explains, as the noise model sees it.
 std::string LeftLine(const Diagnosis& d, bool colours) {
   if (d.left.noise.IsWhite()) return "";
@@ -286,14 +313,15 @@ std::string SureLine(const Diagnosis& d, bool colours) {
 std::string CauseLines(const Diagnosis& d, bool colours) {
   return CauseTable(d, colours) + MeaningLines(d, colours) + VariesLines(d, colours) +
          SmallLine(d, colours) + StandInLine(d, colours) + LeftOutLine(d, colours) +
-         OtherModelsLine(d, colours);
+         UnconfirmedLine(d, colours) + OtherModelsLine(d, colours);
 }
 
 std::string LeftOutLine(const Diagnosis& d, bool colours) {
   std::vector<std::string> names;
   for (const SetAside& s : d.set_aside)
-    names.push_back(fmt::format("{} ({}, P {:.2f})", CauseText(s.cause), ShareText(s.of_misfit),
-                                s.probability));
+    if (!s.by_whole_trials)
+      names.push_back(fmt::format("{} ({}, P {:.2f})", CauseText(s.cause), ShareText(s.of_misfit),
+                                  s.probability));
   if (names.empty()) return "";
   return Labelled("left out",
                   std::string(d.extension ? "would explain a little more" : "would explain some") +

@@ -1,6 +1,9 @@
 #include "fitting/diagnosis/after_verdict.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
 
 #include "base/parallel.h"
 
@@ -11,6 +14,32 @@ namespace {
 constexpr double kLeastGain = 0.01;
 
 bool IsStopped(const DiagnosisOptions& options) { return options.fit.stop && *options.fit.stop; }
+
+// Sizes and intervals are those for the shapes that are given.
+void NoteShapes(Diagnosis& d) {
+  if (!d.extension) return;
+  std::string what, free;
+  for (const SharedParameter& s : d.naming.best.problem.shared)
+    free += (free.empty() ? "" : ",") + s.name;
+  std::vector<const Effect*> noted;
+  for (const CauseReport* c : d.extension->ToldCauses()) {
+    const Effect* effect = c->cause.effect;
+    if (std::find(noted.begin(), noted.end(), effect) != noted.end()) continue;
+    noted.push_back(effect);
+    for (const EffectParameter& p : effect->info.parameters) {
+      if (!p.is_shape) continue;
+      const std::string name = std::string(effect->info.name) + "." + std::string(p.name);
+      char value[32];
+      std::snprintf(value, sizeof value, " %.4g", p.null);
+      what += (what.empty() ? "" : ", ") + name + value;
+      if (p.unit != "-") what += " " + std::string(p.unit);
+      free += "," + name;
+    }
+  }
+  if (!what.empty())
+    d.notes.push_back("sizes are told for " + what + ", which are taken as given; `hoplab fit " +
+                      "--free " + free + "` fits them, too");
+}
 
 void MeasureCandidates(Diagnosis& d, const DiagnosisOptions& options) {
   d.candidate_gains.resize(d.naming.candidates.size());
@@ -42,6 +71,7 @@ void ProposeNextTrial(Diagnosis& d, const DiagnosisOptions& options) {
 void TellBesides(Diagnosis& d, const DiagnosisOptions& options) {
   const bool something_was_tried = d.extension || !d.set_aside.empty();
   if (!d.refusal.empty() || !something_was_tried || IsStopped(options)) return;
+  NoteShapes(d);
   MeasureCandidates(d, options);
   ProposeNextTrial(d, options);
 }

@@ -21,20 +21,6 @@ bool SomeMainIsLikely(const std::vector<CauseReport>& causes) {
                      [](const CauseReport& c) { return c.main && c.group_probability >= kLikely; });
 }
 
-SetAside AsSetAside(const CauseReport& c, const ExtensionReport& report, const Naming& naming) {
-  const int member = static_cast<int>(naming.MemberOf(c.candidate));
-  return {c.candidate,
-          c.cause,
-          naming.best.ValuesOf(member),
-          c.share,
-          report.OfMisfit(c.share),
-          c.probability,
-          c.group_probability,
-          c.evidence_probability,
-          c.features,
-          naming.GroupOf(c.candidate)};
-}
-
 }  // namespace
 
 double Disagreement(std::span<const Heterogeneity> sizes, const Candidate& of) {
@@ -83,6 +69,21 @@ void FindStandIns(std::vector<CauseReport>& causes) {
     c.stands_in = c.main && c.group_probability < kLikely;
     c.main = c.main && !c.stands_in;
   }
+}
+
+SetAside AsSetAside(const CauseReport& c, const ExtensionReport& report, const Naming& naming) {
+  const int member = static_cast<int>(naming.MemberOf(c.candidate));
+  return {c.candidate,
+          c.cause,
+          naming.best.ValuesOf(member),
+          c.share,
+          report.OfMisfit(c.share),
+          c.probability,
+          c.group_probability,
+          c.evidence_probability,
+          c.features,
+          naming.GroupOf(c.candidate),
+          std::nullopt};
 }
 
 std::vector<SetAside> DoubtfulCorrections(const ExtensionReport& report, const Naming& naming) {

@@ -20,6 +20,9 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
 /// Tells main causes from those that stand in for something else (CauseReport::stands_in).
 void FindStandIns(std::vector<CauseReport>& causes);
 
+/// A told cause as one that is set aside.
+SetAside AsSetAside(const CauseReport& cause, const ExtensionReport& report, const Naming& naming);
+
 /// The small corrections whose names are most likely wrong, where some main cause is likely right.
 std::vector<SetAside> DoubtfulCorrections(const ExtensionReport& report, const Naming& naming);
 

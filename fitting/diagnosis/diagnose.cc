@@ -5,17 +5,13 @@
 #include <string_view>
 #include <utility>
 
-#include "base/random.h"
 #include "datasets/suspect_things.h"
 #include "fitting/diagnosis/after_verdict.h"
+#include "fitting/diagnosis/carry_on.h"
 #include "fitting/diagnosis/diagnosis.h"
-#include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/null_fit.h"
 #include "fitting/diagnosis/verdict.h"
 #include "fitting/followed_part.h"
-#include "fitting/growing_horizon.h"
-#include "fitting/stop_check.h"
-#include "fitting/trial_evaluator.h"
 #include "model/mechanism_traits.h"
 
 namespace hoplab {
@@ -51,13 +47,15 @@ class StageByStage {
       }
       const bool nothing_seen = longer.verdict == Verdict::kAdequate;
       Tell(longer);
-      if (IsLessSure(longer, last)) return WithWholeTrials(std::move(*last));
+      if (IsLessSure(longer, last)) return WithWholeTrials(std::move(*last), whole_, options_);
       last = std::move(longer);
-      if (last->verdict == Verdict::kNamed) return WithWholeTrials(std::move(*last));
+      if (last->verdict == Verdict::kNamed)
+        return WithWholeTrials(std::move(*last), whole_, options_);
       if (nothing_seen && WholeIsMinimum()) break;
       parts.Follows();
     }
-    if (last && !WholeIsMinimum() && !Stopped()) return WithWholeTrials(std::move(*last));
+    if (last && !WholeIsMinimum() && !Stopped())
+      return WithWholeTrials(std::move(*last), whole_, options_);
     DiagnosisOptions late = options_;
     const bool nothing_early = last && last->verdict == Verdict::kAdequate;
     if (nothing_early) late.max_effects = std::min(late.max_effects, kMostLateOnes);
@@ -68,7 +66,7 @@ class StageByStage {
                             " causes together are told of the whole trials");
     const bool keeps_last = !whole.refusal.empty() || IsLessSure(whole, last);
     if (last && NamesSomething(*last) && keeps_last && !whole.interrupted)
-      return WithWholeTrials(std::move(*last));
+      return WithWholeTrials(std::move(*last), whole_, options_);
     return whole;
   }
 
@@ -124,7 +122,7 @@ class StageByStage {
     Beforehand found;
     if (!last || !NamesSomething(*last) || Stopped()) return found;
     found.slow_ones_only_beside = SlowOnesWereNotNeeded(last->naming);
-    FittedModel model = CarriedOver(*last, problem).model;
+    FittedModel model = CarryOn(*last, problem, options_).model;
     if (model.ok()) found.begin = std::move(model);
     return found;
   }
@@ -133,89 +131,6 @@ class StageByStage {
         naming.candidates.begin(), naming.candidates.end(), [](const CandidateResult& c) {
           return !c.candidate.effect->info.slow || c.status == CandidateStatus::kNotNeeded;
         });
-  }
-
-  // What was found, fitted to longer parts of the same trials, more and more of them: beyond what
-  // is known; where that leads to no minimum, from the first rows on, and from values that are as
-  // likely. A search ends where a step would change the order of events, and begun elsewhere it
-  // passes.
-  CarriedOn CarriedOver(const Diagnosis& last, const FitProblem& problem) const {
-    constexpr int kMoreSearches = 3;
-    const FittedModel& named = last.naming.best;
-    const double known_until = last.until.value_or(0.0);
-    CarriedOn best = GrownFrom(named, problem, known_until);
-    const auto take = [&](CarriedOn other) {
-      const bool fits =
-          other.model.ok() && (!best.model.ok() || other.model.cost < best.model.cost);
-      if (fits) best = std::move(other);
-    };
-    if (!best.stop.IsMinimum() && !Stopped()) take(GrownFrom(named, problem, 0.0));
-    RandomStream random(options_.fit.seed, 0);
-    for (int k = 0; k < kMoreSearches && !best.stop.IsMinimum() && !Stopped(); ++k) {
-      FittedModel beside = named;
-      for (int i = 0; i < beside.shared.size(); ++i) {
-        const auto place = static_cast<std::size_t>(i);
-        const SharedParameter& s = named.problem.shared[place];
-        const double error = last.extension->uncertainty.parameters[place].std_error.value_or(0.0);
-        beside.shared[i] = std::clamp(beside.shared[i] + error * random.Normal(), s.lower, s.upper);
-      }
-      take(GrownFrom(beside, problem, known_until));
-    }
-    return best;
-  }
-
-  CarriedOn GrownFrom(const FittedModel& named, const FitProblem& problem,
-                      double known_until) const {
-    CarriedOn carried;
-    FittedModel& model = carried.model;
-    model.members = named.members;
-    model.problem = Extend(problem, model.members);
-    const std::vector<TrialProblem> train = TrialsOf(problem, TrialRole::kTrain);
-    SolveRequest request;
-    request.problem = &model.problem;
-    request.trials = &train;
-    request.shared = named.shared;
-    request.initial_states = named.initial_states;
-    request.loss = options_.fit.loss;
-    request.jobs = options_.fit.jobs;
-    request.stop = options_.fit.stop;
-    SolveResult result = GrowHorizon(std::move(request), known_until);
-    model.status = result.status;
-    if (!IsUsable(result.status)) {
-      carried.stop.faults.push_back(result.message);
-      return carried;
-    }
-    model.shared = std::move(result.shared);
-    model.initial_states = std::move(result.initial_states);
-    model.cost = result.cost;
-    model.complete = result.complete;
-    carried.stop = CheckStop(model.problem, train, model.shared, model.initial_states,
-                             options_.fit.loss, options_.fit.jobs);
-    return carried;
-  }
-
-  Diagnosis WithWholeTrials(Diagnosis d) const {
-    if (!d.extension || Stopped()) return d;
-    if (options_.stage) options_.stage("carrying on to the whole trials");
-    CarriedOn carried = CarriedOver(d, whole_);
-    if (Stopped()) return d;
-    if (carried.stop.IsMinimum()) {
-      FittedModel& model = carried.model;
-      const std::vector<TrialProblem> train = TrialsOf(whole_, TrialRole::kTrain);
-      Settle(model, SettingsOf(options_, train));
-      carried.uncertainty =
-          AssessUncertainty(model.problem, train, model.shared, model.initial_states,
-                            options_.fit.loss, options_.fit.jobs);
-      const std::vector<Candidate> others =
-          CandidatesBeside(model, CandidatesOf(whole_, options_.candidates));
-      const Linearisation at = LineariseAt(model, others, train, options_.fit.jobs);
-      std::vector<OtherModel> more = WithOneMoreOf(d.naming, model, at, others);
-      Doubt(d.set_aside, more);
-      HoldOtherModels(more, model, carried.uncertainty);
-      carried.errors = MeasureHeldOut(model, options_.fit.jobs);
-    }
-    d.carried_on = std::move(carried);
-    return d;
   }
 
   FitProblem whole_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <utility>
@@ -47,15 +48,30 @@ class Pipeline {
     d_.before = MeasureHeldOut(d_.null, options_.fit.jobs);
     if (!d_.naming.best.members.empty()) Extended(candidates);
     if (Stopped()) return Finish();
-    Judge(d_, options_.material);
-    DescribeWhatIsMissing();
-    return Finish();
+    return Judged();
+  }
+
+  Diagnosis RunWithout(Diagnosis diagnosis, std::vector<SetAside> members) {
+    d_ = std::move(diagnosis);
+    train_ = TrialsOf(d_.problem, TrialRole::kTrain);
+    basis_ = ProbesOf(d_.problem.law);
+    if (!TakeOut(members, d_.plain.problem, Settings(), d_.naming)) return Finish();
+    std::move(members.begin(), members.end(), std::back_inserter(d_.set_aside));
+    const std::vector<Candidate> candidates = CandidatesOf(d_.problem, options_.candidates);
+    Accept(Retold(*d_.extension, candidates, d_.set_aside));
+    d_.free_forces.reset();
+    return Judged();
   }
 
  private:
   bool Stopped() const { return options_.fit.stop && *options_.fit.stop; }
   void Stage(std::string_view text) const {
     if (options_.stage) options_.stage(text);
+  }
+  Diagnosis Judged() {
+    Judge(d_, options_.material);
+    DescribeWhatIsMissing();
+    return Finish();
   }
   Diagnosis Finish() {
     d_.interrupted = Stopped();
@@ -130,38 +146,16 @@ class Pipeline {
         d_.set_aside = std::move(doubtful);
       }
     }
+    Accept(std::move(report));
+  }
+
+  void Accept(ExtensionReport report) {
     d_.extension = std::move(report);
     MeasureSizes(*d_.extension, d_, Settings());
     for (const CauseReport* c : d_.extension->ToldCauses()) {
       const int member = static_cast<int>(d_.naming.MemberOf(c->candidate));
       d_.extension->at_bound |= d_.naming.best.AtPhysicalBound(member);
     }
-    NoteShapes(d_.extension->ToldCauses());
-  }
-
-  // Sizes and intervals are those for the shapes that are given.
-  void NoteShapes(const std::vector<const CauseReport*>& told) {
-    std::string what, free;
-    for (const SharedParameter& s : d_.naming.best.problem.shared)
-      free += (free.empty() ? "" : ",") + s.name;
-    std::vector<const Effect*> noted;
-    for (const CauseReport* c : told) {
-      const Effect* effect = c->cause.effect;
-      if (std::find(noted.begin(), noted.end(), effect) != noted.end()) continue;
-      noted.push_back(effect);
-      for (const EffectParameter& p : effect->info.parameters) {
-        if (!p.is_shape) continue;
-        const std::string name = std::string(effect->info.name) + "." + std::string(p.name);
-        char value[32];
-        std::snprintf(value, sizeof value, " %.4g", p.null);
-        what += (what.empty() ? "" : ", ") + name + value;
-        if (p.unit != "-") what += " " + std::string(p.unit);
-        free += "," + name;
-      }
-    }
-    if (!what.empty())
-      d_.notes.push_back("sizes are told for " + what + ", which are taken as given; `hoplab fit " +
-                         "--free " + free + "` fits them, too");
   }
 
   // Nothing is told: the model as it is, with intervals that hold what the evidence wanted.
@@ -208,11 +202,11 @@ class Pipeline {
     return report;
   }
 
-  // The extension without its doubtful corrections. How sure its names are was judged with them,
-  // as in the cases it was learnt from.
+  // The extension without what is set aside. How sure its names are was judged with that, as in the
+  // cases it was learnt from.
   ExtensionReport Retold(const ExtensionReport& with, const std::vector<Candidate>& candidates,
-                         const std::vector<SetAside>& doubtful) {
-    ExtensionReport report = ReportOf(candidates, doubtful);
+                         const std::vector<SetAside>& set_aside) {
+    ExtensionReport report = ReportOf(candidates, set_aside);
     for (CauseReport& c : report.causes) {
       const auto before =
           std::find_if(with.causes.begin(), with.causes.end(),
@@ -246,6 +240,12 @@ class Pipeline {
 Diagnosis DiagnoseFitted(DatasetFit null, const DiagnosisOptions& options,
                          const Beforehand& beforehand) {
   return Pipeline(options, beforehand).Run(std::move(null));
+}
+
+Diagnosis DiagnosedWithout(Diagnosis diagnosis, const std::vector<SetAside>& members,
+                           const DiagnosisOptions& options) {
+  const Beforehand nothing;
+  return Pipeline(options, nothing).RunWithout(std::move(diagnosis), members);
 }
 
 }  // namespace hoplab

@@ -212,6 +212,11 @@ struct Beforehand {
 Diagnosis DiagnoseFitted(DatasetFit null, const DiagnosisOptions& options,
                          const Beforehand& beforehand = {});
 
+/// The same diagnosis, judged anew without some of its causes, which are set aside; unchanged where
+/// the model without them could not be fitted. How sure the other names are stays.
+Diagnosis DiagnosedWithout(Diagnosis diagnosis, const std::vector<SetAside>& members,
+                           const DiagnosisOptions& options);
+
 /// Diagnoses a dataset. Of a robot the first stances are looked at before whole trials, in which
 /// what is wrong has grown until no small cause looks like itself; what is named there is carried
 /// on to the whole trials. Throws InputError for options that do not suit it.

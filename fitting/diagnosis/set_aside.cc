@@ -13,20 +13,6 @@ bool IsOneOf(const std::vector<SetAside>& members, int candidate) {
                      [&](const SetAside& m) { return m.candidate == candidate; });
 }
 
-// The same model without them; as it was where it has none of them or was not fitted.
-FittedModel Without(const FittedModel& model, const std::vector<SetAside>& members,
-                    const FitProblem& null_problem, const RefitSettings& settings) {
-  FittedModel less = model;
-  for (const SetAside& m : members) {
-    const auto at = std::find(less.members.begin(), less.members.end(), m.cause);
-    if (at == less.members.end() || !less.ok()) continue;
-    less = RefitWithout(less, static_cast<int>(at - less.members.begin()), null_problem, settings);
-    less.settled = false;
-  }
-  if (!less.settled) Settle(less, settings);
-  return less;
-}
-
 double LogOddsOf(double probability) { return std::log(probability / (1.0 - probability)); }
 
 bool IsInAGroup(const Naming& naming, int candidate) {
@@ -42,6 +28,19 @@ void Erase(std::vector<T>& of_members, const std::vector<std::size_t>& descendin
 }
 
 }  // namespace
+
+FittedModel Without(const FittedModel& model, const std::vector<SetAside>& members,
+                    const FitProblem& null_problem, const RefitSettings& settings) {
+  FittedModel less = model;
+  for (const SetAside& m : members) {
+    const auto at = std::find(less.members.begin(), less.members.end(), m.cause);
+    if (at == less.members.end() || !less.ok()) continue;
+    less = RefitWithout(less, static_cast<int>(at - less.members.begin()), null_problem, settings);
+    less.settled = false;
+  }
+  if (!less.settled) Settle(less, settings);
+  return less;
+}
 
 bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_problem,
              const RefitSettings& settings, Naming& naming) {

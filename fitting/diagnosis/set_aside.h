@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fitting/diagnosis/calibration.h"
@@ -8,8 +9,8 @@
 
 namespace hoplab {
 
-/// A correction that the evidence wants and that is most likely not what its name says: the data
-/// are told without it, and what it explained counts as left.
+/// A cause that the evidence wants and that is most likely not what its name says: the data are
+/// told without it, and what it explained counts as left.
 struct SetAside {
   int candidate = 0;  // place in Naming::candidates
   Candidate cause;
@@ -20,7 +21,14 @@ struct SetAside {
   double group_probability = 0.0, evidence_probability = 0.0;  // as CauseReport has them
   NameFeatures features;
   std::vector<int> group;  // it and what does as well in its place, by place
+  /// Its values by the whole trials, where these do not confirm what first parts said.
+  std::optional<Eigen::VectorXd> by_whole_trials = std::nullopt;
 };
+
+/// `model` without them, fitted and settled anew; as it was where it has none of them or was not
+/// fitted. `null_problem`: of the model without causes.
+FittedModel Without(const FittedModel& model, const std::vector<SetAside>& members,
+                    const FitProblem& null_problem, const RefitSettings& settings);
 
 /// Takes members out of `naming.best`, and out of every model compared with it; each is fitted and
 /// settled anew. Groups, weights and gaps of the others stay. False, and nothing changed, if the

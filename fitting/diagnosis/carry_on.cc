@@ -1,0 +1,129 @@
+#include "fitting/diagnosis/carry_on.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/random.h"
+#include "fitting/diagnosis/linearise_at.h"
+#include "fitting/diagnosis/null_fit.h"
+#include "fitting/diagnosis/unconfirmed.h"
+#include "fitting/growing_horizon.h"
+#include "fitting/stop_check.h"
+#include "fitting/trial_evaluator.h"
+
+namespace hoplab {
+namespace {
+
+bool Stopped(const DiagnosisOptions& options) { return options.fit.stop && *options.fit.stop; }
+
+CarriedOn GrownFrom(const FittedModel& named, const FitProblem& problem, double known_until,
+                    const DiagnosisOptions& options) {
+  CarriedOn carried;
+  FittedModel& model = carried.model;
+  model.members = named.members;
+  model.problem = Extend(problem, model.members);
+  const std::vector<TrialProblem> train = TrialsOf(problem, TrialRole::kTrain);
+  SolveRequest request;
+  request.problem = &model.problem;
+  request.trials = &train;
+  request.shared = named.shared;
+  request.initial_states = named.initial_states;
+  request.loss = options.fit.loss;
+  request.jobs = options.fit.jobs;
+  request.stop = options.fit.stop;
+  SolveResult result = GrowHorizon(std::move(request), known_until);
+  model.status = result.status;
+  if (!IsUsable(result.status)) {
+    carried.stop.faults.push_back(result.message);
+    return carried;
+  }
+  model.shared = std::move(result.shared);
+  model.initial_states = std::move(result.initial_states);
+  model.cost = result.cost;
+  model.complete = result.complete;
+  carried.stop = CheckStop(model.problem, train, model.shared, model.initial_states,
+                           options.fit.loss, options.fit.jobs);
+  return carried;
+}
+
+// What a minimum of the whole trials is worth: under the noise that suits it, with intervals that
+// hold other models, and held out.
+void Assess(CarriedOn& carried, const Diagnosis& d, const FitProblem& whole,
+            const DiagnosisOptions& options) {
+  FittedModel& model = carried.model;
+  const std::vector<TrialProblem> train = TrialsOf(whole, TrialRole::kTrain);
+  Settle(model, SettingsOf(options, train));
+  carried.uncertainty = AssessUncertainty(model.problem, train, model.shared, model.initial_states,
+                                          options.fit.loss, options.fit.jobs);
+  const std::vector<Candidate> others =
+      CandidatesBeside(model, CandidatesOf(whole, options.candidates));
+  const Linearisation at = LineariseAt(model, others, train, options.fit.jobs);
+  std::vector<OtherModel> more = WithOneMoreOf(d.naming, model, at, others);
+  Doubt(d.set_aside, more);
+  HoldOtherModels(more, model, carried.uncertainty);
+  carried.errors = MeasureHeldOut(model, options.fit.jobs);
+}
+
+// The whole trials without `members`: begun with what they were with them.
+CarriedOn CarriedWithout(const CarriedOn& with, const std::vector<SetAside>& members,
+                         const Diagnosis& d, const FitProblem& whole,
+                         const DiagnosisOptions& options) {
+  const std::vector<TrialProblem> train = TrialsOf(whole, TrialRole::kTrain);
+  CarriedOn carried;
+  carried.model = Without(with.model, members, whole, SettingsOf(options, train));
+  const FittedModel& model = carried.model;
+  if (model.ok())
+    carried.stop = CheckStop(model.problem, train, model.shared, model.initial_states,
+                             options.fit.loss, options.fit.jobs);
+  const bool is_there = model.ok() && carried.stop.IsMinimum();
+  return is_there ? carried : CarryOn(d, whole, options);
+}
+
+}  // namespace
+
+// A search ends where a step would change the order of events, and begun elsewhere it passes.
+CarriedOn CarryOn(const Diagnosis& last, const FitProblem& problem,
+                  const DiagnosisOptions& options) {
+  constexpr int kMoreSearches = 3;
+  const FittedModel& named = last.naming.best;
+  const double known_until = last.until.value_or(0.0);
+  CarriedOn best = GrownFrom(named, problem, known_until, options);
+  const auto take = [&](CarriedOn other) {
+    const bool fits = other.model.ok() && (!best.model.ok() || other.model.cost < best.model.cost);
+    if (fits) best = std::move(other);
+  };
+  if (!best.stop.IsMinimum() && !Stopped(options)) take(GrownFrom(named, problem, 0.0, options));
+  RandomStream random(options.fit.seed, 0);
+  for (int k = 0; k < kMoreSearches && !best.stop.IsMinimum() && !Stopped(options); ++k) {
+    FittedModel beside = named;
+    for (int i = 0; i < beside.shared.size(); ++i) {
+      const auto place = static_cast<std::size_t>(i);
+      const SharedParameter& s = named.problem.shared[place];
+      const double error = last.extension->uncertainty.parameters[place].std_error.value_or(0.0);
+      beside.shared[i] = std::clamp(beside.shared[i] + error * random.Normal(), s.lower, s.upper);
+    }
+    take(GrownFrom(beside, problem, known_until, options));
+  }
+  return best;
+}
+
+Diagnosis WithWholeTrials(Diagnosis d, const FitProblem& whole, const DiagnosisOptions& options) {
+  if (!d.extension || Stopped(options)) return d;
+  if (options.stage) options.stage("carrying on to the whole trials");
+  CarriedOn carried = CarryOn(d, whole, options);
+  if (Stopped(options)) return d;
+  if (carried.stop.IsMinimum()) {
+    Assess(carried, d, whole, options);
+    const std::vector<SetAside> unconfirmed = Unconfirmed(d, carried);
+    if (!unconfirmed.empty()) {
+      if (options.stage) options.stage("taking out what the whole trials do not confirm");
+      d = DiagnosedWithout(std::move(d), unconfirmed, options);
+      carried = CarriedWithout(carried, unconfirmed, d, whole, options);
+      if (carried.stop.IsMinimum()) Assess(carried, d, whole, options);
+    }
+  }
+  d.carried_on = std::move(carried);
+  return d;
+}
+
+}  // namespace hoplab
