@@ -15,7 +15,7 @@ LawComparison CompareLaws(const Dataset& dataset, const std::vector<ComparedMode
                           Segmentation span, const std::function<void(int done)>& progress) {
   LawComparison comparison;
   for (const ComparedModel& model : models) {
-    if (fit_options.stop && *fit_options.stop) break;
+    if (fit_options.IsStopped()) break;
     ProblemOptions options = problem_options;
     options.law = model.law;
     options.with_effects = model.with_effects;

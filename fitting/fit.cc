@@ -23,8 +23,6 @@ std::vector<OwnValues> InitialStatesOf(const std::vector<TrialProblem>& trials) 
   return initial_states;
 }
 
-bool Stopped(const FitOptions& options) { return options.stop && *options.stop; }
-
 SolveRequest RequestFor(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                         const FitOptions& options, int start_number, std::string_view stage) {
   SolveRequest request;
@@ -113,7 +111,7 @@ Eigen::VectorXd ShootApexes(const FitProblem& problem, const std::vector<TrialPr
   if (pieces.empty()) return shared;
   Eigen::VectorXd values = BestRung(problem, Spread(pieces), shared, options.jobs);
   // Pieces that fail there tell nothing yet; two rounds let them come back.
-  for (int round = 0; round < 2 && !Stopped(options); ++round) {
+  for (int round = 0; round < 2 && !options.IsStopped(); ++round) {
     const std::vector<double> costs = CostsAt(problem, pieces, values, options.jobs);
     std::vector<TrialProblem> usable;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -214,7 +212,7 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
     // The long run falls where single hops do not: let it grow to its full length.
     if (options.strategy == FitStrategy::kApexShooting) record.hops = request.shared;
     const bool led_on = IsUsable(result.status) && result.complete;
-    if (options.strategy == FitStrategy::kApexShooting && !led_on && !Stopped(options)) {
+    if (options.strategy == FitStrategy::kApexShooting && !led_on && !options.IsStopped()) {
       SolveResult grown = grow(request.shared);
       if (IsUsable(grown.status) && (grown.complete || !IsUsable(result.status)))
         result = std::move(grown);
@@ -265,17 +263,17 @@ FitResult Fit(const FitProblem& problem, const FitOptions& options) {
   };
   const int searches = std::max(options.restarts, 1);
   for (int i = 0; i < searches; ++i) {
-    if (i > 0 && Stopped(options)) break;
+    if (i > 0 && options.IsStopped()) break;
     search(i == 0 ? nominal : ScatteredStart(problem, nominal, options.seed, i), i);
   }
-  if (fit.best_start >= 0 && !Stopped(options)) {
+  if (fit.best_start >= 0 && !options.IsStopped()) {
     int number = searches;
     for (const Eigen::VectorXd& beyond : BeginningsBeyondThresholds(problem, fit.shared)) {
-      if (Stopped(options)) break;
+      if (options.IsStopped()) break;
       search(beyond, number++);
     }
   }
-  fit.interrupted = fit.interrupted || Stopped(options);
+  fit.interrupted = fit.interrupted || options.IsStopped();
   fit.ok = fit.best_start >= 0;
   if (!fit.ok) {
     fit.message = fit.records.front().message;

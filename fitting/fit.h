@@ -37,6 +37,7 @@ struct FitOptions {
   /// Of FitTraces and what is built on it; Fit itself takes the problem's noise as it is.
   Discrepancy discrepancy = Discrepancy::kMatern;
   const std::atomic<bool>* stop = nullptr;
+  bool IsStopped() const { return stop && *stop; }
   /// Called as the search goes on: which start, what it does, its cost (NaN if not known).
   std::function<void(int start, std::string_view stage, int iteration, double cost)> progress =
       nullptr;

@@ -20,7 +20,8 @@ struct ParameterUncertainty {
   std::optional<double> std_error_between_trials;
   std::optional<std::pair<double, double>> ci95_between_trials;
   /// Of a diagnosis: `ci95` if the told model were certain. There `ci95` and `ci95_between_trials`
-  /// also hold the value of every model that the data leave nearly as likely (OtherModel).
+  /// also hold the value of every model that the data leave nearly as likely (OtherModel), and what
+  /// first parts of the trials said where a smooth error is left in the whole (CarriedOn).
   std::optional<std::pair<double, double>> ci95_given_model;
   /// The wider of the two 95 % intervals.
   const std::optional<std::pair<double, double>>& Wider() const;

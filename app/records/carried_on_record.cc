@@ -35,9 +35,12 @@ std::string WholeTrialsSentence(const CarriedOn& carried) {
                      ErrorText(carried.errors.test.rmse[c], ChannelUnit(*ChannelFromName(name))));
   }
   return fmt::format(
-      "with it the simulation follows them to their end: {}; test error {}; chi2 {:.3g} a sample",
-      ValuesText(problem, carried.model.shared, carried.uncertainty), Join(errors),
-      Chi2PerSample(carried.model));
+      "with it the simulation follows them to their end: {}{}; test error {}; chi2 {:.3g} a sample",
+      ValuesText(problem, carried.model.shared, carried.uncertainty),
+      problem.noise.IsWhite()
+          ? ""
+          : " (a smooth error is left, so the intervals hold those of the first parts, too)",
+      Join(errors), Chi2PerSample(carried.model));
 }
 
 Json WholeTrialsRecord(const Diagnosis& diagnosis) {

@@ -48,7 +48,7 @@ void AddProfiles(const FitRunOptions& options, const std::vector<int>& targets, 
     Announce(options, "profile of " + s.name);
     Profile profile =
         ComputeProfile(run.problem, run.fit, options.fit, target, step, known.inflation);
-    if (options.fit.stop && *options.fit.stop) return;  // this one is cut short
+    if (options.fit.IsStopped()) return;  // this one is cut short
     run.profiles.push_back(std::move(profile));
   }
 }
@@ -221,7 +221,7 @@ FitRun RunFit(const Dataset& dataset, const FitRunOptions& options) {
   run.certificate = CertifyGradients(run.problem, train, run.fit.shared, run.fit.initial_states,
                                      options.fit.jobs);
   if (!run.interrupted) AddProfiles(options, targets, run);
-  run.interrupted = run.interrupted || (options.fit.stop && *options.fit.stop);
+  run.interrupted = run.interrupted || options.fit.IsStopped();
   return run;
 }
 

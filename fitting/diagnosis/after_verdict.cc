@@ -13,8 +13,6 @@ namespace {
 // Of the most that a cause gains alone: below that it is not measured on held-out trials.
 constexpr double kLeastGain = 0.01;
 
-bool IsStopped(const DiagnosisOptions& options) { return options.fit.stop && *options.fit.stop; }
-
 // Sizes and intervals are those for the shapes that are given.
 void NoteShapes(Diagnosis& d) {
   if (!d.extension) return;
@@ -48,7 +46,8 @@ void MeasureCandidates(Diagnosis& d, const DiagnosisOptions& options) {
   ParallelFor(static_cast<int>(d.candidate_gains.size()), options.fit.jobs, [&](int i) {
     const CandidateResult& c = d.naming.candidates[static_cast<std::size_t>(i)];
     // What gained nothing on the fitted trials has nothing to show on the others.
-    if (!c.alone.ok() || c.gain < std::max(1.0, kLeastGain * most) || IsStopped(options)) return;
+    if (!c.alone.ok() || c.gain < std::max(1.0, kLeastGain * most) || options.fit.IsStopped())
+      return;
     const HeldOutErrors alone =
         MeasureHeldOut(c.alone, options.fit.jobs, /*test_only=*/true, &d.before);
     d.candidate_gains[static_cast<std::size_t>(i)] =
@@ -60,7 +59,7 @@ void ProposeNextTrial(Diagnosis& d, const DiagnosisOptions& options) {
   if (!d.extension || d.verdict == Verdict::kUnexplained) return;
   const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
   for (const std::vector<FittedModel>& rivals : d.naming.rivals) {
-    if (rivals.size() < 2 || d.experiment || IsStopped(options)) continue;
+    if (rivals.size() < 2 || d.experiment || options.fit.IsStopped()) continue;
     if (options.stage) options.stage("looking for the trial that would tell the causes apart");
     d.experiment = ProposeExperiment(rivals, train, options.fit.jobs);
   }
@@ -70,7 +69,7 @@ void ProposeNextTrial(Diagnosis& d, const DiagnosisOptions& options) {
 
 void TellBesides(Diagnosis& d, const DiagnosisOptions& options) {
   const bool something_was_tried = d.extension || !d.set_aside.empty();
-  if (!d.refusal.empty() || !something_was_tried || IsStopped(options)) return;
+  if (!d.refusal.empty() || !something_was_tried || options.fit.IsStopped()) return;
   NoteShapes(d);
   MeasureCandidates(d, options);
   ProposeNextTrial(d, options);

@@ -1,6 +1,7 @@
 #include "fitting/diagnosis/carry_on.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "base/random.h"
@@ -13,8 +14,6 @@
 
 namespace hoplab {
 namespace {
-
-bool Stopped(const DiagnosisOptions& options) { return options.fit.stop && *options.fit.stop; }
 
 CarriedOn GrownFrom(const FittedModel& named, const FitProblem& problem, double known_until,
                     const DiagnosisOptions& options) {
@@ -46,6 +45,25 @@ CarriedOn GrownFrom(const FittedModel& named, const FitProblem& problem, double 
   return carried;
 }
 
+using Interval = std::optional<std::pair<double, double>>;
+
+void Hold(const Interval& other, Interval& interval) {
+  if (!other || !interval) return;
+  interval->first = std::min(interval->first, other->first);
+  interval->second = std::max(interval->second, other->second);
+}
+
+// A smooth error that is left grows from landing to landing: then the whole trials know a value no
+// better than their first parts do, and the interval holds what both say.
+void HoldFirstParts(const Uncertainty& first, Uncertainty& whole) {
+  for (std::size_t k = 0; k < whole.parameters.size(); ++k) {
+    ParameterUncertainty& u = whole.parameters[k];
+    if (!u.ci95_given_model) u.ci95_given_model = u.ci95;
+    Hold(first.parameters[k].ci95, u.ci95);
+    Hold(first.parameters[k].ci95_between_trials, u.ci95_between_trials);
+  }
+}
+
 // What a minimum of the whole trials is worth: under the noise that suits it, with intervals that
 // hold other models, and held out.
 void Assess(CarriedOn& carried, const Diagnosis& d, const FitProblem& whole,
@@ -61,6 +79,7 @@ void Assess(CarriedOn& carried, const Diagnosis& d, const FitProblem& whole,
   std::vector<OtherModel> more = WithOneMoreOf(d.naming, model, at, others);
   Doubt(d.set_aside, more);
   HoldOtherModels(more, model, carried.uncertainty);
+  if (!model.problem.noise.IsWhite()) HoldFirstParts(d.extension->uncertainty, carried.uncertainty);
   carried.errors = MeasureHeldOut(model, options.fit.jobs);
 }
 
@@ -92,9 +111,10 @@ CarriedOn CarryOn(const Diagnosis& last, const FitProblem& problem,
     const bool fits = other.model.ok() && (!best.model.ok() || other.model.cost < best.model.cost);
     if (fits) best = std::move(other);
   };
-  if (!best.stop.IsMinimum() && !Stopped(options)) take(GrownFrom(named, problem, 0.0, options));
+  if (!best.stop.IsMinimum() && !options.fit.IsStopped())
+    take(GrownFrom(named, problem, 0.0, options));
   RandomStream random(options.fit.seed, 0);
-  for (int k = 0; k < kMoreSearches && !best.stop.IsMinimum() && !Stopped(options); ++k) {
+  for (int k = 0; k < kMoreSearches && !best.stop.IsMinimum() && !options.fit.IsStopped(); ++k) {
     FittedModel beside = named;
     for (int i = 0; i < beside.shared.size(); ++i) {
       const auto place = static_cast<std::size_t>(i);
@@ -108,10 +128,10 @@ CarriedOn CarryOn(const Diagnosis& last, const FitProblem& problem,
 }
 
 Diagnosis WithWholeTrials(Diagnosis d, const FitProblem& whole, const DiagnosisOptions& options) {
-  if (!d.extension || Stopped(options)) return d;
+  if (!d.extension || options.fit.IsStopped()) return d;
   if (options.stage) options.stage("carrying on to the whole trials");
   CarriedOn carried = CarryOn(d, whole, options);
-  if (Stopped(options)) return d;
+  if (options.fit.IsStopped()) return d;
   if (carried.stop.IsMinimum()) {
     Assess(carried, d, whole, options);
     const std::vector<SetAside> unconfirmed = Unconfirmed(d, carried);

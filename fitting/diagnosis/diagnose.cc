@@ -71,7 +71,7 @@ class StageByStage {
   }
 
  private:
-  bool Stopped() const { return options_.fit.stop && *options_.fit.stop; }
+  bool Stopped() const { return options_.fit.IsStopped(); }
   // A model's own errors grow from landing to landing, too, and make names less sure again.
   static bool IsLessSure(const Diagnosis& longer, const std::optional<Diagnosis>& shorter) {
     return shorter && NamesSomething(*shorter) && Sureness(longer) < Sureness(*shorter);

@@ -64,7 +64,7 @@ class Pipeline {
   }
 
  private:
-  bool Stopped() const { return options_.fit.stop && *options_.fit.stop; }
+  bool Stopped() const { return options_.fit.IsStopped(); }
   void Stage(std::string_view text) const {
     if (options_.stage) options_.stage(text);
   }

@@ -160,8 +160,9 @@ struct CarriedOn {
   FittedModel model;
   /// Whether that is a minimum: else the model does not follow the whole trials.
   StopCheck stop;
-  Uncertainty uncertainty;  // of a minimum
-  HeldOutErrors errors;     // of a minimum
+  /// Of a minimum. Where a smooth error is left, its intervals hold those of the first parts.
+  Uncertainty uncertainty;
+  HeldOutErrors errors;  // of a minimum
 };
 
 /// A diagnosis from the gate to the proposed experiment. What was not reached is empty.

@@ -51,7 +51,7 @@ DatasetFit FitPlain(FitProblem problem, const DiagnosisOptions& options, Segment
 
 void BeginWith(DatasetFit fit, const DiagnosisOptions& options, Diagnosis& d,
                std::vector<TrialProblem>& train) {
-  const auto stopped = [&] { return options.fit.stop && *options.fit.stop; };
+  const auto stopped = [&] { return options.fit.IsStopped(); };
   const auto stage = [&](std::string_view text) {
     if (options.stage) options.stage(text);
   };

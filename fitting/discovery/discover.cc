@@ -52,7 +52,7 @@ class FormulaSearch {
   }
 
  private:
-  bool Stopped() const { return options_.fit.stop && *options_.fit.stop; }
+  bool Stopped() const { return options_.fit.IsStopped(); }
   void Stage(std::string_view text) const {
     if (options_.stage) options_.stage(text);
   }
@@ -299,7 +299,7 @@ class FormulaSearch {
 }  // namespace
 
 Discovery DiscoverFrom(const Diagnosis& base, const DiagnosisOptions& options) {
-  const auto stopped = [&] { return options.fit.stop && *options.fit.stop; };
+  const auto stopped = [&] { return options.fit.IsStopped(); };
   Discovery out;
   out.base = base;
   if (base.refusal.empty() && !stopped())

@@ -60,6 +60,20 @@ TEST(Diagnose, NamesWhatIsFarFromTheModel) {
   }
 }
 
+const std::string kThreeLate =
+    "sensor_scale_x: {gain: 0.001725}, camera_roll: {roll: 0.00115}, constant_force: {force_x: "
+    "0.023}";
+const std::string kMostThree =
+    "nothing is seen in the first stances, so no more than 3 causes together are told of the whole "
+    "trials";
+
+std::set<std::string> NamesOf(const Diagnosis& d) {
+  std::set<std::string> names;
+  if (!d.extension) return names;
+  for (const CauseReport& c : d.extension->causes) names.insert(c.cause.Name());
+  return names;
+}
+
 // Three small things that need time: nothing is seen in the first stances.
 TEST(Diagnose, FindsThreeCausesThatShowLate) {
   DiagnosisOptions options;
@@ -67,21 +81,26 @@ TEST(Diagnose, FindsThreeCausesThatShowLate) {
   options.candidates.only = {"sensor_scale_x", "camera_roll", "constant_force", "motor_gain_1"};
   std::string stages;
   options.stage = [&](std::string_view stage) { stages += std::string(stage) + "\n"; };
-  const Diagnosis d =
-      Diagnose(testing::RobotPronks(0.0, 0.6,
-                                    "{sensor_scale_x: {gain: 0.001725}, camera_roll: {roll: "
-                                    "0.00115}, constant_force: {force_x: 0.023}}"),
-               options);
+  const Diagnosis d = Diagnose(testing::RobotPronks(0.0, 0.6, "{" + kThreeLate + "}"), options);
   EXPECT_NE(stages.find("up to there: adequate"), stages.npos) << stages;
   EXPECT_FALSE(d.until);
-  ASSERT_TRUE(d.extension);
-  std::set<std::string> names;
-  for (const CauseReport& c : d.extension->causes) names.insert(c.cause.Name());
-  EXPECT_EQ(names, std::set<std::string>({"sensor_scale_x", "camera_roll", "constant_force"}));
-  EXPECT_NE(std::find(d.notes.begin(), d.notes.end(),
-                      "nothing is seen in the first stances, so no more than 3 causes together "
-                      "are told of the whole trials"),
-            d.notes.end());
+  EXPECT_EQ(NamesOf(d), std::set<std::string>({"sensor_scale_x", "camera_roll", "constant_force"}));
+  EXPECT_NE(std::find(d.notes.begin(), d.notes.end(), kMostThree), d.notes.end());
+}
+
+// A fourth, which is as small, is told of whole trials that are asked for, and not late.
+TEST(Diagnose, TellsNoFourthCauseThatShowsLate) {
+  const Dataset pronks =
+      testing::RobotPronks(0.0, 0.6, "{" + kThreeLate + ", motor_gain_1: {gamma: -0.0015}}");
+  DiagnosisOptions options;
+  options.fit.jobs = 2;
+  options.candidates.only = {"sensor_scale_x", "camera_roll", "constant_force", "motor_gain_1"};
+  const Diagnosis late = Diagnose(pronks, options);
+  EXPECT_FALSE(late.until);
+  EXPECT_LE(NamesOf(late).size(), 3u);
+  EXPECT_NE(std::find(late.notes.begin(), late.notes.end(), kMostThree), late.notes.end());
+  options.span = Segmentation::kWhole;
+  EXPECT_EQ(NamesOf(Diagnose(pronks, options)).size(), 4u);
 }
 
 // A name that was found stays where somebody waits for no more.

@@ -8,11 +8,7 @@
 #include <stdexcept>
 
 #include "fitting/diagnosis/believe.h"
-#include "fitting/diagnosis/carry_on.h"
-#include "fitting/diagnosis/null_fit.h"
-#include "fitting/followed_part.h"
 #include "tests/support/diagnosed_hops.h"
-#include "tests/support/robot_pronks.h"
 
 namespace hoplab {
 namespace {
@@ -151,35 +147,6 @@ TEST(DiagnosedWithout, IsTheDiagnosisWithoutThatCause) {
   CauseCalled(never, "touchdown_angle_bias");
   for (int k = 0; k < never.naming.best.shared.size(); ++k)
     EXPECT_NEAR(d.naming.best.shared[k] / never.naming.best.shared[k], 1.0, 1e-3);
-}
-
-// A force that first parts are made to know as twice what it is.
-TEST(WithWholeTrials, LeavesOutWhatTheyKnowInAnotherSize) {
-  DiagnosisOptions options = OptionsWith({"com_offset", "constant_force"});
-  options.fit.jobs = 2;
-  const Dataset pronks = testing::RobotPronks(0.008, 0.5, "{constant_force: {force_x: 0.3}}");
-  const FitProblem whole = MakeProblem(pronks, WithLegsAlike(options.problem));
-  DatasetFit null = FitPlain(FirstPart(whole, 0.35), options, Segmentation::kWhole);
-  null.until = 0.35;
-  Diagnosis first = DiagnoseFitted(std::move(null), options);
-  ASSERT_TRUE(first.extension && first.extension->causes.size() == 2u);
-
-  const Diagnosis right = WithWholeTrials(first, whole, options);
-  EXPECT_TRUE(right.set_aside.empty());
-  EXPECT_EQ(right.carried_on->model.members.size(), 2u);
-
-  const std::size_t force = first.naming.MemberOf(CauseCalled(first, "constant_force").candidate);
-  const int place = first.naming.best.PlaceOf(static_cast<int>(force));
-  first.naming.best.shared[place] *= 2.0;
-  const Diagnosis d = WithWholeTrials(first, whole, options);
-  ASSERT_EQ(d.set_aside.size(), 1u);
-  EXPECT_EQ(d.set_aside[0].cause.Name(), "constant_force");
-  ASSERT_TRUE(d.set_aside[0].by_whole_trials);
-  EXPECT_NEAR((*d.set_aside[0].by_whole_trials)[0], 0.3, 0.03);
-  ASSERT_EQ(d.extension->causes.size(), 1u);
-  EXPECT_EQ(d.extension->causes[0].cause.Name(), "com_offset");
-  ASSERT_TRUE(d.carried_on);
-  EXPECT_EQ(d.carried_on->model.members.size(), 1u);
 }
 
 }  // namespace
