@@ -282,7 +282,7 @@ std::string UnconfirmedLine(const Diagnosis& d, bool colours) {
                       ValuesText(s.cause, *s.by_whole_trials)));
   if (texts.empty()) return "";
   return Labelled("left out",
-                  "of another size in the whole trials, so it most likely stands for something "
+                  "of another size in the whole trials, so most likely standing for something "
                   "else: " +
                       Join(texts),
                   colours);

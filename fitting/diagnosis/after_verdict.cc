@@ -69,8 +69,9 @@ void ProposeNextTrial(Diagnosis& d, const DiagnosisOptions& options) {
 
 void TellBesides(Diagnosis& d, const DiagnosisOptions& options) {
   const bool something_was_tried = d.extension || !d.set_aside.empty();
-  if (!d.refusal.empty() || !something_was_tried || options.fit.IsStopped()) return;
+  if (!d.refusal.empty() || !something_was_tried) return;
   NoteShapes(d);
+  if (options.fit.IsStopped()) return;
   MeasureCandidates(d, options);
   ProposeNextTrial(d, options);
 }

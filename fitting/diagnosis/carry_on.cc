@@ -57,22 +57,25 @@ void Hold(const Interval& other, Interval& interval) {
 // better than their first parts do, and the interval holds what both say.
 void HoldFirstParts(const Uncertainty& first, Uncertainty& whole) {
   for (std::size_t k = 0; k < whole.parameters.size(); ++k) {
-    ParameterUncertainty& u = whole.parameters[k];
-    if (!u.ci95_given_model) u.ci95_given_model = u.ci95;
-    Hold(first.parameters[k].ci95, u.ci95);
-    Hold(first.parameters[k].ci95_between_trials, u.ci95_between_trials);
+    Hold(first.parameters[k].ci95, whole.parameters[k].ci95);
+    Hold(first.parameters[k].ci95_between_trials, whole.parameters[k].ci95_between_trials);
   }
 }
 
-// What a minimum of the whole trials is worth: under the noise that suits it, with intervals that
-// hold other models, and held out.
-void Assess(CarriedOn& carried, const Diagnosis& d, const FitProblem& whole,
-            const DiagnosisOptions& options) {
+// How well a minimum of the whole trials is known, under the noise that suits it.
+void AssessItself(CarriedOn& carried, const FitProblem& whole, const DiagnosisOptions& options) {
   FittedModel& model = carried.model;
   const std::vector<TrialProblem> train = TrialsOf(whole, TrialRole::kTrain);
-  Settle(model, SettingsOf(options, train));
+  if (!model.settled) Settle(model, SettingsOf(options, train));
   carried.uncertainty = AssessUncertainty(model.problem, train, model.shared, model.initial_states,
                                           options.fit.loss, options.fit.jobs);
+}
+
+// The same beside other models, and held out.
+void AssessBesideOthers(CarriedOn& carried, const Diagnosis& d, const FitProblem& whole,
+                        const DiagnosisOptions& options) {
+  const FittedModel& model = carried.model;
+  const std::vector<TrialProblem> train = TrialsOf(whole, TrialRole::kTrain);
   const std::vector<Candidate> others =
       CandidatesBeside(model, CandidatesOf(whole, options.candidates));
   const Linearisation at = LineariseAt(model, others, train, options.fit.jobs);
@@ -96,6 +99,25 @@ CarriedOn CarriedWithout(const CarriedOn& with, const std::vector<SetAside>& mem
                              options.fit.loss, options.fit.jobs);
   const bool is_there = model.ok() && carried.stop.IsMinimum();
   return is_there ? carried : CarryOn(d, whole, options);
+}
+
+// The diagnosis without `members` and what the whole trials make of it; absent where these are not
+// followed without them, or nobody waits for it.
+std::optional<Diagnosis> WithWholeTrialsWithout(const std::vector<SetAside>& members,
+                                                const Diagnosis& d, const CarriedOn& with,
+                                                const FitProblem& whole,
+                                                const DiagnosisOptions& options) {
+  if (options.stage) options.stage("taking out what the whole trials do not confirm");
+  Diagnosis less = DiagnosedWithout(d, members, options);
+  const bool are_out = less.naming.best.members.size() < d.naming.best.members.size();
+  if (!are_out || options.fit.IsStopped()) return std::nullopt;
+  CarriedOn carried = CarriedWithout(with, members, less, whole, options);
+  if (!carried.stop.IsMinimum() || options.fit.IsStopped()) return std::nullopt;
+  AssessItself(carried, whole, options);
+  AssessBesideOthers(carried, less, whole, options);
+  if (options.fit.IsStopped()) return std::nullopt;
+  less.carried_on = std::move(carried);
+  return less;
 }
 
 }  // namespace
@@ -133,14 +155,13 @@ Diagnosis WithWholeTrials(Diagnosis d, const FitProblem& whole, const DiagnosisO
   CarriedOn carried = CarryOn(d, whole, options);
   if (options.fit.IsStopped()) return d;
   if (carried.stop.IsMinimum()) {
-    Assess(carried, d, whole, options);
+    AssessItself(carried, whole, options);
     const std::vector<SetAside> unconfirmed = Unconfirmed(d, carried);
     if (!unconfirmed.empty()) {
-      if (options.stage) options.stage("taking out what the whole trials do not confirm");
-      d = DiagnosedWithout(std::move(d), unconfirmed, options);
-      carried = CarriedWithout(carried, unconfirmed, d, whole, options);
-      if (carried.stop.IsMinimum()) Assess(carried, d, whole, options);
+      auto less = WithWholeTrialsWithout(unconfirmed, d, carried, whole, options);
+      if (less) return *std::move(less);
     }
+    AssessBesideOthers(carried, d, whole, options);
   }
   d.carried_on = std::move(carried);
   return d;

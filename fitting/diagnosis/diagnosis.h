@@ -213,8 +213,9 @@ struct Beforehand {
 Diagnosis DiagnoseFitted(DatasetFit null, const DiagnosisOptions& options,
                          const Beforehand& beforehand = {});
 
-/// The same diagnosis, judged anew without some of its causes, which are set aside; unchanged where
-/// the model without them could not be fitted. How sure the other names are stays.
+/// The same diagnosis, judged anew without `members`, some of its causes but not all, which are set
+/// aside; with them still in it where the model without them could not be fitted. The other names
+/// keep their probabilities. A diagnosis that is stopped meanwhile is `interrupted`.
 Diagnosis DiagnosedWithout(Diagnosis diagnosis, const std::vector<SetAside>& members,
                            const DiagnosisOptions& options);
 

@@ -100,7 +100,8 @@ void Doubt(const std::vector<SetAside>& members, std::vector<OtherModel>& models
   for (OtherModel& model : models) {
     for (const SetAside& m : members) {
       if (m.candidate == model.candidate)
-        model.log_odds = std::min(model.log_odds, LogOddsOf(m.probability));
+        model.log_odds =
+            std::min(model.log_odds, m.by_whole_trials ? 0.0 : LogOddsOf(m.probability));
       else if (std::find(m.group.begin(), m.group.end(), model.candidate) != m.group.end())
         model.log_odds =
             std::min(model.log_odds, LogOddsOf(std::max(m.group_probability - m.probability, 0.0)));

@@ -44,8 +44,8 @@ double ProbabilityOf(const std::vector<SetAside>& members);
 void TakeAllOut(const std::vector<SetAside>& members, const FittedModel& null, Naming& naming);
 
 /// No model with one of `members` more, or with what does as well in its place, is likelier than
-/// that member; those that are then ruled out
-/// are dropped.
+/// that member, or than the told model where the whole trials do not confirm the member; those that
+/// are then ruled out are dropped.
 void Doubt(const std::vector<SetAside>& members, std::vector<OtherModel>& models);
 
 }  // namespace hoplab

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fitting/diagnosis/believe.h"
 
@@ -29,16 +30,20 @@ SizeChange ChangeOfSize(const CauseReport& cause, const Diagnosis& diagnosis,
   for (int k = 0; k < cause.cause.parameter_count(); ++k)
     size = std::max(size, std::abs(naming.best.shared[place + k]) / typical(k));
   SizeChange most;
+  bool is_known = true;
   for (int k = 0; k < cause.cause.parameter_count(); ++k) {
     const auto at = static_cast<std::size_t>(place + k);
     const double first = ErrorOf(diagnosis.extension->uncertainty.parameters[at]);
     const double all = ErrorOf(whole.uncertainty.parameters[at]);
     const double error = std::sqrt(std::max(first * first - all * all, 0.25 * first * first));
     const double by = std::abs(whole.model.shared[place + k] - naming.best.shared[place + k]);
-    const SizeChange change{error > 0.0 ? by / error : 0.0,
-                            size > 0.0 ? by / (size * typical(k)) : 0.0};
-    if (change.IsPlain() >= most.IsPlain() && change.std_errors > most.std_errors) most = change;
+    const SizeChange change{.std_errors = error > 0.0 ? by / error : 0.0,
+                            .share = size > 0.0 ? by / (size * typical(k)) : 0.0};
+    is_known = is_known && first > 0.0 && all > 0.0;
+    if (std::pair(change.IsPlain(), change.std_errors) > std::pair(most.IsPlain(), most.std_errors))
+      most = change;
   }
+  most.is_known = is_known;
   return most;
 }
 
@@ -46,9 +51,10 @@ std::vector<SetAside> Unconfirmed(const Diagnosis& diagnosis, const CarriedOn& w
   std::vector<SetAside> unconfirmed;
   bool some_is_confirmed = false;
   for (const CauseReport& c : diagnosis.extension->causes) {
-    const bool changes = ChangeOfSize(c, diagnosis, whole).IsPlain();
-    some_is_confirmed |= !changes && c.main && c.group_probability >= kLikely;
-    if (!changes || diagnosis.naming.GroupOf(c.candidate).size() > 1) continue;
+    const SizeChange change = ChangeOfSize(c, diagnosis, whole);
+    if (!change.is_known) continue;
+    some_is_confirmed |= !change.IsPlain() && c.main && c.group_probability >= kLikely;
+    if (!change.IsPlain() || diagnosis.naming.GroupOf(c.candidate).size() > 1) continue;
     SetAside out = AsSetAside(c, *diagnosis.extension, diagnosis.naming);
     out.by_whole_trials =
         whole.model.ValuesOf(static_cast<int>(diagnosis.naming.MemberOf(c.candidate)));

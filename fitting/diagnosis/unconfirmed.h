@@ -13,6 +13,7 @@ struct SizeChange {
   /// is consistent, so the difference has the variance s_first^2 - s_whole^2 [Hausman 1978,
   /// Econometrica 46, 1251]; at least a quarter of s_first^2, since both are estimates.
   double std_errors = 0.0;
+  bool is_known = true;  // both errors of every parameter are
   /// Over the cause's size by the first parts: its largest parameter in typical sizes.
   double share = 0.0;
 
@@ -25,7 +26,7 @@ SizeChange ChangeOfSize(const CauseReport& cause, const Diagnosis& diagnosis,
 /// Causes that the whole trials do not confirm: nothing does as well in their place, and their
 /// size changes plainly. What acts keeps its size; what stands in for an error of the model does
 /// not, since that error grows from landing to landing. None where no main cause that is likely
-/// right keeps its size. `whole` is a minimum.
+/// right is known to keep its size. `whole` is a minimum.
 std::vector<SetAside> Unconfirmed(const Diagnosis& diagnosis, const CarriedOn& whole);
 
 }  // namespace hoplab

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "fitting/diagnosis/null_fit.h"
 #include "fitting/followed_part.h"
@@ -40,6 +44,7 @@ TEST(WithWholeTrials, LeavesOutWhatTheyKnowInAnotherSize) {
 
   const Diagnosis right = WithWholeTrials(first, pronks.whole, pronks.options);
   EXPECT_TRUE(right.set_aside.empty());
+  ASSERT_TRUE(right.carried_on);
   EXPECT_EQ(right.carried_on->model.members.size(), 2u);
 
   const auto is_force = [](const Candidate& c) { return c.Name() == "constant_force"; };
@@ -54,8 +59,24 @@ TEST(WithWholeTrials, LeavesOutWhatTheyKnowInAnotherSize) {
   EXPECT_NEAR((*d.set_aside[0].by_whole_trials)[0], 0.3, 0.03);
   ASSERT_EQ(d.extension->causes.size(), 1u);
   EXPECT_EQ(d.extension->causes[0].cause.Name(), "com_offset");
-  ASSERT_TRUE(d.carried_on);
+  ASSERT_TRUE(d.carried_on && d.carried_on->stop.IsMinimum());
   EXPECT_EQ(d.carried_on->model.members.size(), 1u);
+  EXPECT_EQ(d.carried_on->uncertainty.parameters.size(),
+            d.extension->uncertainty.parameters.size());
+  EXPECT_EQ(d.carried_on->errors.test.rmse.size(), right.carried_on->errors.test.rmse.size());
+
+  // Where nobody waits for that, what was there stays.
+  std::atomic<bool> stop = false;
+  DiagnosisOptions options = pronks.options;
+  options.fit.stop = &stop;
+  options.stage = [&](std::string_view stage) { stop = stop || stage.starts_with("taking out"); };
+  const Diagnosis stopped = WithWholeTrials(first, pronks.whole, options);
+  EXPECT_TRUE(stop);
+  EXPECT_FALSE(stopped.interrupted);
+  EXPECT_TRUE(stopped.set_aside.empty());
+  EXPECT_EQ(stopped.extension->causes.size(), 2u);
+  ASSERT_TRUE(stopped.carried_on);
+  EXPECT_EQ(stopped.carried_on->model.members.size(), 2u);
 }
 
 // Of a model that is right the whole trials know more; one whose error shows knows no more by them

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "fitting/diagnosis/believe.h"
 #include "tests/support/diagnosed_hops.h"
@@ -93,6 +96,24 @@ TEST(Unconfirmed, AChangeIsMeasuredAgainstTheLargestValueOfItsCause) {
   EXPECT_FALSE(told.ChangeOf(0).IsPlain());
   told.whole.model.shared[1] = 0.004;
   EXPECT_TRUE(told.ChangeOf(0).IsPlain());
+  // One value is better known, the other is another: whichever comes first.
+  told.whole.model.shared << 0.0085, 0.00215;
+  told.first.extension->uncertainty.parameters[1].std_error = 5e-4;
+  EXPECT_TRUE(told.ChangeOf(0).IsPlain());
+  told.first.naming.best.shared << 0.0, 0.008;
+  told.whole.model.shared << 0.00215, 0.0085;
+  std::swap(told.first.extension->uncertainty.parameters[0],
+            told.first.extension->uncertainty.parameters[1]);
+  EXPECT_TRUE(told.ChangeOf(0).IsPlain());
+}
+
+// A size whose error is not known neither is confirmed nor is another.
+TEST(Unconfirmed, WhatIsNotKnownSaysNothing) {
+  Told told({"air_drag", "touchdown_loss"});
+  told.whole.model.shared << 0.4, 0.4;
+  told.whole.uncertainty.parameters[0].std_error.reset();
+  EXPECT_FALSE(told.ChangeOf(0).is_known);
+  EXPECT_TRUE(Unconfirmed(told.first, told.whole).empty());
 }
 
 TEST(Unconfirmed, WhatIsAnotherSizeBesideACauseThatKeepsItsOwn) {
@@ -141,7 +162,13 @@ TEST(DiagnosedWithout, IsTheDiagnosisWithoutThatCause) {
   ASSERT_EQ(d.set_aside.size(), 1u);
   EXPECT_EQ(d.set_aside[0].cause.Name(), "sensor_delay");
   EXPECT_LT(d.extension->explained, with.extension->explained);
-  EXPECT_GT(d.left.share, with.left.share);
+  EXPECT_EQ(d.naming.best_set, std::vector<int>{bias.candidate});
+  EXPECT_EQ(d.naming.groups.front().front(), bias.candidate);
+  EXPECT_EQ(d.naming.groups.size(), 1u);
+  EXPECT_EQ(d.naming.gaps.size(), 1u);
+  EXPECT_EQ(d.naming.without.size(), 1u);
+  EXPECT_EQ(d.naming.candidates[static_cast<std::size_t>(delay.candidate)].status,
+            CandidateStatus::kNotNeeded);
   // The model that never had it.
   const Diagnosis never = Diagnose(hops, OptionsWith({"touchdown_angle_bias"}));
   CauseCalled(never, "touchdown_angle_bias");

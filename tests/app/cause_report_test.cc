@@ -1,8 +1,10 @@
-// What is told of a cause whose size differs between trials.
+// What is told of a cause whose size differs between trials, and of one that the whole trials do
+// not confirm.
 #include <gtest/gtest.h>
 
 #include "app/records/cause_record.h"
 #include "app/reports/diagnosis_report.h"
+#include "fitting/diagnosis/believe.h"
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
@@ -56,6 +58,39 @@ TEST(SizesInWords, NothingIsSaidWhereOneSizeServesAll) {
   ASSERT_TRUE(run.diagnosis.extension) << run.diagnosis.reason;
   const std::string text = DiagnosisReport(dataset, run, true, false);
   EXPECT_EQ(text.find("differently"), std::string::npos) << text;
+}
+
+TEST(LeftOutInWords, WhatTheWholeTrialsKnowInAnotherSizeIsToldWithBoth) {
+  using testing::EffectOfSize;
+  const Dataset dataset =
+      testing::DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.03),
+                                      EffectOfSize("sensor_delay", 0.006)}});
+  const DiagnosisOptions options = testing::OptionsWith({"touchdown_angle_bias", "sensor_delay"});
+  DiagnosisRun run;
+  run.diagnosis = Diagnose(dataset, options);
+  ASSERT_TRUE(run.diagnosis.extension && run.diagnosis.extension->causes.size() == 2u);
+  const std::vector<CauseReport>& causes = run.diagnosis.extension->causes;
+  const CauseReport& delay = causes[causes[0].cause.Name() == "sensor_delay" ? 0 : 1];
+  SetAside out = AsSetAside(delay, *run.diagnosis.extension, run.diagnosis.naming);
+  out.values[0] = 0.0064;
+  out.by_whole_trials = Eigen::VectorXd::Constant(1, 0.0025);
+  run.diagnosis = DiagnosedWithout(run.diagnosis, {out}, options);
+
+  const std::string text = Unbroken(DiagnosisReport(dataset, run, true, false));
+  EXPECT_NE(text.find("left out of another size in the whole trials, so most likely standing for "
+                      "something else: sensor_delay ("),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("% of the misfit; 6.4 ms by the first parts, 2.5 ms by the whole trials)"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("would explain a little more"), std::string::npos) << text;
+
+  const Json record = SetAsideRecord(run.diagnosis);
+  ASSERT_EQ(record.size(), 1u);
+  EXPECT_EQ(record[0].at("name"), "sensor_delay");
+  EXPECT_EQ(record[0].at("parameters").at(0).at("value"), 0.0064);
+  EXPECT_EQ(record[0].at("parameters_by_whole_trials").at(0).at("value"), 0.0025);
 }
 
 }  // namespace
