@@ -54,8 +54,13 @@ void Hold(const Interval& other, Interval& interval) {
 }
 
 // A smooth error that is left grows from landing to landing: then the whole trials know a value no
-// better than their first parts do, and the interval holds what both say.
-void HoldFirstParts(const Uncertainty& first, Uncertainty& whole) {
+// better than their first parts do, and the interval holds what both say. Other models are those of
+// the whole trials.
+void HoldFirstParts(const Diagnosis& d, const DiagnosisOptions& options, Uncertainty& whole) {
+  const FittedModel& best = d.naming.best;
+  const Uncertainty first =
+      AssessUncertainty(best.problem, TrialsOf(d.problem, TrialRole::kTrain), best.shared,
+                        best.initial_states, options.fit.loss, options.fit.jobs);
   for (std::size_t k = 0; k < whole.parameters.size(); ++k) {
     Hold(first.parameters[k].ci95, whole.parameters[k].ci95);
     Hold(first.parameters[k].ci95_between_trials, whole.parameters[k].ci95_between_trials);
@@ -82,7 +87,7 @@ void AssessBesideOthers(CarriedOn& carried, const Diagnosis& d, const FitProblem
   std::vector<OtherModel> more = WithOneMoreOf(d.naming, model, at, others);
   Doubt(d.set_aside, more);
   HoldOtherModels(more, model, carried.uncertainty);
-  if (!model.problem.noise.IsWhite()) HoldFirstParts(d.extension->uncertainty, carried.uncertainty);
+  if (!model.problem.noise.IsWhite()) HoldFirstParts(d, options, carried.uncertainty);
   carried.errors = MeasureHeldOut(model, options.fit.jobs);
 }
 
