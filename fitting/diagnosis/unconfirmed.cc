@@ -32,11 +32,12 @@ SizeChange ChangeOfSize(const CauseReport& cause, const Diagnosis& diagnosis,
   SizeChange most;
   bool is_known = true;
   for (int k = 0; k < cause.cause.parameter_count(); ++k) {
-    const auto at = static_cast<std::size_t>(place + k);
+    const int i = place + k;
+    const auto at = static_cast<std::size_t>(i);
     const double first = ErrorOf(diagnosis.extension->uncertainty.parameters[at]);
     const double all = ErrorOf(whole.uncertainty.parameters[at]);
     const double error = std::sqrt(std::max(first * first - all * all, 0.25 * first * first));
-    const double by = std::abs(whole.model.shared[place + k] - naming.best.shared[place + k]);
+    const double by = std::abs(whole.model.shared[i] - naming.best.shared[i]);
     const SizeChange change{.std_errors = error > 0.0 ? by / error : 0.0,
                             .share = size > 0.0 ? by / (size * typical(k)) : 0.0};
     is_known = is_known && first > 0.0 && all > 0.0;
