@@ -9,13 +9,15 @@ namespace hoplab {
 /// How the size of a cause that first parts of the trials told differs in the whole trials, which
 /// hold those parts: of its parameters the one that differs most plainly.
 struct SizeChange {
-  /// Of the difference. Where the model is right, the fit of all rows is efficient and that of some
-  /// is consistent, so the difference has the variance s_first^2 - s_whole^2 [Hausman 1978,
-  /// Econometrica 46, 1251]; at least a quarter of s_first^2, since both are estimates.
+  /// In standard errors of the difference. Where the model is right, the fit of all rows is
+  /// efficient and that of some is consistent, so the difference has the variance s_first^2 -
+  /// s_whole^2 [Hausman 1978, Econometrica 46, 1251]; at least a quarter of s_first^2, since both
+  /// are estimates.
   double std_errors = 0.0;
-  bool is_known = true;  // both errors of every parameter are
   /// Over the cause's size by the first parts: its largest parameter in typical sizes.
   double share = 0.0;
+  /// Both fits know the errors of all its parameters.
+  bool is_known = true;
 
   /// Another size, and not only a better one.
   bool IsPlain() const;

@@ -143,6 +143,15 @@ TEST(SetAside, AModelWithItIsNoLikelierThanItsName) {
   ASSERT_EQ(models.size(), 1u);
   EXPECT_NEAR(models[0].log_odds, std::log(0.1 / 0.9), 1e-12);
   EXPECT_FALSE(std::isinf(odds(20.0, 1.1 / 20.0)));
+  // However sure its name was: what the whole trials do not confirm is no likelier than the rest.
+  SetAside unconfirmed{3, CandidateOf("air_drag"), {}, 0.0, 0.0, 0.99};
+  models[0].candidate = 3;
+  models[0].log_odds = 20.0;
+  Doubt({unconfirmed}, models);
+  EXPECT_NEAR(models[0].log_odds, std::log(99.0), 1e-9);
+  unconfirmed.by_whole_trials = Eigen::VectorXd::Zero(1);
+  Doubt({unconfirmed}, models);
+  EXPECT_EQ(models[0].log_odds, 0.0);
 }
 
 }  // namespace

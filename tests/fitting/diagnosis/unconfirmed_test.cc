@@ -109,11 +109,18 @@ TEST(Unconfirmed, AChangeIsMeasuredAgainstTheLargestValueOfItsCause) {
 
 // A size whose error is not known neither is confirmed nor is another.
 TEST(Unconfirmed, WhatIsNotKnownSaysNothing) {
+  // The only other cause is not confirmed by it.
   Told told({"air_drag", "touchdown_loss"});
-  told.whole.model.shared << 0.4, 0.4;
-  told.whole.uncertainty.parameters[0].std_error.reset();
+  told.whole.model.shared[1] = 0.4;
+  ASSERT_EQ(Unconfirmed(told.first, told.whole).size(), 1u);
+  told.first.extension->uncertainty.parameters[0].std_error.reset();
   EXPECT_FALSE(told.ChangeOf(0).is_known);
   EXPECT_TRUE(Unconfirmed(told.first, told.whole).empty());
+  // Nor is it set aside itself.
+  Told other({"air_drag", "touchdown_loss"});
+  other.whole.model.shared[1] = 0.4;
+  other.whole.uncertainty.parameters[1].std_error.reset();
+  EXPECT_TRUE(Unconfirmed(other.first, other.whole).empty());
 }
 
 TEST(Unconfirmed, WhatIsAnotherSizeBesideACauseThatKeepsItsOwn) {
