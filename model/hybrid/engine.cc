@@ -32,7 +32,8 @@ Engine<T>::Engine(const Automaton<T>& automaton, const IntegratorOptions& option
       max_steps_(options.max_steps),
       explicit_(options.kind != IntegratorKind::kCvodes) {
   HOPLAB_CHECK(states_ <= kMaxStates);
-  const FlatSystem flat{&Derivative, this, states_ * (1 + kWidth), states_};
+  for (int i = 0; i < states_; ++i) units_[i] = system_.ErrorUnit(i);
+  const FlatSystem flat{&Derivative, this, states_ * (1 + kWidth), states_, units_};
   switch (options.kind) {
     case IntegratorKind::kDop853:
       stepper_ = &solver_.template emplace<Dop853>(options, flat);

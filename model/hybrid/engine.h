@@ -91,7 +91,8 @@ class Engine {
   Mode mode_ = Mode::kFlight;
   int states_;
   long max_steps_;
-  bool explicit_;  // the solver is
+  bool explicit_;             // the solver is
+  double units_[kMaxStates];  // of errors
   std::variant<std::monostate, Dop853, ErkStepper, CvodesStepper> solver_;
   Stepper* stepper_;
   T z_[kMaxStates];

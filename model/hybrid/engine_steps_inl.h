@@ -71,7 +71,7 @@ bool Engine<T>::Integrate(GuardRates before, GuardCrossing& crossing) {
 
 template <class T>
 double Engine<T>::LongestStep() const {
-  if (explicit_ && kWidth > 0) return system_.LongestStep(mode_, T(t_), z_);
+  if (explicit_) return system_.LongestStep(mode_, T(t_), z_);
   return std::numeric_limits<double>::infinity();
 }
 

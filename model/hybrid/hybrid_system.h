@@ -71,6 +71,10 @@ class HybridSystem {
   /// How it would fly on without touching anything, for what comes after the end of a run.
   virtual std::optional<BallisticFlight<T>> FreeFlight() const { return std::nullopt; }
 
+  /// What an error of state `i` is measured in where the absolute tolerance is asked: 1 m, rad, m/s
+  /// or rad/s, but a rate that is soon forgotten leaves a smaller error in what it is the rate of,
+  /// and has the rate at which it is [1/s].
+  virtual double ErrorUnit(int /*i*/) const { return 1.0; }
   /// Size of the first step of a mode [s].
   virtual double FirstStep(Mode mode, const T* z) const = 0;
   /// The step an explicit solver must not exceed where the state alone does not steer it there [s].

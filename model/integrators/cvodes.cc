@@ -104,8 +104,11 @@ void CvodesSolver::Start(double t, const double* y, double first_step) {
     HOPLAB_CHECK(m.solver != nullptr);
     HOPLAB_CHECK(CVodeInit(m.solver, &Memory::Derivative, t, m.y) == CV_SUCCESS);
     HOPLAB_CHECK(CVodeSetUserData(m.solver, &m) == CV_SUCCESS);
-    HOPLAB_CHECK(CVodeSStolerances(m.solver, m.options.relative_tolerance,
-                                   m.options.absolute_tolerance) == CV_SUCCESS);
+    const N_Vector absolute = N_VClone(m.y);
+    for (int i = 0; i < m.n(); ++i)
+      N_VGetArrayPointer(absolute)[i] = m.options.absolute_tolerance * m.system.units[i];
+    HOPLAB_CHECK(CVodeSVtolerances(m.solver, m.options.relative_tolerance, absolute) == CV_SUCCESS);
+    N_VDestroy(absolute);
     HOPLAB_CHECK(CVodeSetMaxNumSteps(m.solver, 1000000) == CV_SUCCESS);
     HOPLAB_CHECK(CVodeSetErrHandlerFn(
                      m.solver, [](int, const char*, const char*, char*, void*) {}, nullptr) ==

@@ -80,7 +80,7 @@ StepStatus Dop853::Step(double t_limit) {
     Evaluate(t0_ + h, y1_, k_[kNext]);
     t1_ = last ? t_limit : t0_ + h;
     h_ = h;
-    dense_ready_ = false;
+    dense_ready_ = 0;
     // PI controller of Hairer and Wanner (beta = 0.02), and no growth right after a rejection.
     const double bounded = std::max(error, 1e-10);
     double grow = 0.9 * std::pow(bounded, -(1.0 / 8.0 - 0.02 * 0.2)) *
@@ -101,7 +101,7 @@ StepStatus Dop853::EndAt(double t) {
   h_ = t - t0_;
   t1_ = t;
   Stages(h_);
-  dense_ready_ = false;
+  dense_ready_ = 0;
   Evaluate(t1_, y1_, k_[kNext]);
   return std::isfinite(y1_[0]) ? StepStatus::kOk : StepStatus::kFailed;
 }
@@ -142,7 +142,7 @@ void Dop853::Stages(double h) {
 
 double Dop853::Error(double h) const {
   const double error = ErrorOf(h, 0, system_.controlled, 1, [this](int i) {
-    return options_.absolute_tolerance +
+    return options_.absolute_tolerance * system_.units[i] +
            options_.relative_tolerance * std::max(std::abs(y0_[i]), std::abs(y1_[i]));
   });
   if (system_.size > system_.controlled && options_.steering != 0)
@@ -190,12 +190,15 @@ double Dop853::ErrorOf(double h, int begin, int end, int stride, const Scale& sc
   return std::abs(h) * error5 / std::sqrt(norm * count);
 }
 
-void Dop853::PrepareDense() {
-  if (dense_ready_) return;
-  Stage<13>(h_);
-  Stage<14>(h_);
-  Stage<15>(h_);
-  for (int i = 0; i < system_.size; ++i) {
+// Of the first `count` components.
+void Dop853::PrepareDense(int count) {
+  if (count <= dense_ready_) return;
+  if (dense_ready_ == 0) {
+    Stage<13>(h_);
+    Stage<14>(h_);
+    Stage<15>(h_);
+  }
+  for (int i = dense_ready_; i < count; ++i) {
     const double delta = y1_[i] - y0_[i];
     dense_[0][i] = delta;
     dense_[1][i] = h_ * k_[0][i] - delta;
@@ -206,11 +209,11 @@ void Dop853::PrepareDense() {
       dense_[3 + d][i] = h_ * sum;
     }
   }
-  dense_ready_ = true;
+  dense_ready_ = count;
 }
 
 void Dop853::Read(double t, int count, double* y) {
-  PrepareDense();
+  PrepareDense(count);
   const double x = (t - t0_) / h_;
   for (int i = 0; i < count; ++i) {
     double sum = 0.0;

@@ -33,7 +33,7 @@ class Dop853 final : public Stepper {
   double SensitivityError(double h) const;
   template <class Scale>
   double ErrorOf(double h, int begin, int end, int stride, const Scale& scale_of) const;
-  void PrepareDense();
+  void PrepareDense(int count);
   void Read(double t, int count, double* y);
   void Evaluate(double t, const double* y, double* dy) const {
     system_.derivative(system_.context, t, y, dy);
@@ -43,7 +43,8 @@ class Dop853 final : public Stepper {
   FlatSystem system_;
   int padded_;  // size rounded up to whole packs
   double h_ = 0.0, next_step_ = 0.0, last_error_ = 1e-4;
-  bool rejected_ = false, dense_ready_ = false;
+  bool rejected_ = false;
+  int dense_ready_ = 0;  // how many components of it are
   alignas(32) Vector y0_;
   alignas(32) Vector k_[dop853::kStagesExtended];
   alignas(32) Vector dense_[dop853::kDensePower];

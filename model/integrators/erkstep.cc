@@ -54,7 +54,8 @@ struct ErkStepSolver::Memory {
     for (int i = 0; i < self->system.size; ++i) controlled += steers(i);
     const double factor = std::sqrt(static_cast<double>(self->system.size) / controlled);
     for (int i = 0; i < self->system.size; ++i) {
-      w[i] = steers(i) ? factor / (self->options.absolute_tolerance +
+      const double unit = i < states ? self->system.units[i] : 1.0;
+      w[i] = steers(i) ? factor / (self->options.absolute_tolerance * unit +
                                    self->options.relative_tolerance * size_of(i))
                        : 1e-300;
     }

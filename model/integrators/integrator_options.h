@@ -15,8 +15,9 @@ enum class IntegratorKind {
 std::string_view NameOf(IntegratorKind kind);
 std::optional<IntegratorKind> FindIntegrator(std::string_view name);
 
-/// Tolerances of one step: |error| <= absolute + relative |state| per component, root mean square
-/// over the state (m and m/s). Sensitivities follow the steps of the state, but for those of the
+/// Tolerances of one step: |error| <= absolute unit + relative |state| per component, root mean
+/// square over the state; the unit is 1 (m, rad, m/s, rad/s) but where a mechanism says otherwise
+/// (HybridSystem::ErrorUnit). Sensitivities follow the steps of the state, but for those of the
 /// steering directions (all of them under cvodes): each relative to the largest of its direction.
 struct IntegratorOptions {
   IntegratorKind kind = IntegratorKind::kDop853;

@@ -10,8 +10,9 @@ namespace hoplab {
 struct FlatSystem {
   void (*derivative)(const void* context, double t, const double* y, double* dy);
   const void* context;
-  int size;        // of the whole vector, at most kMaxFlatSize
-  int controlled;  // leading components that steer the step: the state
+  int size;             // of the whole vector, at most kMaxFlatSize
+  int controlled;       // leading components that steer the step: the state
+  const double* units;  // of each of them: times the absolute tolerance
 };
 inline constexpr int kMaxFlatSize =
     (kMaxStates * (1 + kWidestJet) + 3) / 4 * 4;  // whole packs of four

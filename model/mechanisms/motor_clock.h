@@ -18,10 +18,16 @@ class MotorClock {
   MotorClock(const RobotParameters<T>& p, int leg, double time_origin)
       : period_(p.period),
         duty_(p.duty),
-        sweep_(p.sweep),
-        offset_(p.offset),
         phase_(p.phase[static_cast<std::size_t>(leg)]),
-        origin_(time_origin) {}
+        origin_(time_origin) {
+    const T turned = origin_ / period_ + phase_;               // at the run's start
+    const auto line = [&](const T& angle, const T& by_turn) {  // by_turn: of the clock
+      return Line{angle - by_turn * turned, by_turn - 2.0 * std::numbers::pi, -by_turn / period_};
+    };
+    const T slow = p.sweep / duty_, fast = (2.0 * std::numbers::pi - p.sweep) / (1.0 - duty_);
+    slow_ = line(p.offset + 0.5 * p.sweep, slow);
+    fast_ = line(p.offset - 0.5 * p.sweep + fast * duty_, fast);
+  }
 
   /// The piece at time t of the run [s]; at a knot the one that begins there.
   int PieceAt(double t) const {
@@ -38,22 +44,22 @@ class MotorClock {
   }
   /// The reference angle [rad] at time t, and its rate [rad/s], by the formula of a piece.
   T Angle(int piece, const T& t) const {
-    const double turn = TurnOf(piece);
-    const T s = (t + origin_) / period_ + phase_ - turn;
-    const T whole = offset_ - 2.0 * std::numbers::pi * turn;
-    if (IsSlow(piece)) return whole + sweep_ * (0.5 - s / duty_);
-    return whole - 0.5 * sweep_ - Rest() * (s - duty_) / (1.0 - duty_);
+    const Line& line = LineOf(piece);
+    return line.start + static_cast<double>(TurnOf(piece)) * line.by_turn + line.rate * t;
   }
-  T Rate(int piece) const {
-    return IsSlow(piece) ? T(-sweep_ / (duty_ * period_)) : T(-Rest() / ((1.0 - duty_) * period_));
-  }
+  const T& Rate(int piece) const { return LineOf(piece).rate; }
 
  private:
+  /// A piece of every turn: from the angle at time 0 in turn 0 on.
+  struct Line {
+    T start{0.0}, by_turn{0.0}, rate{0.0};  // [rad], [rad], [rad/s]
+  };
   static bool IsSlow(int piece) { return (piece & 1) == 0; }
   static int TurnOf(int piece) { return (piece - (piece & 1)) / 2; }
-  T Rest() const { return 2.0 * std::numbers::pi - sweep_; }
+  const Line& LineOf(int piece) const { return IsSlow(piece) ? slow_ : fast_; }
 
-  T period_{1.0}, duty_{0.5}, sweep_{1.0}, offset_{0.0}, phase_{0.0};
+  T period_{1.0}, duty_{0.5}, phase_{0.0};
+  Line slow_, fast_;
   double origin_ = 0.0;
 };
 

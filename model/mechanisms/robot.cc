@@ -42,6 +42,7 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
   foot_has_inertia_ = follows_legs_ && HasCone();
   using std::cos;
   using std::sin;
+  has_clamp_ = !IsZero(robot_.clamp);
   clamp_ = robot_.clamp / p_.r;
   cos_clamp_ = cos(clamp_);
   sin_clamp_ = sin(clamp_);
@@ -49,6 +50,8 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
     leg_[i].law = RobotLeg<T>(p_, static_cast<std::size_t>(i));
     leg_[i].clock = MotorClock<T>(robot_, i, p_.time_origin);
     gain_[i] = robot_.motor_gain * robot_.gain_of[i];
+    has_gain_[i] = !IsZero(T(gain_[i] - 1.0));
+    has_zero_[i] = !IsZero(robot_.leg_zero[i]);
     SetUpMotor(i);
   }
   size_ = leg_[0].law.size();
@@ -74,7 +77,7 @@ template <class T>
 typename Robot<T>::Hip Robot<T>::ClampOf(const Hip& hip) const {
   using std::cos;
   using std::sin;
-  if (IsZero(robot_.clamp)) return hip;
+  if (!has_clamp_) return hip;
   const T s = p_.r * sin(hip.angle), c = p_.r * cos(hip.angle);
   const T x = s - (s * cos_clamp_ + c * sin_clamp_), y = (c * cos_clamp_ - s * sin_clamp_) - c;
   return {hip.x + x,          hip.y + y, hip.vx - hip.rate * y, hip.vy + hip.rate * x,
@@ -222,7 +225,10 @@ std::optional<BallisticFlight<T>> Robot<T>::FreeFlight() const {
 
 template <class T>
 double Robot<T>::FirstStep(Mode mode, const T*) const {
-  return mode == Mode::kFlight ? 1e-3 : 2e-4;
+  if (mode == Mode::kFlight) return 1e-3;
+  double settles = 0.0;
+  for (int i = 0; i < legs_; ++i) settles = std::max(settles, SpeedOf(i).settles);
+  return std::clamp(0.5 / settles, 2e-4, 1e-3);
 }
 
 template <class T>

@@ -46,12 +46,15 @@ class Robot final : public HybridSystem<T> {
   double NextKnot(Mode mode) const override;
   std::optional<T> PassKnot(Mode mode, double t, T* z) override;
   std::optional<BallisticFlight<T>> FreeFlight() const override;
+  double ErrorUnit(int i) const override;
   double FirstStep(Mode mode, const T* z) const override;
   double LongestStep(Mode mode, const T& t, const T* z) const override;
   Observation<T> Observe(Mode mode, const T& t, const T* z) const override;
   T Energy(Mode mode, const T* z) const override;
 
  private:
+  template <class>
+  friend class Robot;  // of values alone
   using Stance = Foot::Stance;
   struct Leg {
     Stance stance = Stance::kFlight;
@@ -110,9 +113,18 @@ class Robot final : public HybridSystem<T> {
   Hip ClampOf(const Hip& hip) const;
   struct Frame;  // sine and cosine of the body's pitch over the ground
   Hip HipOf(const Frame& frame, int leg, const T* z) const;
-  struct Push;    // what legs and air do to body and motors
+  /// What legs and air do to body and motors.
+  struct Push {
+    Vector2<T> com;                             // from the reference point, frame of the ground [m]
+    T force_x, force_y;                         // on the body [N]
+    T moment;                                   // on the body about its centre of mass [N m]
+    std::array<T, kMaxLegs> on_motor;           // on each leg's angle [N m]
+    std::array<T, kMaxLegs> on_rotor;           // on each rotor whose gear has play [N m]
+    std::array<ClampedLoad<T>, kMaxLegs> load;  // of each leg that is down
+  };
   struct Forces;  // what feet and hips bear
-  Push PushOf(const Frame& frame, const T& t, const T* z) const;
+  // Until it is called again.
+  Push& PushOf(const Frame& frame, const T& t, const T* z) const;
   // `holding`, if asked for: what each hip that is held bears [N m].
   void Accelerate(const Frame& frame, const Push& push, const T* z, T* dz,
                   T* holding = nullptr) const;
@@ -126,6 +138,9 @@ class Robot final : public HybridSystem<T> {
   struct MovingLegs;  // the masses of all of them
   struct Sides;       // forces or momenta of all motions
   LegInertia InertiaOf(int i, const Hip& hip) const;
+  template <std::size_t kForms>
+  static void SetRigidForms(Vector2<double> centre, double inertia,
+                            std::array<LegForm, kForms>& forms);
   LegInertia RigidLeg(const T& angle) const;
   LegInertia LegInAir(const T& angle) const;
   Vector2<T> ContactBending(const T& angle) const;
@@ -149,8 +164,8 @@ class Robot final : public HybridSystem<T> {
   void AskCones(int except, const T& t, T* z);
   LegMotion<T> MotionOf(int i, const Hip& hip, const T* z) const;
   Vector2<T> PressOf(int i, const Hip& hip, const T* z) const;
-  template <class S>
-  static LegMotion<S> UnitLoad(const LegInertia& leg, const LegMotion<S>& u, const S& rate,
+  template <class Inertia, class S>
+  static LegMotion<S> UnitLoad(const Inertia& leg, const LegMotion<S>& u, const S& rate,
                                const S& gx, const S& gy, S& moment);
   LegLoad LoadOf(int i, const Hip& hip, const LegInertia& leg, const T* z) const;
   MotionEquations EquationsOf(const Vector2<T>& com, const MovingLegs& legs) const;
@@ -177,6 +192,10 @@ class Robot final : public HybridSystem<T> {
   struct Reference;  // what a motor's controller follows
   Reference ReferenceOf(int leg, const T& t) const;
   void SetUpMotor(int i);
+  struct MotorSpeed {
+    double swings, settles;  // undamped, and by its damping alone [1/s]
+  };
+  MotorSpeed SpeedOf(int i) const;
   static int TeethAt(const Leg& leg, double twist);
   void FindTeeth(const T* z);
   T GearTorque(const Leg& leg, int i, const T* z) const;
@@ -213,7 +232,8 @@ class Robot final : public HybridSystem<T> {
   ActiveEffects<T> effects_;
   InputSignals<T> inputs_;
   int legs_;
-  int gears_ = 0;                    // motors whose gear has play
+  int gears_ = 0;  // motors whose gear has play
+  bool has_clamp_;
   T clamp_, cos_clamp_, sin_clamp_;  // the angle the clamp spans [rad]
   T gravity_x_, gravity_y_;
   bool has_body_force_;
@@ -225,7 +245,9 @@ class Robot final : public HybridSystem<T> {
   double size_;               // of the legs, half of one unloaded [m]
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;
-  std::array<T, kMaxLegs> gain_;       // what each motor gives of what it is told [-]
+  mutable Push push_{};           // of the last evaluation: too many numbers to be cleared for each
+  std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]
+  std::array<bool, kMaxLegs> has_gain_{}, has_zero_{};  // that is not 1; an encoder's zero not 0
   std::array<T, kMaxLegs> hub_;        // inertia that turns with each leg's base [kg m^2]
   std::array<bool, kMaxLegs> rubs_{};  // which hips have friction (M99)
   bool has_dry_hips_ = false;

@@ -9,34 +9,31 @@
 namespace hoplab {
 
 template <class T>
-struct Robot<T>::Push {
-  T force_x{0.0}, force_y{0.0};               // on the body [N]
-  T moment{0.0};                              // on the body about its centre of mass [N m]
-  std::array<T, kMaxLegs> on_motor;           // on each leg's angle [N m]
-  std::array<T, kMaxLegs> on_rotor;           // on each rotor whose gear has play [N m]
-  std::array<ClampedLoad<T>, kMaxLegs> load;  // of each leg that is down
-};
-
-template <class T>
-typename Robot<T>::Push Robot<T>::PushOf(const Frame& frame, const T& t, const T* z) const {
-  const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
-  Push push;
+typename Robot<T>::Push& Robot<T>::PushOf(const Frame& frame, const T& t, const T* z) const {
+  Push& push = push_;
+  const Vector2<T>& com = push.com = frame.Turn(robot_.com_x, robot_.com_y);
+  push.force_x = push.force_y = push.moment = T(0.0);
   for (int i = 0; i < legs_; ++i) {
     const Leg& leg = leg_[i];
     T on_hip(0.0);
     if (IsDown(leg)) {
       const Hip hip = HipOf(frame, i, z);
-      const Hip end = ClampOf(hip);
-      const ClampedLoad<T>& load = push.load[i] = leg.law.At(FootOf(leg), PlaceAt(leg, i, end, z));
+      std::optional<Hip> end;
+      if (has_clamp_) end = ClampOf(hip);
+      ClampedLoad<T>& load = push.load[i];
+      leg.law.FillLoad(FootOf(leg), PlaceAt(leg, i, end ? *end : hip, z), load);
       const T fx = load.fx + load.damped_x, fy = load.fy + load.damped_y;
-      on_hip = load.moment + load.damped_moment + (end.x - hip.x) * fy - (end.y - hip.y) * fx;
+      on_hip = load.moment + load.damped_moment;
+      if (end) on_hip += (end->x - hip.x) * fy - (end->y - hip.y) * fx;
       push.force_x += fx;
       push.force_y += fy;
       push.moment += (hip.x - com.x) * fy - (hip.y - com.y) * fx + on_hip;
     }
     T given(0.0);
-    if (robot_.control != MotorControl::kLocked)
-      given = gain_[i] * (lags_ ? z[Given(i)] : Torque(i, t, z));
+    if (robot_.control != MotorControl::kLocked) {
+      given = lags_ ? z[Given(i)] : Torque(i, t, z);
+      if (has_gain_[i]) given *= gain_[i];
+    }
     if (leg.geared()) {
       const T passed = GearTorque(leg, i, z);
       push.on_rotor[i] = given - passed;
@@ -59,7 +56,7 @@ typename Robot<T>::Push Robot<T>::PushOf(const Frame& frame, const T& t, const T
 template <class T>
 void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
   const Frame frame(z[Pitch()] - p_.slope);
-  Push push = PushOf(frame, t, z);
+  Push& push = PushOf(frame, t, z);
   const bool locked = robot_.control == MotorControl::kLocked;
   dz[kX] = z[kVx];
   dz[kY] = z[kVy];
@@ -86,7 +83,7 @@ void Robot<T>::Accelerate(const Frame& frame, const Push& push, const T* z, T* d
       dz[RotorRate(leg_[i])] = push.on_rotor[i] / (robot_.rotor_inertia - hub_[i]);
   if (Value(robot_.leg_mass) != 0.0) return AccelerateWithLegMass(frame, push, z, dz, holding);
   const bool locked = robot_.control == MotorControl::kLocked;
-  const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
+  const Vector2<T>& com = push.com;
   const T& turn = z[Pitch() + 1];
   const T spin = push.moment / robot_.pitch_inertia;
   dz[kVx] = push.force_x / p_.m + gravity_x_ + spin * com.y + turn * turn * com.x;
@@ -117,13 +114,9 @@ void Robot<T>::LagShortly(const Frame& frame, Push& push, const T* z, T* dz, T* 
 template <class T>
 void Robot<T>::MissJump(int leg, const T& jump, const T* at, T* z) const {
   const Frame frame(at[Pitch()] - p_.slope);
-  Push none, unit;
-  none.on_motor.fill(T(0.0));
-  none.on_rotor.fill(T(0.0));
-  none.load.fill(ClampedLoad<T>{});
-  unit.on_motor = none.on_motor;
-  unit.on_rotor = none.on_rotor;
-  unit.load = none.load;
+  Push none{};
+  none.com = frame.Turn(robot_.com_x, robot_.com_y);
+  Push unit = none;
   (leg_[leg].geared() ? unit.on_rotor : unit.on_motor)[leg] = T(1.0);
   T without[kMaxStates], with[kMaxStates];
   Accelerate(frame, none, at, without);

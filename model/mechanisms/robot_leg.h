@@ -81,6 +81,9 @@ class RobotLeg {
                     bool with_slip = false) const {
     return Ask([&](const auto& leg) { return leg.At(foot, place, damping, with_slip); });
   }
+  void FillLoad(const Footing& foot, const ClampedPlace<T>& place, ClampedLoad<T>& load) const {
+    Ask([&](const auto& leg) { leg.FillLoad(foot, place, true, false, load); });
+  }
   T StrainEnergy(const Footing& foot, const ClampedPlace<T>& place) const {
     return Ask([&](const auto& leg) { return leg.StrainEnergy(foot, place); });
   }

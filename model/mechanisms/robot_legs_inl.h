@@ -98,7 +98,21 @@ struct Robot<T>::LegInertia {
   }
 };
 
-// M82: the leg as a rigid body that turns with its motor.
+// M82: the leg as a rigid body that turns with its motor, of unit mass and length.
+template <class T>
+template <std::size_t kForms>
+void Robot<T>::SetRigidForms(Vector2<double> centre, double inertia,
+                             std::array<LegForm, kForms>& forms) {
+  double whole = 1.0;
+  for (LegForm& form : forms) {
+    form.SetMass(whole, 0.0, whole, -centre.y, centre.x, inertia);
+    form.along = {whole, 0.0, -centre.y, 0.0};
+    form.up = {0.0, whole, centre.x, 0.0};
+    form.turn = {-centre.y, centre.x, inertia, 0.0};
+    centre = {-centre.y, centre.x};
+    whole = inertia = 0.0;
+  }
+}
 template <class T>
 typename Robot<T>::LegInertia Robot<T>::RigidLeg(const T& angle) const {
   const RobotLeg<T>& law = leg_[0].law;
@@ -106,16 +120,7 @@ typename Robot<T>::LegInertia Robot<T>::RigidLeg(const T& angle) const {
   leg.mass = &robot_.leg_mass;
   leg.length = &law.unit_length();
   leg.off = angle - Value(angle);
-  Vector2<double> at = law.Centre(Value(angle));
-  double whole = 1.0, inertia = law.inertia();
-  for (LegForm& form : leg.form) {
-    form.SetMass(whole, 0.0, whole, -at.y, at.x, inertia);
-    form.along = {whole, 0.0, -at.y, 0.0};
-    form.up = {0.0, whole, at.x, 0.0};
-    form.turn = {-at.y, at.x, inertia, 0.0};
-    at = {-at.y, at.x};
-    whole = inertia = 0.0;
-  }
+  SetRigidForms(law.Centre(Value(angle)), law.inertia(), leg.form);
   return leg;
 }
 
@@ -235,8 +240,8 @@ struct Robot<T>::LegLoad {
 // The same of a leg of unit mass and length; `moment` is what of it turns the base whatever that
 // length.
 template <class T>
-template <class S>
-LegMotion<S> Robot<T>::UnitLoad(const LegInertia& leg, const LegMotion<S>& u, const S& rate,
+template <class Inertia, class S>
+LegMotion<S> Robot<T>::UnitLoad(const Inertia& leg, const LegMotion<S>& u, const S& rate,
                                 const S& gx, const S& gy, S& moment) {
   const LegMotion<S> turned = leg.Carried(u, 1);
   LegMotion<S> p;

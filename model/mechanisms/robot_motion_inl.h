@@ -138,7 +138,7 @@ struct Robot<T>::Forces {
 
 template <class T>
 typename Robot<T>::Forces Robot<T>::ForcesOf(const Frame& frame, const T& t, const T* z) const {
-  Push push = PushOf(frame, t, z);
+  Push& push = PushOf(frame, t, z);
   std::array<T, kMaxStates> rates;
   Forces forces;
   Accelerate(frame, push, z, rates.data(), forces.holding.data());
@@ -162,8 +162,10 @@ void Robot<T>::AddFirstMass(const Frame& frame, const T* z, T* dz, T* holding) c
   AllMotions<double> sides;
   for (int i = 0; i < legs_; ++i) {
     const Vector2<double> hip = turned(robot_.hip_x[i], robot_.hip_y[i]);
-    const LegInertia leg = RigidLeg(T(Value(frame.pitch) + Value(z[Angle(i)])));
-    const double length = Value(*leg.length), rate = turn + Value(z[Rate(i)]);
+    const RobotLeg<T>& law = leg_[i].law;
+    typename Robot<double>::LegInertia leg;
+    SetRigidForms(law.Centre(Value(frame.pitch) + Value(z[Angle(i)])), law.inertia(), leg.form);
+    const double length = Value(law.unit_length()), rate = turn + Value(z[Rate(i)]);
     const LegMotion<double> u{Value(z[kVx]) - turn * hip.y, Value(z[kVy]) + turn * hip.x,
                               length * rate, 0.0};
     const LegMotion<double> held{turn * turn * hip.x - ax + spin * hip.y,
@@ -197,7 +199,7 @@ void Robot<T>::AddFirstMass(const Frame& frame, const T* z, T* dz, T* holding) c
 template <class T>
 void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const T* z, T* dz,
                                      T* holding) const {
-  const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
+  const Vector2<T>& com = push.com;
   const T& turn = z[Pitch() + 1];
   const T turn2 = turn * turn;
   MovingLegs legs;

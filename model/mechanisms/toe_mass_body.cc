@@ -130,7 +130,7 @@ double ToeMassBody<T>::FirstStep(Mode mode, const T* z) const {
 
 template <class T>
 double ToeMassBody<T>::LongestStep(Mode mode, const T& t, const T* z) const {
-  if (mode != Mode::kFlight || flight_ != Flight::kFirst)
+  if (kJetWidth<T> == 0 || mode != Mode::kFlight || flight_ != Flight::kFirst)
     return std::numeric_limits<double>::infinity();
   constexpr double kSmall = 1e-6;  // m, m/s
   T rest[kToeStateSize], answer[kToeStateSize], moved[kToeStateSize];

@@ -249,5 +249,50 @@ TEST(ClampedArc, SaysHowGoodItsIntegralsAre) {
   EXPECT_TRUE(std::isnan(clamped::IntegralsOf({0.0, std::numbers::pi}, -0.25, 0.1).one));
 }
 
+// ---- where a search begins ---------------------------------------------------------------------
+
+// A rolling leg under a load, as its hip stands then (M80).
+clamped::Stand StandUnder(double fx, double fy, double base) {
+  const clamped::Integrals sum = clamped::IntegralsOf(clamped::Tangents(0.0, base), fx, fy);
+  return {{.rolling = true, .slides = 0.0}, sum.c - sum.one, sum.s, base, 1.0, std::numbers::pi};
+}
+
+TEST(SolveStand, FindsTheLoadWhateverTheLastRootWas) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> load(-0.02, 0.05), angle(1.5, 3.1), far(-30.0, 30.0);
+  for (int i = 0; i < 200; ++i) {
+    const double fx = load(random), fy = load(random), base = angle(random);
+    clamped::Roots roots;
+    roots.last.Each([&](double& number) { number = far(random); });
+    roots.last.tip = 0.0;
+    const clamped::Solution found = SolveStand(StandUnder(fx, fy, base), 1e-12, roots);
+    EXPECT_NEAR(found.fx, fx, 1e-12) << i;
+    EXPECT_NEAR(found.fy, fy, 1e-12) << i;
+  }
+}
+
+// Where the hip goes on as before the search begins a hundred times nearer than by slopes alone. It
+// ends with its first guess where its steps may be large.
+TEST(SolveStand, BeginsWhereTheLastTwoRootsLead) {
+  const auto stand_at = [](double t) {
+    return StandUnder(0.01 + 0.02 * std::sin(t), 0.03 + 0.02 * std::cos(t), 2.5 + 0.3 * t);
+  };
+  const auto guess_off = [&](double step, bool forgets) {
+    clamped::Roots roots;
+    SolveStand(stand_at(0.0), 1e-13, roots);
+    SolveStand(stand_at(step), 1e-13, roots);
+    if (forgets) roots.before.a = std::numeric_limits<double>::quiet_NaN();
+    const clamped::Solution guess = SolveStand(stand_at(2.0 * step), 1.0, roots);
+    return std::hypot(guess.fx - (0.01 + 0.02 * std::sin(2.0 * step)),
+                      guess.fy - (0.03 + 0.02 * std::cos(2.0 * step)));
+  };
+  std::printf("first guess off by %.1e, by slopes alone %.1e\n", guess_off(0.02, false),
+              guess_off(0.02, true));
+  EXPECT_LT(guess_off(0.02, false), 0.01 * guess_off(0.02, true));
+  // Of third order where the way curves, that by slopes of second.
+  EXPECT_NEAR(guess_off(0.02, false) / guess_off(0.01, false), 8.0, 0.5);
+  EXPECT_NEAR(guess_off(0.02, true) / guess_off(0.01, true), 4.0, 0.5);
+}
+
 }  // namespace
 }  // namespace hoplab

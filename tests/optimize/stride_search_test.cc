@@ -36,10 +36,9 @@ Hopper RandomRobot(int number, int legs, double phase) {
   return hopper;
 }
 
-// With steps without end it takes 785 000 of them in its 17th stride and ends as
-// integration_failed.
+// With a million steps it does not leave its first stride.
 TEST(StrideSearch, ARunThatCrawlsIsGivenUp) {
-  const SearchPoint point = ScoreOf(RandomRobot(25, 3, 0.5));
+  const SearchPoint point = ScoreOf(RandomRobot(5, 3, 0.5));
   EXPECT_EQ(point.verdict, PointVerdict::kRunEnded);
   EXPECT_EQ(point.outcome, Outcome::kStepLimit);
 }

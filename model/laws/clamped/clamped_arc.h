@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "model/hybrid/discrete_state.h"
 #include "model/laws/clamped/clamped_leg.h"
@@ -60,24 +61,27 @@ class ClampedArc {
   static constexpr double kInertia = 2.0;
 
   /// Where the search for a load starts: the leg as it lands, unloaded.
-  void StartAt(double tip) {
-    root_ = clamped::Root{};
-    root_.tip = tip;
-  }
+  void StartAt(double tip) { roots_.StartAt(tip); }
   /// The same foot goes on in another way, under the load it has.
-  void Restart() { root_.a = std::numeric_limits<double>::quiet_NaN(); }
+  void Restart() { roots_.Forget(); }
   void Save(DiscreteState& to) const {
-    root_.Each([&](double& v) { to.Put(v); });
+    roots_.last.Each([&](double& v) { to.Put(v); });
   }
   void Load(DiscreteState& from) {
-    root_.Each([&](double& v) { v = from.Take(); });
+    roots_.Forget();
+    roots_.last.Each([&](double& v) { v = from.Take(); });
   }
 
   /// M81, M68 to M71; the slip velocity (M70) where `with_slip`, of a sliding foot.
   ClampedLoad<T> At(const Footing& foot, const ClampedPlace<T>& place, bool damping = true,
                     bool with_slip = false) const {
-    using std::cos;
-    using std::sin;
+    ClampedLoad<T> load;
+    FillLoad(foot, place, damping, with_slip, load);
+    return load;
+  }
+  /// The same in place: a load has many numbers.
+  void FillLoad(const Footing& foot, const ClampedPlace<T>& place, bool damping, bool with_slip,
+                ClampedLoad<T>& load) const {
     using std::sqrt;
     const T a = place.lead / r_, b = place.height / r_;
     const clamped::Solution e = Solve(foot, Value(a), Value(b), Value(place.base));
@@ -105,8 +109,10 @@ class ClampedArc {
     const T tip = foot.rolling ? T(0.0)
                                : T(e.at.tip + e.tip_miss + e.by_tip * length_d + e.turn_x * dx +
                                    e.turn_y * dy + e.turn_base * base_d);
-    const double c0 = foot.rolling ? 1.0 : cos(Value(tip));
-    const double s0 = foot.rolling ? 0.0 : sin(Value(tip));
+    std::optional<clamped::Tangents> turned;
+    if (!foot.rolling) turned.emplace(Value(tip), Value(place.base));
+    const clamped::Tangents& at = turned ? *turned : e.at;
+    const double c0 = at.cos_tip, s0 = at.sin_tip;
     const double cb = e.at.cos_base, sb = e.at.sin_base, x = Value(fx), y = Value(fy);
     const double root = sqrt(1.0 + 2.0 * (x * (c0 - cb) + y * (sb - s0))), by = 1.0 / root;
     T kappa(root);
@@ -114,7 +120,6 @@ class ClampedArc {
     Follow(fy, by * (sb - s0), kappa);
     Follow(place.base, by * (x * sb + y * cb), kappa);
     if (!foot.rolling) Follow(tip, -by * (x * s0 + y * c0), kappa);
-    ClampedLoad<T> load;
     load.fx = unit_ * fx;
     load.fy = unit_ * fy;
     load.moment = r_ * unit_ * (kappa - 1.0);
@@ -126,12 +131,9 @@ class ClampedArc {
       const double q = e.fx * e.at.sin_tip + e.fy * e.at.cos_tip;
       load.lead += r_ * (e.at.cos_tip - q * e.kx * e.by_tip) * length_d;
     }
-    if ((damping && damped_) || with_slip) {
-      const clamped::Tangents at =
-          foot.rolling ? e.at : clamped::Tangents(Value(tip), Value(place.base));
+    load.damped_x = load.damped_y = load.damped_moment = T(0.0);
+    if ((damping && damped_) || with_slip)
       Move(foot, place, at, {&tip, &place.base, &fx, &fy}, damping && damped_, with_slip, load);
-    }
-    return load;
   }
 
   /// Strain energy [J] of what At gives at that place: U of M81.
@@ -177,12 +179,12 @@ class ClampedArc {
  private:
   // A double's values are corrected once more by the caller, which squares the error; the
   // derivatives of a Jet are not, so they need the root itself.
-  static constexpr double kStepTolerance = kJetWidth<T> == 0 ? 3e-7 : 1e-9;
+  static constexpr double kStepTolerance = kJetWidth<T> == 0 ? 3e-7 : 1e-10;
 
   // At the lead a (unless it slides) and the height b of the hip over r.
   clamped::Solution Solve(const Footing& foot, double a, double b, double base) const {
     return clamped::SolveStand({foot, a, b, base, Value(mu_), Value(length_)}, kStepTolerance,
-                               root_);
+                               roots_);
   }
 
   // `of` changes with x by `slope`.
@@ -282,7 +284,7 @@ class ClampedArc {
 
   T r_{1.0}, unit_{1.0}, tau_{0.0}, mu_{0.0}, length_{std::numbers::pi};
   bool damped_ = false;
-  mutable clamped::Root root_;
+  mutable clamped::Roots roots_;
 };
 
 }  // namespace hoplab

@@ -58,22 +58,28 @@ class ClampedRod {
   /// M97; the slip velocity (M70) where `with_slip`, of a sliding foot.
   ClampedLoad<T> At(const Footing& foot, const ClampedPlace<T>& place, bool damping = true,
                     bool with_slip = false) const {
+    ClampedLoad<T> load;
+    FillLoad(foot, place, damping, with_slip, load);
+    return load;
+  }
+  /// The same in place: a load has many numbers.
+  void FillLoad(const Footing& foot, const ClampedPlace<T>& place, bool damping, bool with_slip,
+                ClampedLoad<T>& load) const {
     const Bent at = BentAt(foot, place);
     const T pull = along_ * at.longer, bend = across_ * at.aside;
-    ClampedLoad<T> load;
     load.fx = pull * at.sin_angle + bend * at.cos_angle;
     load.fy = bend * at.sin_angle - pull * at.cos_angle;
     load.moment = at.reach * bend - at.aside * pull;
     load.arc = T(std::numeric_limits<double>::quiet_NaN());
     load.tip = T(0.0);
     load.lead = at.lead;
+    load.damped_x = load.damped_y = load.damped_moment = T(0.0);
     const bool dissipates = damping && damped_;
     if (foot.slides != 0.0) {
       if (dissipates || with_slip) Slide(foot, place, at, dissipates, load);
     } else if (dissipates) {
       Resist(place, at, load);
     }
-    return load;
   }
 
   /// Strain energy [J] at that place: U of M97.

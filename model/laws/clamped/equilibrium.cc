@@ -23,17 +23,50 @@ struct Guess {
   double fx, fy, tip;
 };
 
-// From the last solution along its slopes; `lean` is fx/fy of a foot that slides.
-Guess GuessFrom(const Root& root, const Stand& s, double lean) {
-  Guess g{root.fx, root.fy, root.tip};
-  if (root.a == root.a) {
-    const double dp = s.base - root.base;
-    const double x = s.a - root.a + root.h1 * dp, y = root.b - s.b + root.h2 * dp;
-    const double dy = s.foot.slides != 0.0 ? y * root.i22 : root.i12 * x + root.i22 * y;
-    const double dx = s.foot.slides != 0.0 ? lean * dy : root.i11 * x + root.i12 * y;
-    g.fx += dx;
-    g.fy += dy;
-    g.tip += root.turn_x * dx + root.turn_y * dy + root.turn_base * dp;
+// From one place of the hip to another; the lead of a foot that slides is not one.
+struct Way {
+  double a, b, base;
+};
+Way Between(const Root& from, const Root& to) {
+  return {to.a - from.a, to.b - from.b, to.base - from.base};
+}
+double Product(const Way& v, const Way& w) { return v.a * w.a + v.b * w.b + v.base * w.base; }
+
+// What the slopes of a root make of a way; `lean` is fx/fy of a foot that slides.
+Guess Along(const Root& root, const Way& way, bool slides, double lean) {
+  const double x = way.a + root.h1 * way.base, y = root.h2 * way.base - way.b;
+  const double dy = slides ? y * root.i22 : root.i12 * x + root.i22 * y;
+  const double dx = slides ? lean * dy : root.i11 * x + root.i12 * y;
+  return {dx, dy, root.turn_x * dx + root.turn_y * dy + root.turn_base * way.base};
+}
+
+// Beyond so many of the way between the last two roots nothing but slopes is carried on.
+constexpr double kFarthest = 6.0;
+
+// From the last root along its slopes, and by how these and the root changed since the one before:
+// the cubic of both roots and both slopes where the hip goes straight on.
+Guess GuessFrom(const Roots& roots, const Stand& s, double lean) {
+  const Root &last = roots.last, &before = roots.before;
+  const bool slides = s.foot.slides != 0.0;
+  Guess g{last.fx, last.fy, last.tip};
+  const auto add = [&g](double by, const Guess& x) {
+    g.fx += by * x.fx;
+    g.fy += by * x.fy;
+    g.tip += by * x.tip;
+  };
+  if (last.a == last.a) {
+    const Way way{slides ? 0.0 : s.a - last.a, s.b - last.b, s.base - last.base};
+    add(1.0, Along(last, way, slides, lean));
+    const Way came = Between(before, last);
+    const double ways = Product(way, came) / Product(came, came);
+    if (std::abs(ways) <= kFarthest) {  // not NaN either: there is one before
+      add(0.5 * ways, Along(last, way, slides, lean));
+      add(-0.5 * ways, Along(before, way, slides, lean));
+      const double cubic = ways * ways * (ways + 1.5);
+      add(cubic, Along(last, came, slides, lean));
+      add(cubic, Along(before, came, slides, lean));
+      add(-2.0 * cubic, {last.fx - before.fx, last.fy - before.fy, last.tip - before.tip});
+    }
   }
   if (s.foot.rolling) g.tip = 0.0;
   if (s.foot.slides != 0.0) g.fx = lean * g.fy;
@@ -104,11 +137,21 @@ Root RootAfter(const Stand& s, const Solution& e, double lean, double dx, double
 
 }  // namespace
 
-Solution SolveStand(const Stand& stand, double tolerance, Root& root) {
+// Of two that nearly coincide the older one is no help: the stages of a step lie close together
+// where it ends.
+void Roots::Add(const Root& root) {
+  constexpr double kNear = 0.1;
+  const Way came = Between(before, last), goes = Between(last, root);
+  if (!(Product(goes, goes) < kNear * kNear * Product(came, came))) before = last;
+  last = root;
+}
+
+namespace {
+
+// By Newton from a guess; false where it leads out of the leg's domain.
+bool SolveFrom(Guess g, const Stand& stand, double lean, double tolerance, Roots& roots,
+               Solution& e) {
   const Footing& foot = stand.foot;
-  const double lean = -foot.slides * stand.mu;
-  Guess g = GuessFrom(root, stand, lean);
-  Solution e;
   double halving = 1.0;
   for (int round = 0; round < kMaxRounds; ++round) {
     if (round == 0 || !foot.rolling) e.at = Tangents(g.tip, stand.base);
@@ -118,12 +161,12 @@ Solution SolveStand(const Stand& stand, double tolerance, Root& root) {
     if (!(e.sum.one == e.sum.one)) {
       // Beyond the domain: come back towards the unloaded leg.
       halving *= 0.5;
-      if (!(halving > 1e-3)) return Lost();
+      if (!(halving > 1e-3)) return false;
       g.fx *= 0.5;
       g.fy *= 0.5;
       continue;
     }
-    if (!Respond(stand, e)) return Lost();
+    if (!Respond(stand, e)) return false;
     double dx = e.i11 * e.miss_x + e.i12 * e.miss_y;
     double dy = e.i12 * e.miss_x + e.i22 * e.miss_y;
     if (foot.slides != 0.0) {
@@ -132,16 +175,28 @@ Solution SolveStand(const Stand& stand, double tolerance, Root& root) {
     }
     const double size = std::fmax(std::abs(dx), std::abs(dy));
     if (size < tolerance && std::abs(e.tip_miss) < tolerance) {
-      root = RootAfter(stand, e, lean, dx, dy);
-      return e;
+      roots.Add(RootAfter(stand, e, lean, dx, dy));
+      return true;
     }
-    if (!std::isfinite(size)) return Lost();
+    if (!std::isfinite(size)) return false;
     const double part = size > kMostStep ? kMostStep / size : 1.0;
     g.fx += part * dx;
     g.fy += part * dy;
     if (!foot.rolling) g.tip += part * (e.tip_miss + e.turn_x * dx + e.turn_y * dy);
   }
-  return Lost();
+  return false;
+}
+
+}  // namespace
+
+Solution SolveStand(const Stand& stand, double tolerance, Roots& roots) {
+  const double lean = -stand.foot.slides * stand.mu;
+  Solution e;
+  if (SolveFrom(GuessFrom(roots, stand, lean), stand, lean, tolerance, roots, e)) return e;
+  // The last root is too far away, or there is none: begin with the unloaded leg.
+  const double tip = stand.foot.rolling ? 0.0 : stand.base - stand.length;
+  if (!SolveFrom({0.0, 0.0, tip}, stand, lean, tolerance, roots, e)) e = Lost();
+  return e;
 }
 
 }  // namespace hoplab::clamped

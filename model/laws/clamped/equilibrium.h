@@ -9,7 +9,7 @@ namespace hoplab {
 
 namespace clamped {
 
-/// The last solution of a search and how it changes with the place: where the next one starts.
+/// The solution of a search and how it changes with the place.
 struct Root {
   double fx = 0.0, fy = 0.0, tip = 0.0;
   double a = std::numeric_limits<double>::quiet_NaN(), b = 0.0, base = 0.0;
@@ -26,6 +26,21 @@ struct Root {
   void Each(const Do& act) const {
     const_cast<Root*>(this)->Each(act);
   }
+};
+
+/// The last roots of a leg's searches: where the next one starts.
+struct Roots {
+  Root last;
+  Root before;  // one that is not much nearer than the last two are to each other
+
+  /// As a leg lands, unloaded.
+  void StartAt(double tip) {
+    *this = Roots{};
+    last.tip = tip;
+  }
+  /// Their load is known, not how it changes.
+  void Forget() { last.a = before.a = std::numeric_limits<double>::quiet_NaN(); }
+  void Add(const Root& root);
 };
 
 /// A root of M81 but for the last correction, and the answer of the leg there. All NaN beyond the
@@ -49,9 +64,9 @@ struct Stand {
   double length;  // of what bends
 };
 
-/// Newton for the force, and on the toe for the turn of the tip, from `root` on, which becomes the
-/// root that is found. Steps below `tolerance` end it.
-Solution SolveStand(const Stand& stand, double tolerance, Root& root);
+/// Newton for the force, and on the toe for the turn of the tip, from where `roots` lead. Steps
+/// below `tolerance` end it; what is found is added to them.
+Solution SolveStand(const Stand& stand, double tolerance, Roots& roots);
 
 }  // namespace clamped
 }  // namespace hoplab

@@ -64,23 +64,29 @@ inline constexpr Rule<N> kRule;
 template <int N>
 void FillNodes(double half, double cos_middle, double sin_middle, double* c, double* s) {
   constexpr int kHalf = N / 2;
-  double q[kHalf], even[kHalf], odd[kHalf];
+  // Of each series every second term, and the others: sums that a processor takes side by side.
+  double q[kHalf], q2[kHalf], cosine[2][kHalf], sine[2][kHalf];
   // Up to half a turn of the arc fewer terms do as well.
-  const int terms = std::abs(half) < 0.51 * std::numbers::pi ? kTerms - 3 : kTerms;
+  const int terms = std::abs(half) < 0.51 * std::numbers::pi ? kTerms - 2 : kTerms;
   for (int i = 0; i < kHalf; ++i) {
     const double x = half * HalfRule<N>::kNode[i];
     q[i] = x * x;
-    even[i] = kSeries.cosine[terms - 1];
-    odd[i] = kSeries.sine[terms - 1];
-  }
-  for (int m = terms - 2; m >= 0; --m) {
-    for (int i = 0; i < kHalf; ++i) {
-      even[i] = even[i] * q[i] + kSeries.cosine[m];
-      odd[i] = odd[i] * q[i] + kSeries.sine[m];
+    q2[i] = q[i] * q[i];
+    for (int k = 0; k < 2; ++k) {
+      cosine[k][i] = kSeries.cosine[terms - 2 + k];
+      sine[k][i] = kSeries.sine[terms - 2 + k];
     }
   }
+  for (int m = terms - 4; m >= 0; m -= 2) {
+    for (int k = 0; k < 2; ++k)
+      for (int i = 0; i < kHalf; ++i) {
+        cosine[k][i] = cosine[k][i] * q2[i] + kSeries.cosine[m + k];
+        sine[k][i] = sine[k][i] * q2[i] + kSeries.sine[m + k];
+      }
+  }
   for (int i = 0; i < kHalf; ++i) {
-    const double ci = even[i], si = odd[i] * half * HalfRule<N>::kNode[i];
+    const double ci = cosine[0][i] + q[i] * cosine[1][i],
+                 si = (sine[0][i] + q[i] * sine[1][i]) * half * HalfRule<N>::kNode[i];
     c[kHalf + i] = cos_middle * ci - sin_middle * si;
     s[kHalf + i] = sin_middle * ci + cos_middle * si;
     c[kHalf - 1 - i] = cos_middle * ci + sin_middle * si;
