@@ -206,11 +206,13 @@ typename Robot<T>::MotorSpeed Robot<T>::SpeedOf(int i) const {
 }
 
 // An error of the rate of what a motor turns moves it by that over the motor's speed, and no
-// further. A motor that lags swings where it would settle.
+// further. A motor that lags swings where it would settle. A leg's own motion swings, too.
 template <class T>
 double Robot<T>::ErrorUnit(int i) const {
   for (int leg = 0; leg < legs_; ++leg) {
     const Leg& own = leg_[leg];
+    if (follows_legs_ && i == OwnRate(leg))
+      return std::sqrt(Value(own.law.bending_stiffness()) / Value(robot_.leg_mass));
     if (i != (own.geared() ? RotorRate(own) : Rate(leg))) continue;
     MotorSpeed speed = SpeedOf(leg);
     if (lags_)
