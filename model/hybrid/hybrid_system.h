@@ -71,9 +71,9 @@ class HybridSystem {
   /// How it would fly on without touching anything, for what comes after the end of a run.
   virtual std::optional<BallisticFlight<T>> FreeFlight() const { return std::nullopt; }
 
-  /// What an error of state `i` is measured in where the absolute tolerance is asked: 1 m, rad, m/s
-  /// or rad/s, but a rate that is soon forgotten leaves a smaller error in what it is the rate of,
-  /// and has the rate at which it is [1/s].
+  /// Factor on the absolute tolerance of state `i`: 1 (m, rad, m/s, rad/s), but of a rate whose
+  /// error dies out or swings at k [1/s] it is k: such an error moves the position by error/k.
+  /// Asked once, before a run begins.
   virtual double ErrorUnit(int /*i*/) const { return 1.0; }
   /// Size of the first step of a mode [s].
   virtual double FirstStep(Mode mode, const T* z) const = 0;

@@ -228,7 +228,7 @@ double Robot<T>::FirstStep(Mode mode, const T*) const {
   if (mode == Mode::kFlight) return 1e-3;
   double settles = 0.0;
   for (int i = 0; i < legs_; ++i) settles = std::max(settles, SpeedOf(i).settles);
-  return std::clamp(0.5 / settles, 2e-4, 1e-3);
+  return settles > 0.0 ? std::clamp(0.5 / settles, 2e-4, 1e-3) : 2e-4;
 }
 
 template <class T>

@@ -202,7 +202,8 @@ template <class T>
 typename Robot<T>::MotorSpeed Robot<T>::SpeedOf(int i) const {
   if (leg_[i].is_told || robot_.control == MotorControl::kLocked) return {0.0, 0.0};
   const double turned = Value(robot_.rotor_inertia) - (leg_[i].geared() ? Value(hub_[i]) : 0.0);
-  return {std::sqrt(Value(robot_.motor_kp) / turned), Value(robot_.motor_kd) / turned};
+  const double gives = std::max(0.0, Value(gain_[i])) / turned;
+  return {std::sqrt(gives * Value(robot_.motor_kp)), gives * Value(robot_.motor_kd)};
 }
 
 // An error of the rate of what a motor turns moves it by that over the motor's speed, and no
@@ -215,8 +216,11 @@ double Robot<T>::ErrorUnit(int i) const {
       return std::sqrt(Value(own.law.bending_stiffness()) / Value(robot_.leg_mass));
     if (i != (own.geared() ? RotorRate(own) : Rate(leg))) continue;
     MotorSpeed speed = SpeedOf(leg);
-    if (lags_)
-      speed.settles = std::min(speed.settles, std::sqrt(speed.settles / Value(robot_.motor_lag)));
+    if (lags_) {
+      const double lag = Value(robot_.motor_lag);
+      speed.swings = std::min(speed.swings, std::cbrt(speed.swings * speed.swings / lag));
+      speed.settles = std::min(speed.settles, std::sqrt(speed.settles / lag));
+    }
     return std::max({1.0, speed.swings, speed.settles});
   }
   return 1.0;

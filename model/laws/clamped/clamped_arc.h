@@ -79,7 +79,8 @@ class ClampedArc {
     FillLoad(foot, place, damping, with_slip, load);
     return load;
   }
-  /// The same in place: a load has many numbers.
+  /// The same in place, since a load has many numbers. Slip and yield stay as they are where they
+  /// are not asked for.
   void FillLoad(const Footing& foot, const ClampedPlace<T>& place, bool damping, bool with_slip,
                 ClampedLoad<T>& load) const {
     using std::sqrt;

@@ -40,6 +40,7 @@ struct Series {
     }
   }
 };
+static_assert(kTerms % 2 == 0);  // they are summed in pairs
 inline constexpr Series kSeries;
 
 // The whole rule, in ascending order.
