@@ -229,8 +229,6 @@ TEST(RobotInTheAir, RestingMotorsAreDifferentiatedExactly) {
       p.robot->hip_coulomb.fill(friction);
       SimulationRequest q = GearedDrop(p, 0.1);
       q.effects = effects;
-      // What little of a mass makes of a motor at rest is seen by runs that follow it.
-      q.integrator.absolute_tolerance = 1e-16;
       EXPECT_GE(ExpectRobotExact(q, {}, {D::EffectParameter(0, 0)}), 2) << lag << ", " << friction;
     }
   }

@@ -48,8 +48,9 @@ TEST(RobotSteps, AreTheSameWithDirections) {
   }
 }
 
-// An error of a motor's rate counts by what it moves the motor, so that the state is as good as was
-// asked for.
+// An error of a motor's rate counts by what it moves the motor: the state is as good as was asked
+// for, with fewer steps (308 in 0.3 s where 1e-10 rad/s was asked of the rate itself). Its motors
+// stay at rest, since steps are no longer than these let them be: without that 1e-7 is off by 8e-8.
 TEST(RobotSteps, KeepTheTolerance) {
   for (const double horizon : {0.12, 0.2, 0.3}) {
     const Trajectory exact = Simulate(QuickMotors(1e-13, horizon));
@@ -59,32 +60,10 @@ TEST(RobotSteps, KeepTheTolerance) {
       for (int i = 0; i < 8; ++i)
         off = std::max(off, std::abs(run.final_state[i] - exact.final_state[i]));
       std::printf("%.2f s at %.0e: %ld steps, off by %.1e\n", horizon, tolerance, run.steps, off);
-      EXPECT_LT(off, tolerance) << horizon;
+      EXPECT_LT(off, 0.1 * tolerance) << horizon;
     }
   }
-}
-
-// What rests is not kept at the tolerance by rejected steps, which differences of runs would see.
-TEST(RobotSteps, LeaveNoNoiseInDifferences) {
-  const std::vector<D> directions = {D::InitialState(2)};
-  SimulationRequest q = QuickMotors(1e-7, 0.2);
-  q.directions = directions;
-  const Trajectory run = Simulate(q);
-  const double h = 1e-7;
-  std::vector<double> shifted[2];
-  for (const int side : {0, 1}) {
-    SimulationRequest tight = QuickMotors(1e-12, 0.2);
-    tight.initial[2] += side == 0 ? -h : h;
-    shifted[side] = Simulate(tight).final_state;
-  }
-  double off = 0.0, size = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    const double slope = (shifted[1][i] - shifted[0][i]) / (2.0 * h);
-    off = std::max(off, std::abs(run.final_sensitivities[i] - slope));
-    size = std::max(size, std::abs(slope));
-  }
-  std::printf("derivatives off by %.1e of %.2g\n", off, size);
-  EXPECT_LT(off, 3e-6 * size);
+  EXPECT_LT(Simulate(QuickMotors(1e-9, 0.3)).steps, 260);
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ TEST(RobotOnRods, RunsBackwardAsForward) {
 
 // Unlike an arc a rod has no front: seen from the other side a run is one of the mirrored robot.
 TEST(RobotOnRods, RunsTheSameSeenFromTheOtherSide) {
-  int events = 0, slides = 0, compared = 0;
+  int events = 0, slides = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {
     Parameters<double> p = RodParametersFor(2);
     p.robot->friction = 0.3;
@@ -131,9 +131,6 @@ TEST(RobotOnRods, RunsTheSameSeenFromTheOtherSide) {
     for (int i : {0, 2, 4, 5}) mirrored.initial[i] = -mirrored.initial[i];
     const Trajectory a = Simulate(q), b = Simulate(mirrored);
     ASSERT_EQ(a.outcome, b.outcome) << seed;
-    // A foot that comes to rest at the very edge of its cone may slip once more, or not.
-    if (std::min(a.least_crossing_rate, b.least_crossing_rate) < 0.01) continue;
-    ++compared;
     ASSERT_EQ(a.events.size(), b.events.size()) << seed;
     events += static_cast<int>(a.events.size());
     for (const Event& e : a.events) slides += e.kind == EventKind::kSlide;
@@ -142,7 +139,6 @@ TEST(RobotOnRods, RunsTheSameSeenFromTheOtherSide) {
       EXPECT_NEAR(a.final_state[i], sign * b.final_state[i], 2e-7) << seed << " " << i;
     }
   }
-  EXPECT_GE(compared, 7);
   EXPECT_GT(events, 50);
   EXPECT_GT(slides, 3);
 }
