@@ -27,6 +27,7 @@ struct RobotParameters {
   T motor_lag{0.0};          // how long what it gives follows what it is told [s]
   T friction{std::numeric_limits<double>::infinity()};  // under the feet [-]
   T foot_slip{0.0};          // how fast feet that hold creep under a force along [m/(N s)]
+  T ground_compliance{0.0};  // how far the ground sinks under a foot (M28) [m/N]
   T clamp{0.0};              // length of every leg that its hub holds rigid [m]
   T damping{0.0};            // retardation time of every leg's material [s]
   T leg_mass{0.0};           // of every leg, beside the body's [kg]
@@ -42,6 +43,7 @@ struct RobotParameters {
   std::array<T, kMaxLegs> extra_damping{T(0.0), T(0.0), T(0.0), T(0.0)};  // beside damping [s]
   std::array<T, kMaxLegs> gain_of{T(1.0), T(1.0), T(1.0), T(1.0)};        // beside motor_gain [-]
   std::array<T, kMaxLegs> leg_zero{T(0.0), T(0.0), T(0.0), T(0.0)};       // M100 [rad]
+  std::array<T, kMaxLegs> torque_bias{T(0.0), T(0.0), T(0.0), T(0.0)};    // M101 [N m]
   // Friction of the hips (M99).
   std::array<T, kMaxLegs> hip_viscous{T(0.0), T(0.0), T(0.0), T(0.0)};  // [N m s/rad]
   std::array<T, kMaxLegs> hip_coulomb{T(0.0), T(0.0), T(0.0), T(0.0)};  // [N m]
@@ -69,12 +71,12 @@ struct RobotParameters {
   static void Each(Self& p, const Do& act) {
     for (auto* v :
          {&p.pitch_inertia, &p.com_x, &p.com_y, &p.rotor_inertia, &p.motor_kp, &p.motor_kd,
-          &p.motor_gain, &p.motor_lag, &p.friction, &p.foot_slip, &p.clamp, &p.damping, &p.leg_mass,
-          &p.lateral_stiffness, &p.period, &p.duty, &p.sweep, &p.offset})
+          &p.motor_gain, &p.motor_lag, &p.friction, &p.foot_slip, &p.ground_compliance, &p.clamp,
+          &p.damping, &p.leg_mass, &p.lateral_stiffness, &p.period, &p.duty, &p.sweep, &p.offset})
       act(*v);
     for (auto* list : {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.rate, &p.E_scale, &p.extra_damping,
-                       &p.gain_of, &p.leg_zero, &p.hip_viscous, &p.hip_coulomb, &p.play,
-                       &p.tooth_torque, &p.tooth_damping, &p.hub_share, &p.phase})
+                       &p.gain_of, &p.leg_zero, &p.torque_bias, &p.hip_viscous, &p.hip_coulomb,
+                       &p.play, &p.tooth_torque, &p.tooth_damping, &p.hub_share, &p.phase})
       for (auto& v : *list) act(v);
   }
 };
@@ -83,7 +85,7 @@ struct RobotParameters {
 template <class To, class From>
 RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   RobotParameters<To> to;
-  std::array<double, 18 + 16 * kMaxLegs> values{};
+  std::array<double, 19 + 17 * kMaxLegs> values{};
   std::size_t n = 0;
   RobotParameters<From>::Each(from, [&](const From& v) { values[n++] = Value(v); });
   n = 0;

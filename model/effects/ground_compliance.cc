@@ -10,15 +10,21 @@ struct GroundCompliance {
   static constexpr EffectInfo kInfo = {
       .name = "ground_compliance",
       .kind = EffectKind::kParameter,
-      .equation = "the ground sinks by c_g F_el e_y under the foot (M28)",
+      .equation = "the ground sinks by c_g F_el e_y under the foot (M28), of a robot under each",
       .sentence = "the ground gives way elastically under the foot",
       .for_legs = true,
       .for_ball = false,
       .dissipative = false,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .for_robot = true,
+      .arcs_only = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    if (parameters.robot) {
+      parameters.robot->ground_compliance += p[0];
+      return;
+    }
     parameters.law_terms.active = true;
     parameters.law_terms.ground_compliance += p[0];
   }

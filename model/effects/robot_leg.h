@@ -27,6 +27,12 @@ inline constexpr std::array<std::string_view, kMaxLegs + 1> kWeakMotor = {
     "the motor of leg 3 is weaker or stronger than its controller thinks",
     "the motor of leg 4 is weaker or stronger than its controller thinks"};
 
+inline constexpr std::array<std::string_view, kMaxLegs + 1> kBiasedMotor = {
+    "", "a torque that nobody asked for turns leg 1 (the hindmost): an amplifier offset, a cable",
+    "a torque that nobody asked for turns leg 2: an amplifier offset, a cable",
+    "a torque that nobody asked for turns leg 3: an amplifier offset, a cable",
+    "a torque that nobody asked for turns leg 4: an amplifier offset, a cable"};
+
 inline constexpr std::array<std::string_view, kMaxLegs + 1> kStiffBearing = {
     "", "the hip of leg 1 (the hindmost) resists turning in proportion to its speed",
     "the hip of leg 2 resists turning in proportion to its speed",
@@ -117,6 +123,21 @@ struct MotorGainOf {
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
     parameters.robot->gain_of[leg - 1] *= 1.0 + p[0];
+  }
+};
+
+template <int leg>
+struct TorqueBiasOf {
+  static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
+      "", "torque_bias_1", "torque_bias_2", "torque_bias_3", "torque_bias_4"};
+  static constexpr std::array kParameters = {
+      EffectParameter{"tau_0", "N m", 0.0, -1000.0, 1000.0, 0.02}};
+  static constexpr EffectInfo kInfo = InfoOfLeg(
+      leg, kNames[leg], "tau_0 on that motor, always (M101)", kBiasedMotor[leg], kParameters);
+
+  template <class T>
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    parameters.robot->torque_bias[leg - 1] += p[0];
   }
 };
 

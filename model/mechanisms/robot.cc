@@ -52,6 +52,7 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
     gain_[i] = robot_.motor_gain * robot_.gain_of[i];
     has_gain_[i] = !IsZero(T(gain_[i] - 1.0));
     has_zero_[i] = !IsZero(robot_.leg_zero[i]);
+    has_bias_[i] = !IsZero(robot_.torque_bias[i]);
     SetUpMotor(i);
   }
   size_ = leg_[0].law.size();
@@ -259,7 +260,7 @@ Observation<T> Robot<T>::Observe(Mode mode, const T& t, const T* z) const {
     T foot = z[kX] + ClampOf(hip).x + load.lead;
     if (leg.stance == Stance::kRolling) foot += p_.r * load.arc;
     seen[OfLeg(Channel::kLegContactX1, i)] = foot;
-    seen[OfLeg(Channel::kLegContactY1, i)] = T(0.0);
+    seen[OfLeg(Channel::kLegContactY1, i)] = -robot_.ground_compliance * load.fy;
     seen[OfLeg(Channel::kLegArc1, i)] = load.arc;
     seen[OfLeg(Channel::kLegForceX1, i)] = fx;
     seen[OfLeg(Channel::kLegForceY1, i)] = fy;

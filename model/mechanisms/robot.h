@@ -247,7 +247,8 @@ class Robot final : public HybridSystem<T> {
   std::array<Leg, kMaxLegs> leg_;
   mutable Push push_{};           // of the last evaluation: too many numbers to be cleared for each
   std::array<T, kMaxLegs> gain_;  // what each motor gives of what it is told [-]
-  std::array<bool, kMaxLegs> has_gain_{}, has_zero_{};  // that is not 1; an encoder's zero not 0
+  // A gain that is not 1; an encoder's zero or a motor's bias that is not 0.
+  std::array<bool, kMaxLegs> has_gain_{}, has_zero_{}, has_bias_{};
   std::array<T, kMaxLegs> hub_;        // inertia that turns with each leg's base [kg m^2]
   std::array<bool, kMaxLegs> rubs_{};  // which hips have friction (M99)
   bool has_dry_hips_ = false;

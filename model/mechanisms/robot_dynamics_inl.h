@@ -33,6 +33,7 @@ typename Robot<T>::Push& Robot<T>::PushOf(const Frame& frame, const T& t, const 
     if (robot_.control != MotorControl::kLocked) {
       given = lags_ ? z[Given(i)] : Torque(i, t, z);
       if (has_gain_[i]) given *= gain_[i];
+      if (has_bias_[i]) given += robot_.torque_bias[i];
     }
     if (leg.geared()) {
       const T passed = GearTorque(leg, i, z);

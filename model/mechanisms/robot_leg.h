@@ -28,7 +28,7 @@ class RobotLeg {
       const T& E = robot.own_moduli ? robot.E[i] : p.E;
       const T EI = robot.E_scale[i] * E * p.I;
       using std::pow;
-      law_ = ClampedArc<T>(p.r, EI, tau, robot.friction, robot.clamp);
+      law_ = ClampedArc<T>(p.r, EI, tau, robot.friction, robot.clamp, robot.ground_compliance);
       bending_stiffness_ = FirstBending().stiffness * EI / (p.r * p.r * p.r) *
                            pow(length() / kPi, -LegBending::kByClamp);
     }

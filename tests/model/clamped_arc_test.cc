@@ -230,6 +230,55 @@ TEST(ClampedArc, DerivativesAreThoseOfDifferences) {
 }
 
 // Where the arc is bent nearly straight the rule of sixteen nodes is at its worst.
+// Ground that gives way is a spring in series: the leg stands on it as a higher one stands on hard
+// ground, its material at the rates of that one, and the two store what the force does.
+TEST(ClampedArc, OnGroundThatGivesIsAsOneThatStandsHigher) {
+  std::mt19937 random(17);
+  const double compliance = 8e-5, tau = 4e-4, inf = kInf;
+  double least = inf;
+  for (int i = 0; i < 120; ++i) {
+    const bool slides = i % 3 == 0;
+    Case c = RandomCase(random, i % 2 == 0);
+    if (slides) c.foot.slides = i % 4 < 2 ? 1.0 : -1.0;
+    const double mu = slides ? 0.4 : inf;
+    ClampedArc<double> hard(kR, kEI, tau, mu), soft(kR, kEI, tau, mu, 0.0, compliance);
+    hard.StartAt(c.tip);
+    soft.StartAt(c.tip);
+    const ClampedLoad<double> load = soft.At(c.foot, c.place, true, true);
+    ASSERT_TRUE(std::isfinite(load.fy));
+    ClampedPlace<double> higher = c.place;
+    higher.height += compliance * load.fy;
+    // How fast the ground sinks, by differences.
+    const auto force_after = [&](double t) {
+      ClampedPlace<double> then = c.place;
+      then.lead -= c.place.vx * t;
+      then.height += c.place.vy * t;
+      then.base += c.place.base_rate * t;
+      return soft.At(c.foot, then).fy;
+    };
+    const double h = 1e-6;
+    higher.vy += compliance * (force_after(h) - force_after(-h)) / (2.0 * h);
+    const ClampedLoad<double> alone = hard.At(c.foot, higher, true, true);
+    EXPECT_NEAR(load.fx, alone.fx, 1e-9 * kUnit);
+    EXPECT_NEAR(load.fy, alone.fy, 1e-9 * kUnit);
+    EXPECT_NEAR(load.moment, alone.moment, 1e-9 * kR * kUnit);
+    EXPECT_NEAR(load.arc, alone.arc, 1e-9);
+    EXPECT_NEAR(load.lead, alone.lead, 1e-9);
+    if (slides) {
+      EXPECT_NEAR(load.slip, alone.slip, 1e-6);
+    }
+    EXPECT_NEAR(soft.StrainEnergy(c.foot, c.place),
+                hard.StrainEnergy(c.foot, higher) + 0.5 * compliance * load.fy * load.fy, 1e-9);
+    if (slides) continue;  // friction takes its part
+    const auto taken = [](const ClampedLoad<double>& on, const ClampedPlace<double>& at) {
+      return on.damped_x * at.vx + on.damped_y * at.vy - on.damped_moment * at.base_rate;
+    };
+    EXPECT_NEAR(taken(load, c.place), taken(alone, higher), 1e-6);
+    least = std::min(least, -taken(load, c.place));
+  }
+  EXPECT_GT(least, 0.0);
+}
+
 TEST(ClampedArc, SaysHowGoodItsIntegralsAre) {
   std::printf("least kappa   error of the length\n");
   for (double push : {0.05, 0.15, 0.19, 0.205}) {

@@ -23,14 +23,18 @@ class ClampedArc {
   ClampedArc() = default;
   /// `r` the rest radius [m], `EI` the bending stiffness [N m^2], `tau` the retardation time of the
   /// material [s], `mu` the friction under the foot.
-  /// `clamp` the length the hub holds rigid [m]: what bends is the rest.
-  ClampedArc(const T& r, const T& EI, const T& tau, const T& mu, const T& clamp = T(0.0))
+  /// `clamp` the length the hub holds rigid [m]: what bends is the rest. `compliance` the ground's
+  /// under the foot [m/N] (M28).
+  ClampedArc(const T& r, const T& EI, const T& tau, const T& mu, const T& clamp = T(0.0),
+             const T& compliance = T(0.0))
       : r_(r),
         unit_(EI / (r * r)),
         tau_(tau),
         mu_(mu),
         length_(std::numbers::pi - clamp / r),
-        damped_(!IsZero(tau)) {}
+        give_(compliance * unit_ / r),
+        damped_(!IsZero(tau)),
+        gives_(!IsZero(compliance)) {}
 
   /// Half of the unloaded leg [m].
   double size() const { return Value(r_); }
@@ -89,6 +93,7 @@ class ClampedArc {
     const T mu_d = mu_ - Value(mu_), base_d = place.base - e.at.base;
     T miss_x = foot.slides != 0.0 ? T(0.0) : T(e.miss_x + (a - Value(a)) + e.h1 * base_d);
     T miss_y = e.miss_y - (b - Value(b)) + e.h2 * base_d;
+    if (gives_) miss_y -= e.fy * (give_ - Value(give_));
     // How the length of the arc bears on what is missed, on the toe.
     const T length_d = length_ - Value(length_);
     if (!foot.rolling) {
@@ -137,7 +142,7 @@ class ClampedArc {
       Move(foot, place, at, {&tip, &place.base, &fx, &fy}, damping && damped_, with_slip, load);
   }
 
-  /// Strain energy [J] of what At gives at that place: U of M81.
+  /// Strain energy [J] of what At gives at that place, U of M81, the ground's included.
   T StrainEnergy(const Footing& foot, const ClampedPlace<T>& place) const {
     const ClampedLoad<T> load = At(foot, place, false);
     const clamped::Tangents at(Value(load.tip), Value(place.base));
@@ -147,7 +152,8 @@ class ClampedArc {
                          fy * (sum.s - at.sin_tip * sum.one);
     const T a = load.lead / r_, b = place.height / r_;
     const T bent = value + fx * (a - Value(a)) - fy * (b - Value(b)) +
-                   Value(load.moment / (r_ * unit_)) * (place.base - at.base);
+                   Value(load.moment / (r_ * unit_)) * (place.base - at.base) +
+                   0.5 * fy * fy * (2.0 * Value(give_) - give_);
     return r_ * unit_ * bent;
   }
 
@@ -166,7 +172,7 @@ class ClampedArc {
     if (!(mu < std::numeric_limits<double>::infinity())) return 0.0;
     if (mu == 0.0) return 1.0;
     const auto c = clamped::ResponseOf({tip, base}, 0.0, 0.0, tip == 0.0, false);
-    const double x = c.c22 * -vx + c.c12 * vy,
+    const double x = (c.c22 + Value(give_)) * -vx + c.c12 * vy,
                  y = c.c12 * vx - c.c11 * vy;  // times the determinant
     if (std::abs(x) <= mu * y) return 0.0;
     return x < 0.0 ? 1.0 : -1.0;
@@ -184,8 +190,8 @@ class ClampedArc {
 
   // At the lead a (unless it slides) and the height b of the hip over r.
   clamped::Solution Solve(const Footing& foot, double a, double b, double base) const {
-    return clamped::SolveStand({foot, a, b, base, Value(mu_), Value(length_)}, kStepTolerance,
-                               roots_);
+    return clamped::SolveStand({foot, a, b, base, Value(mu_), Value(length_), Value(give_)},
+                               kStepTolerance, roots_);
   }
 
   // `of` changes with x by `slope`.
@@ -239,11 +245,12 @@ class ClampedArc {
     const bool slides = foot.slides != 0.0;
     const T lean = -foot.slides * mu_;
     if constexpr (kJetWidth<T> == 0) {
-      return AnswersTo(motion, clamped::ResponseOf(at, fx, fy, foot.rolling, dissipates), slides,
-                       lean, dissipates);
+      clamped::Response<double> c = clamped::ResponseOf(at, fx, fy, foot.rolling, dissipates);
+      c.c22 += give_;
+      return AnswersTo(motion, c, slides, lean, dissipates);
     } else {
-      const clamped::Response<Jet<4>> c =
-          clamped::ResponseTo1(at, fx, fy, foot.rolling, dissipates);
+      clamped::Response<Jet<4>> c = clamped::ResponseTo1(at, fx, fy, foot.rolling, dissipates);
+      c.c22 += Value(give_);
       const clamped::Response<double> still = c.Values();
       const double leans = Value(lean);
       const Answers<Jet<4>> here = AnswersTo(motion, c, slides, leans, dissipates);
@@ -254,6 +261,12 @@ class ClampedArc {
       Answers<Jet<1>> by_lean;
       if (slides)
         by_lean = AnswersTo(motion, still, true, Seeded<Jet<1>>(leans, 0, 1.0), dissipates);
+      Answers<Jet<1>> by_give;
+      if (gives_) {
+        auto sinking = still.template Values<Jet<1>>();
+        sinking.c22 = Seeded<Jet<1>>(still.c22, 0, 1.0);
+        by_give = AnswersTo(motion, sinking, slides, leans, dissipates);
+      }
       Answers<T> out;
       // A foot that holds has no slip.
       for (int k = 0; k < (slides ? kAnswers : kSlip); ++k) {
@@ -261,6 +274,7 @@ class ClampedArc {
         for (int j = foot.rolling ? 1 : 0; j < 4; ++j) Follow(*moved[j], Slope(here[k], j), out[k]);
         for (int j = 0; j < 3 && k != kYield; ++j) Follow(q[j], by_motion[j][k], out[k]);
         if (slides) Follow(lean, Slope(by_lean[k], 0), out[k]);
+        if (gives_) Follow(give_, Slope(by_give[k], 0), out[k]);
       }
       return out;
     }
@@ -284,7 +298,8 @@ class ClampedArc {
   }
 
   T r_{1.0}, unit_{1.0}, tau_{0.0}, mu_{0.0}, length_{std::numbers::pi};
-  bool damped_ = false;
+  T give_{0.0};  // how far the ground sinks, over r, under a unit of load
+  bool damped_ = false, gives_ = false;
   mutable clamped::Roots roots_;
 };
 

@@ -109,6 +109,9 @@ bool Respond(const Stand& s, Solution& e) {
     e.miss_x = s.a - e.x;
     e.miss_y = k.s - s0 * over - s.b + q * e.ky * e.tip_miss;
   }
+  // The hip is higher over a contact that sinks.
+  e.miss_y -= s.give * fy;
+  e.c22 += s.give;
   const double det = 1.0 / (e.c11 * e.c22 - e.c12 * e.c12);
   e.i11 = e.c22 * det;
   e.i12 = -e.c12 * det;

@@ -49,7 +49,7 @@ struct Solution {
   Tangents at;
   double fx, fy;
   Integrals sum;
-  double kx, ky, c11, c12, c22, h1, h2;  // M68, M69
+  double kx, ky, c11, c12, c22, h1, h2;  // M68, M69; the ground's give is in c22
   double i11, i12, i22;                  // inverse of the compliance
   double turn_x = 0.0, turn_y = 0.0, turn_base = 0.0, tip_miss = 0.0, by_tip = 0.0;
   double miss_x, miss_y, x, kappa;
@@ -58,10 +58,11 @@ struct Solution {
 /// Where a leg stands, lengths over r.
 struct Stand {
   Footing foot;
-  double a, b;    // lead (unless it slides) and height of the hip
-  double base;    // Psi [rad]
-  double mu;      // friction under the foot
-  double length;  // of what bends
+  double a, b;        // lead (unless it slides) and height of the hip
+  double base;        // Psi [rad]
+  double mu;          // friction under the foot
+  double length;      // of what bends
+  double give = 0.0;  // how far the ground sinks under a unit of load
 };
 
 /// Newton for the force, and on the toe for the turn of the tip, from where `roots` lead. Steps

@@ -48,8 +48,10 @@ struct Response {
   S h1, h2;
   std::array<S, 6> D;
 
-  Response<double> Values() const {
-    const auto v = [](const S& x) { return Value(x); };
+  /// Its values, in another scalar type.
+  template <class To = double>
+  Response<To> Values() const {
+    const auto v = [](const S& x) { return To(Value(x)); };
     return {v(c11), v(c12), v(c22),
             v(h1),  v(h2),  {v(D[0]), v(D[1]), v(D[2]), v(D[3]), v(D[4]), v(D[5])}};
   }

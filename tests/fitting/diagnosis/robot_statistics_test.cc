@@ -37,6 +37,8 @@ const Fault kFaults[] = {
     {"feet that creep by 0.5 mm/s a newton", "foot_slip", "c_slip", 5e-4},
     {"a leg 20 mrad askew on its motor", "leg_zero_offset_%", "offset", 0.02},
     {"pitch read 10 mrad askew", "sensor_offset_pitch", "offset", 0.01},
+    {"ground that sinks 30 um a newton", "ground_compliance", "c_g", 3e-5},
+    {"0.3 N m more on one motor", "torque_bias_%", "tau_0", 0.3},
 };
 
 std::string NameFor(const Fault& fault, int seed) {
