@@ -49,7 +49,9 @@ GuardCrossing GuardWatch::FirstCrossing(Mode mode, Stepper& stepper, const Guard
       continue;
     }
     GuardCrossing found;
-    if (after.value[i] < 0.0) {
+    // One that opens with no rate, as the cone of a foot that comes to hold, is at zero by rounding
+    // where it begins, on either side.
+    if (after.value[i] < (before.value[i] > kAtZero ? 0.0 : -kAtZero)) {
       found = Locate(mode, stepper, i, before.value[i], stepper.t0(), stepper.t1());
     } else if (before.rate[i] < 0.0 && after.rate[i] > 0.0) {
       found = LookForDip(mode, stepper, i, before, after, nearest_miss);
@@ -104,6 +106,7 @@ GuardCrossing GuardWatch::Locate(Mode mode, Stepper& stepper, int i, double valu
     if (!(ga > 0.0)) return {i, a + least};
     a += ahead;
   }
+  if (!(a < b)) return {i, b};
   std::uintmax_t rounds = 60;
   const auto bracket = boost::math::tools::toms748_solve(
       g, a, b, ga, gb, boost::math::tools::eps_tolerance<double>(34), rounds);
@@ -121,8 +124,9 @@ GuardCrossing GuardWatch::LookForDip(Mode mode, Stepper& stepper, int i, const G
     return {};
   const auto lowest =
       boost::math::tools::brent_find_minima(GuardInside(mode, stepper, i), a, b, 30);
-  nearest_miss = std::min(nearest_miss, std::max(lowest.second, 0.0));
-  if (lowest.second >= 0.0) return {};
+  const bool begins_at_zero = before.value[i] <= kAtZero;
+  if (!begins_at_zero) nearest_miss = std::min(nearest_miss, std::max(lowest.second, 0.0));
+  if (lowest.second >= (begins_at_zero ? -kAtZero : 0.0)) return {};
   return Locate(mode, stepper, i, before.value[i], a, lowest.first);
 }
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "model/hybrid/engine.h"
 #include "tests/support/clocks.h"
 #include "tests/support/requests.h"
@@ -51,6 +53,29 @@ TEST(SimultaneousEvents, AreNotFlaggedWhenTheyAreApart) {
 TEST(SimultaneousEvents, OfTwoInOneStepTheEarlierFires) {
   const Trajectory run = RunSystem<TwoClocks>(1.01, 1.0, 2.0);
   EXPECT_EQ(EventNames(run), "liftoff");
+}
+
+// Whichever of two is found first, the other one, then just below zero, fires with it.
+TEST(SimultaneousEvents, NeitherOfTwoIsLost) {
+  for (int k = 0; k < 200; ++k) {
+    const double start = 0.3 + 0.001 * k, apart = 1e-16 * std::pow(10.0, 0.03 * k);
+    for (const double sign : {1.0, -1.0}) {
+      const Trajectory run = RunSystem<WoundClocks>(start, start + sign * apart, 0.24);
+      ASSERT_EQ(run.outcome, Outcome::kCompleted) << start << ", " << apart;
+      int of_leg[2] = {0, 0};
+      for (const Event& e : run.events) ++of_leg[e.leg];
+      EXPECT_EQ(of_leg[0], of_leg[1]) << start << ", " << apart;
+      EXPECT_GE(of_leg[0], 1);
+      for (const double z : run.final_state) EXPECT_GT(z, 0.0);
+    }
+  }
+}
+
+// What is below zero by rounding, where it opens with no rate, has not come down.
+TEST(SlowGuard, IsNotMetWhereItBegins) {
+  const Trajectory run = RunSystem<OpensSlowly>(0.0, 0.0, 1.0);
+  EXPECT_EQ(run.outcome, Outcome::kCompleted);
+  EXPECT_EQ(EventNames(run), "");
 }
 
 TEST(Chattering, TwoEventsThatUndoEachOtherEndTheRun) {

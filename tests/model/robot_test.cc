@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <numbers>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "model/effects/effect.h"
 #include "model/simulate.h"
@@ -195,6 +198,53 @@ TEST(Robot, ClockAndTorqueLimitLeaveTheirTraceInTheTorques) {
     if (!std::isnan(run.samples[i])) most = std::max(most, std::abs(run.samples[i]));
   EXPECT_LE(most, 6.0 + 1e-12);
   EXPECT_GT(limits, 2);
+}
+
+// Legs that swing in phase leave the limits of their motors at one instant, and feet that come to
+// hold are at the edge of their cones: whatever integrates and whatever rows are read, the run is
+// one.
+TEST(Robot, LegsInPhaseAreAsAnotherIntegratorHasThem) {
+  Parameters<double> p = RobotParametersFor(4);
+  p.m = 5.0;
+  RobotParameters<double>& robot = *p.robot;
+  robot.pitch_inertia = 0.12;
+  robot.hip_x = {-0.2, -0.07, 0.07, 0.2};
+  robot.control = MotorControl::kClock;
+  robot.period = 0.5;
+  robot.duty = 0.7;
+  robot.sweep = 0.7;
+  robot.offset = 0.3;
+  robot.phase = {0.0, 0.5, 0.0, 0.5};
+  robot.torque_limit = 15.0;
+  robot.friction = 0.9;
+  robot.damping = 4e-4;
+  std::vector<double> times;
+  for (int i = 0; i <= 300; ++i) times.push_back(2e-3 * i);
+  const std::array channels = {Channel::kBodyY};
+  std::map<std::string, int> events;
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    std::mt19937 random(seed);
+    const auto about = [&](double mean, double most) {
+      return std::uniform_real_distribution<double>(mean - most, mean + most)(random);
+    };
+    SimulationRequest q = RobotDrop(p,
+                                    {0.0, about(0.206, 0.015), about(0.5, 0.2), about(0.0, 0.2),
+                                     about(0.0, 0.03), about(0.0, 0.5)},
+                                    0.6);
+    q.integrator = {};
+    const Trajectory run = Simulate(q);
+    q.integrator = {IntegratorKind::kErkStep, 1e-12, 1e-13};
+    q.row_times = times;
+    q.channels = channels;
+    const Trajectory other = Simulate(q);
+    ASSERT_EQ(run.outcome, Outcome::kCompleted) << seed;
+    ASSERT_EQ(other.outcome, Outcome::kCompleted) << seed;
+    for (const Event& e : run.events) ++events[std::string(NameOf(e.kind))];
+    for (int i = 0; i < 6; ++i)
+      EXPECT_NEAR(run.final_state[i], other.final_state[i], 1e-6) << seed << ", " << i;
+  }
+  EXPECT_GT(events["torque_limit"], 100);
+  EXPECT_GT(events["stick"], 20);
 }
 
 TEST(Robot, FallsByName) {

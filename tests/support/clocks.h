@@ -27,6 +27,50 @@ struct TwoClocks final : HybridSystem<T> {
   double FirstStep(Mode, const T*) const override { return 0.1; }
 };
 
+/// Two clocks that run down together by pi of their way to -1 a second, each wound up by 1 where it
+/// is at zero; steep guards.
+template <class T>
+struct WoundClocks final : HybridSystem<T> {
+  int size() const override { return 2; }
+  void Derivative(Mode, const T&, const T* z, T* dz) const override {
+    for (int i = 0; i < 2; ++i) dz[i] = -3.14159 * (z[i] + 1.0);
+  }
+  int GuardCount(Mode) const override { return 2; }
+  GuardSpec Guard(Mode, int i) const override {
+    return {.event = EventKind::kTorqueLimit, .scale = 1.0, .leg = i};
+  }
+  void Guards(Mode, const T&, const T* z, T* g) const override {
+    for (int i = 0; i < 2; ++i) g[i] = 700.0 * z[i];
+  }
+  ResetResult Reset(Mode mode, int i, const T&, T* z) override {
+    z[i] += 1.0;
+    return {mode};
+  }
+  double FirstStep(Mode, const T*) const override { return 0.01; }
+};
+
+/// z0' = 1 and two guards that open with z0 squared, less what rounding may leave where they begin:
+/// of the value, or of the rate.
+template <class T>
+struct OpensSlowly final : HybridSystem<T> {
+  static constexpr double kRounding = 1e-14;
+  int size() const override { return 2; }
+  void Derivative(Mode, const T&, const T*, T* dz) const override {
+    dz[0] = T(1.0);
+    dz[1] = T(0.0);
+  }
+  int GuardCount(Mode) const override { return 2; }
+  GuardSpec Guard(Mode, int i) const override {
+    return {i == 0 ? EventKind::kSlide : EventKind::kHipStop, 1.0};
+  }
+  void Guards(Mode, const T&, const T* z, T* g) const override {
+    g[0] = Value(z[0]) == 0.0 ? T(kRounding * z[0]) : T(z[0] * z[0] - kRounding);
+    g[1] = z[0] * z[0] - 1e-7 * z[0];
+  }
+  ResetResult Reset(Mode mode, int, const T&, T*) override { return {mode}; }
+  double FirstStep(Mode, const T*) const override { return 1e-9; }
+};
+
 /// Two modes that each send the state back to the other at the same place: no way on.
 template <class T>
 struct BackAndForth final : HybridSystem<T> {
