@@ -34,7 +34,7 @@ constexpr EventTraits kEvents[] = {
     {.name = "fall_arc"},
     {.name = "fall_pitch"},
     {.name = "slide", .waits_to_open = true},
-    {.name = "stick", .waits_to_open = true},
+    {.name = "stick", .waits_to_open = true, .opens_slowly = true},
     {.name = "brush"},
     {.name = "gear_mesh"},
     {.name = "hip_stop", .waits_to_open = true, .opens_slowly = true},

@@ -168,8 +168,9 @@ std::optional<Outcome> Engine<T>::FireAtOnce(const GuardRates& at_start, bool be
       return Outcome::kStartsInGround;
     bool at_zero = std::abs(at_start.value[i]) <= kAtZero;
     const bool closed = at_start.value[i] < -kAtZero || (at_zero && at_start.rate[i] <= 0.0);
-    // One that came down with the last event, and was found a little before it, is not lost.
-    if (!begins && at_start.value[i] < 0.0 && at_start.rate[i] < 0.0)
+    // Another leg's that came down with the last event, and was found a little before it, is not
+    // lost.
+    if (!out_.events.empty() && out_.events.back().leg != spec.leg && at_start.value[i] < 0.0)
       at_zero = at_zero || at_start.value[i] > kSimultaneous * at_start.rate[i];
     if (spec.if_closed && closed && (entered_ || begins)) {
       if (!traits.ends_stance || last_began_stance_) return *spec.if_closed;

@@ -78,6 +78,12 @@ TEST(SlowGuard, IsNotMetWhereItBegins) {
   EXPECT_EQ(EventNames(run), "");
 }
 
+TEST(SlowGuard, OfAFootThatStopsWithinItsFirstStepIsMet) {
+  const Trajectory run = RunSystem<SlidesShortly>(0.0, 0.0, 1.0);
+  ASSERT_EQ(EventNames(run), "stick");
+  EXPECT_NEAR(run.events[0].time, 0.05, 1e-7);
+}
+
 TEST(Chattering, TwoEventsThatUndoEachOtherEndTheRun) {
   const Trajectory run = RunSystem<BackAndForth>(1.0, 0.0, 2.0);
   EXPECT_EQ(run.outcome, Outcome::kChattering);

@@ -71,6 +71,24 @@ struct OpensSlowly final : HybridSystem<T> {
   double FirstStep(Mode, const T*) const override { return 1e-9; }
 };
 
+/// z0' = 1 and a guard, the speed of a foot that begins to slide, that opens with no rate, but for
+/// rounding, and closes at 0.05, within the first step.
+template <class T>
+struct SlidesShortly final : HybridSystem<T> {
+  int size() const override { return 2; }
+  void Derivative(Mode, const T&, const T*, T* dz) const override {
+    dz[0] = T(1.0);
+    dz[1] = T(0.0);
+  }
+  int GuardCount(Mode mode) const override { return mode == Mode::kRolling ? 1 : 0; }
+  GuardSpec Guard(Mode, int) const override { return {EventKind::kStick, 1.0}; }
+  void Guards(Mode, const T&, const T* z, T* g) const override {
+    g[0] = z[0] * z[0] * (1.0 - 20.0 * z[0]) - 1e-9 * z[0];
+  }
+  ResetResult Reset(Mode, int, const T&, T*) override { return {Mode::kToe}; }
+  double FirstStep(Mode, const T*) const override { return 0.1; }
+};
+
 /// Two modes that each send the state back to the other at the same place: no way on.
 template <class T>
 struct BackAndForth final : HybridSystem<T> {
