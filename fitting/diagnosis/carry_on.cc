@@ -127,6 +127,11 @@ std::optional<Diagnosis> WithWholeTrialsWithout(const std::vector<SetAside>& mem
 
 }  // namespace
 
+CarriedOn CarryOnRival(const FittedModel& rival, const Diagnosis& last, const FitProblem& problem,
+                       const DiagnosisOptions& options) {
+  return GrownFrom(rival, problem, last.until.value_or(0.0), options);
+}
+
 // A search ends where a step would change the order of events, and begun elsewhere it passes.
 CarriedOn CarryOn(const Diagnosis& last, const FitProblem& problem,
                   const DiagnosisOptions& options) {

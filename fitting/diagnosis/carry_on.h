@@ -10,6 +10,10 @@ namespace hoplab {
 CarriedOn CarryOn(const Diagnosis& last, const FitProblem& problem,
                   const DiagnosisOptions& options);
 
+/// The same of a model that was as good there, in one search.
+CarriedOn CarryOnRival(const FittedModel& rival, const Diagnosis& last, const FitProblem& problem,
+                       const DiagnosisOptions& options);
+
 /// The diagnosis of first parts with what it named fitted to the whole trials. Causes that these do
 /// not confirm are set aside (unconfirmed.h). `whole`: the model without causes, all rows.
 Diagnosis WithWholeTrials(Diagnosis d, const FitProblem& whole, const DiagnosisOptions& options);

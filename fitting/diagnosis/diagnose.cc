@@ -122,8 +122,12 @@ class StageByStage {
     Beforehand found;
     if (!last || !NamesSomething(*last) || Stopped()) return found;
     found.slow_ones_only_beside = SlowOnesWereNotNeeded(last->naming);
-    FittedModel model = CarryOn(*last, problem, options_).model;
-    if (model.ok()) found.begin = std::move(model);
+    found.begin.push_back(CarryOn(*last, problem, options_).model);
+    // What could not be told from a cause there may be told from it here, or again not.
+    for (const std::vector<FittedModel>& places : last->naming.rivals)
+      for (std::size_t i = 1; i < places.size() && !Stopped(); ++i)
+        found.begin.push_back(CarryOnRival(places[i], *last, problem, options_).model);
+    std::erase_if(found.begin, [](const FittedModel& model) { return !model.ok(); });
     return found;
   }
   static bool SlowOnesWereNotNeeded(const Naming& naming) {

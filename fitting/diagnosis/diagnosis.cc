@@ -118,7 +118,7 @@ class Pipeline {
     Stage("refitting with every candidate cause");
     NamingOptions naming;
     naming.max_effects = options_.max_effects;
-    naming.begin = beforehand_.begin ? &*beforehand_.begin : nullptr;
+    naming.begin = beforehand_.begin;
     naming.slow_ones_only_beside = beforehand_.slow_ones_only_beside;
     naming.discrepancy = options_.fit.discrepancy;
     naming.jobs = options_.fit.jobs;

@@ -205,7 +205,7 @@ struct Diagnosis {
 
 /// What a diagnosis of shorter parts of the same trials has found: NamingOptions.
 struct Beforehand {
-  std::optional<FittedModel> begin = std::nullopt;
+  std::vector<FittedModel> begin = {};  // as NamingOptions has it
   bool slow_ones_only_beside = false;
 };
 

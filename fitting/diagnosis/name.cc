@@ -81,11 +81,14 @@ class Search {
  private:
   bool Stopped() const { return options_.stop && *options_.stop; }
 
-  // With what was given, if that is worth more than nothing.
+  // With the best of what was given, if that is worth more than nothing.
   CandidateSet Begun() {
-    if (!options_.begin) return {};
-    const CandidateSet given = refits_.Adopt(*options_.begin);
-    return given.empty() ? given : refits_.Better({}, {given}, 1);
+    std::vector<CandidateSet> given;
+    for (const FittedModel& model : options_.begin) {
+      const CandidateSet set = refits_.Adopt(model);
+      if (!set.empty()) given.push_back(set);
+    }
+    return refits_.Better({}, given, static_cast<int>(given.size()));
   }
 
   CandidateSet OneByOne() {

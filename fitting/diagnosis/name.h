@@ -23,9 +23,9 @@ struct NamingOptions {
   int picked_from = 0;       // how many the candidates were picked out of; 0: they are all
   /// Nats by which each is less likely beforehand than the others; empty: all are alike.
   std::vector<double> prices = {};
-  /// A model of these trials whose causes the search begins with, instead of one by one; none:
-  /// null.
-  const FittedModel* begin = nullptr;
+  /// Models of these trials whose causes the search begins with, instead of one by one: one, and
+  /// what was as good in its causes' places.
+  std::span<const FittedModel> begin = {};
   /// Slow causes were tried on shorter parts of these trials and not needed: they are sought
   /// only beside a set that leaves little, which is soon over, and not alone.
   bool slow_ones_only_beside = false;

@@ -170,7 +170,8 @@ std::optional<Outcome> Engine<T>::FireAtOnce(const GuardRates& at_start, bool be
     const bool closed = at_start.value[i] < -kAtZero || (at_zero && at_start.rate[i] <= 0.0);
     // Another leg's that came down with the last event, and was found a little before it, is not
     // lost.
-    if (!out_.events.empty() && out_.events.back().leg != spec.leg && at_start.value[i] < 0.0)
+    if (!out_.events.empty() && out_.events.back().leg != spec.leg &&
+        t_ - out_.events.back().time < kSimultaneous && at_start.value[i] < 0.0)
       at_zero = at_zero || at_start.value[i] > kSimultaneous * at_start.rate[i];
     if (spec.if_closed && closed && (entered_ || begins)) {
       if (!traits.ends_stance || last_began_stance_) return *spec.if_closed;
@@ -208,7 +209,10 @@ T Engine<T>::EventTimeShift(int guard, double rate, double scale, bool with_last
   T g[kMaxGuards];
   system_.Guards(mode_, T(t_), z_, g);
   T shift = -g[guard] / (rate * scale);
-  if (std::abs(Value(shift)) > kSimultaneous) shift = shift - Value(shift);
+  // Not before the last event.
+  const double last = out_.events.empty() ? 0.0 : out_.events.back().time;
+  if (std::abs(Value(shift)) > kSimultaneous || t_ + Value(shift) < last)
+    shift = shift - Value(shift);
   return shift;
 }
 

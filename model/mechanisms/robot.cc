@@ -260,7 +260,7 @@ Observation<T> Robot<T>::Observe(Mode mode, const T& t, const T* z) const {
     T foot = z[kX] + ClampOf(hip).x + load.lead;
     if (leg.stance == Stance::kRolling) foot += p_.r * load.arc;
     seen[OfLeg(Channel::kLegContactX1, i)] = foot;
-    seen[OfLeg(Channel::kLegContactY1, i)] = -robot_.ground_compliance * load.fy;
+    seen[OfLeg(Channel::kLegContactY1, i)] = 0.0 - robot_.ground_compliance * load.fy;
     seen[OfLeg(Channel::kLegArc1, i)] = load.arc;
     seen[OfLeg(Channel::kLegForceX1, i)] = fx;
     seen[OfLeg(Channel::kLegForceY1, i)] = fy;

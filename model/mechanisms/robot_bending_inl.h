@@ -101,7 +101,8 @@ T Robot<T>::BendLeft(int i, const Hip& hip, const T* z) const {
   const ClampedLoad<T> load = law.At(FootOf(leg_[i]), place, false);
   const Vector2<T> at = ContactBending(hip.angle);
   const T force = at.x * load.fx + at.y * load.fy, &k = law.bending_stiffness();
-  const T held = 2.0 * k * law.StrainEnergy(FootOf(leg_[i]), place);
+  const T ground = 0.5 * robot_.ground_compliance * load.fy * load.fy;
+  const T held = 2.0 * k * (law.StrainEnergy(FootOf(leg_[i]), place) - ground);
   if (!(Value(held) > 0.0 && Value(force * force) > Value(held))) return force / k;
   return (Value(force) < 0.0 ? -1.0 : 1.0) * sqrt(held) / k;
 }

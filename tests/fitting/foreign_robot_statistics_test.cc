@@ -51,6 +51,8 @@ constexpr Fault kFaults[] = {
        p.robot->play[leg] = 0.02;
        p.robot->hub_share[leg] = 0.1;
      }},
+    {"torque_bias_%",
+     [](Parameters<double>& p, std::size_t leg) { p.robot->torque_bias[leg] = 0.3; }},
 };
 
 // The robots of datasets/: legs of 10 g, half an arc of each fast to its motor.

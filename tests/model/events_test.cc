@@ -67,6 +67,8 @@ TEST(SimultaneousEvents, NeitherOfTwoIsLost) {
       EXPECT_EQ(of_leg[0], of_leg[1]) << start << ", " << apart;
       EXPECT_GE(of_leg[0], 1);
       for (const double z : run.final_state) EXPECT_GT(z, 0.0);
+      for (std::size_t i = 1; i < run.events.size(); ++i)
+        EXPECT_GE(run.events[i].time, run.events[i - 1].time);
     }
   }
 }

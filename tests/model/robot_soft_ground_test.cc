@@ -93,6 +93,7 @@ TEST(RobotOnSoftGround, SinksByItsWeight) {
     EXPECT_NEAR(hard[0] - soft[0], compliance * weight / legs, 1e-9);
     EXPECT_NEAR(soft[2], -compliance * weight / legs, 1e-9);
     EXPECT_EQ(hard[2], 0.0);
+    EXPECT_FALSE(std::signbit(hard[2]));
   }
 }
 

@@ -119,7 +119,7 @@ class LaggingMotors {
     else
       given += (told - given) * -std::expm1(-step / robot_.motor_lag);
     begun_[i] = true;
-    return robot_.motor_gain * robot_.gain_of[i] * given;
+    return robot_.motor_gain * robot_.gain_of[i] * given + robot_.torque_bias[i];
   }
 
  private:

@@ -76,7 +76,7 @@ TEST(NameCauses, BeginsWithWhatIsGiven) {
   const Naming from_nothing = NameSix(fit);
   ASSERT_EQ(from_nothing.best.members.size(), 2u);
   NamingOptions options;
-  options.begin = &from_nothing.best;
+  options.begin = {&from_nothing.best, 1};
   const Naming again = NameSix(fit, options);
   EXPECT_EQ(again.best_set, from_nothing.best_set);
   EXPECT_NEAR(again.best.cost, from_nothing.best.cost, 0.1);
@@ -84,6 +84,23 @@ TEST(NameCauses, BeginsWithWhatIsGiven) {
 
   const std::vector<Candidate> others = testing::CandidatesOf({"sensor_delay", "air_drag"});
   EXPECT_EQ(MembersOf(NameIn(fit, others, options)), MembersOf(NameIn(fit, others)));
+}
+
+// What was as good elsewhere is weighed beside it, in whatever order they are given.
+TEST(NameCauses, WeighsTheRivalsOfWhatIsGiven) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}});
+  std::vector<FittedModel> given;
+  for (const char* name : {"sensor_delay", "touchdown_angle_bias"})
+    given.push_back(Refit(fit.null, testing::CandidatesOf({name}),
+                          Eigen::VectorXd::Constant(1, std::nan("")), fit.Settings()));
+  NamingOptions options;
+  options.begin = given;
+  const Naming both = NameSix(fit, options);
+  EXPECT_EQ(MembersOf(both), std::vector<std::string>{"touchdown_angle_bias"});
+  EXPECT_TRUE(ResultOf(both, "sensor_delay").alone.settled);
+  EXPECT_TRUE(ResultOf(both, "touchdown_angle_bias").alone.settled);
+  options.begin = {&given[1], 1};
+  EXPECT_FALSE(ResultOf(NameSix(fit, options), "sensor_delay").alone.ok());
 }
 
 // What is given and acts nowhere does not stay.
@@ -94,7 +111,7 @@ TEST(NameCauses, DropsWhatIsGivenAndDoesNotPay) {
       Refit(fit.null, given, Eigen::VectorXd::Constant(2, std::nan("")), fit.Settings());
   ASSERT_TRUE(both.ok());
   NamingOptions options;
-  options.begin = &both;
+  options.begin = {&both, 1};
   EXPECT_EQ(MembersOf(NameSix(fit, options)), std::vector<std::string>{"touchdown_angle_bias"});
 }
 
