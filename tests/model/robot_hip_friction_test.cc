@@ -22,12 +22,6 @@ namespace {
 
 using namespace testing;
 
-EffectSetting Friction(const std::string& name, double size) {
-  EffectSetting setting = EffectSetting::Null(*FindEffect(name));
-  setting.values[0] = size;
-  return setting;
-}
-
 // A motor that is held and has no limit brakes its rotor by k_d of its rate: so does the hip.
 TEST(HipFriction, AViscousOneIsADerivativeGainOfHeldMotors) {
   for (const double leg_mass : {0.0, 0.02}) {
@@ -48,11 +42,11 @@ TEST(HipFriction, AViscousOneIsADerivativeGainOfHeldMotors) {
         most = std::max(most, std::abs(run.final_state[k] - braked.final_state[k]));
       return most;
     };
-    EXPECT_LT(differs_by({Friction("hip_viscous_friction", 0.3)}), 1e-8);
-    EXPECT_LT(differs_by({Friction("hip_viscous_friction_1", 0.3),
-                          Friction("hip_viscous_friction_2", 0.3)}),
+    EXPECT_LT(differs_by({EffectOf("hip_viscous_friction", 0.3)}), 1e-8);
+    EXPECT_LT(differs_by({EffectOf("hip_viscous_friction_1", 0.3),
+                          EffectOf("hip_viscous_friction_2", 0.3)}),
               1e-8);
-    EXPECT_GT(differs_by({Friction("hip_viscous_friction_1", 0.3)}), 1e-3);
+    EXPECT_GT(differs_by({EffectOf("hip_viscous_friction_1", 0.3)}), 1e-3);
     EXPECT_GT(differs_by({}), 1e-3);
   }
 }
@@ -76,17 +70,17 @@ TEST(HipFriction, BrakesAFreeRotorAsItsClosedFormSays) {
   };
   for (int leg : {0, 1}) {
     const std::string other = std::to_string(2 - leg);
-    EXPECT_NEAR(rate(run_with({Friction("hip_viscous_friction", b)}), leg),
+    EXPECT_NEAR(rate(run_with({EffectOf("hip_viscous_friction", b)}), leg),
                 begins[leg] * std::exp(-b * time / J), 1e-9);
-    EXPECT_NEAR(rate(run_with({Friction("hip_viscous_friction_" + other, b)}), leg), begins[leg],
+    EXPECT_NEAR(rate(run_with({EffectOf("hip_viscous_friction_" + other, b)}), leg), begins[leg],
                 1e-9);
-    EXPECT_NEAR(rate(run_with({Friction("hip_coulomb_friction_" + other, c)}), leg), begins[leg],
+    EXPECT_NEAR(rate(run_with({EffectOf("hip_coulomb_friction_" + other, c)}), leg), begins[leg],
                 1e-9);
     // Alone and with the other: when it stops, and how far it has turned by then.
     const double side = begins[leg] > 0.0 ? 1.0 : -1.0, w = std::abs(begins[leg]);
     for (const bool viscous : {false, true}) {
-      std::vector<EffectSetting> effects = {Friction("hip_coulomb_friction", c)};
-      if (viscous) effects.push_back(Friction("hip_viscous_friction", b));
+      std::vector<EffectSetting> effects = {EffectOf("hip_coulomb_friction", c)};
+      if (viscous) effects.push_back(EffectOf("hip_viscous_friction", b));
       const double stops = viscous ? J / b * std::log1p(b * w / c) : J * w / c;
       const double turned = viscous ? J / b * (w - c / b * std::log1p(b * w / c)) : 0.5 * w * stops;
       const bool in_time = stops < time;
@@ -115,7 +109,7 @@ TEST(HipFriction, SwingsShrinkByASeriesUntilTheHipIsHeld) {
   for (const double begins : {0.9 * dead, 4.7 * dead, -6.3 * dead}) {
     SimulationRequest q =
         RobotDrop(p, {0.0, 2.0, 0.3, 0.0, 0.0, 0.1, robot.angle[0] + begins, 0.0, 0.0}, 8.0 * half);
-    const std::array effects = {Friction("hip_coulomb_friction_1", c)};
+    const std::array effects = {EffectOf("hip_coulomb_friction_1", c)};
     q.effects = effects;
     const Trajectory run = Simulate(q);
     ASSERT_EQ(run.outcome, Outcome::kCompleted);
@@ -141,7 +135,7 @@ TEST(HipFriction, EnoughOfItLocksTheMotor) {
     p.robot->damping = 3e-4;
     p.robot->motor_lag = lag;
     SimulationRequest q = RobotDrop(p, {0.0, 0.21, 0.4, -0.2, 0.03, 0.2}, 0.3);
-    const std::array effects = {Friction("hip_coulomb_friction", 500.0)};
+    const std::array effects = {EffectOf("hip_coulomb_friction", 500.0)};
     q.effects = effects;
     const Trajectory held = Simulate(q);
     q.effects = {};
@@ -165,7 +159,7 @@ TEST(HipFriction, LetsGoOfAHipThatDoesNotJump) {
     p.robot->leg_mass = leg_mass;
     SimulationRequest q = RobotDrop(p, {0.0, 0.21, 0.4, -0.2, 0.03, 0.2}, 0.25);
     const double c = 0.4;
-    const std::array effects = {Friction("hip_coulomb_friction", c)};
+    const std::array effects = {EffectOf("hip_coulomb_friction", c)};
     q.effects = effects;
     const Trajectory run = Simulate(q);
     ASSERT_EQ(run.outcome, Outcome::kCompleted);
@@ -260,7 +254,7 @@ TEST(HipFriction, AHeldHipHasNoDerivativeByItsRate) {
   p.robot->friction = 0.8;
   SimulationRequest q = RobotDrop(
       p, {0.0, 0.3, 0.3, 0.0, 0.02, 0.1, p.robot->angle[0], p.robot->angle[1], 0.0, 0.0}, 0.05);
-  const std::array effects = {Friction("hip_coulomb_friction_1", 0.5)};
+  const std::array effects = {EffectOf("hip_coulomb_friction_1", 0.5)};
   const std::array directions = {SensitivityDirection::InitialState(8),
                                  SensitivityDirection::InitialState(9)};
   q.effects = effects;
@@ -301,10 +295,10 @@ TEST_P(HipFrictionGradient, AgreesWithDifferences) {
   robot.torque_limit = 8.0;
   robot.motor_lag = at.lag;
   robot.rotor_inertia = 4e-3;
-  std::vector<EffectSetting> effects = {Friction("hip_coulomb_friction_1", at.torque),
-                                        Friction("hip_coulomb_friction_2", 0.7 * at.torque),
-                                        Friction("hip_viscous_friction_1", 0.02)};
-  if (at.play > 0.0) effects.push_back(Friction("backlash_1", at.play));
+  std::vector<EffectSetting> effects = {EffectOf("hip_coulomb_friction_1", at.torque),
+                                        EffectOf("hip_coulomb_friction_2", 0.7 * at.torque),
+                                        EffectOf("hip_viscous_friction_1", 0.02)};
+  if (at.play > 0.0) effects.push_back(EffectOf("backlash_1", at.play));
   const std::vector<D> directions = {D::EffectParameter(0, 0),
                                      D::EffectParameter(1, 0),
                                      D::EffectParameter(2, 0),

@@ -15,12 +15,6 @@ namespace {
 using namespace testing;
 using D = SensitivityDirection;
 
-EffectSetting Setting(const char* name, double size) {
-  EffectSetting setting = EffectSetting::Null(*FindEffect(name));
-  setting.values[0] = size;
-  return setting;
-}
-
 // A leg that is held askew is one that is held elsewhere, and its encoder reads what it is told.
 TEST(LegZeroOffset, OfAHeldMotorIsAnotherReference) {
   for (const double play : {0.0, 0.012}) {
@@ -35,7 +29,7 @@ TEST(LegZeroOffset, OfAHeldMotorIsAnotherReference) {
     const std::array channels = {Channel::kLegAngle1, Channel::kLegAngle2, Channel::kHipTorque2};
     q.row_times = rows;
     q.channels = channels;
-    const std::array effects = {Setting("leg_zero_offset_2", askew)};
+    const std::array effects = {EffectOf("leg_zero_offset_2", askew)};
     q.effects = effects;
     const Trajectory off = Simulate(q);
     q.effects = {};
@@ -55,7 +49,7 @@ TEST(LegZeroOffset, OfAHeldMotorIsAnotherReference) {
 
 TEST(LegZeroOffset, OfAllLegsIsAnotherOffsetOfTheClock) {
   SimulationRequest q = RobotDrop(Walking(), {0.0, 0.2, 0.4, 0.0, 0.02, 0.1}, 0.4);
-  const std::array effects = {Setting("leg_zero_offset", -0.03)};
+  const std::array effects = {EffectOf("leg_zero_offset", -0.03)};
   q.effects = effects;
   const Trajectory off = Simulate(q);
   q.effects = {};
@@ -72,8 +66,8 @@ TEST(LegZeroOffset, HasTheDerivativesOfDifferences) {
     p.robot->friction = 0.9;
     p.robot->damping = 3e-4;
     p.robot->rotor_inertia = 4e-3;
-    const std::array effects = {Setting("leg_zero_offset_1", size),
-                                Setting("sensor_offset_pitch", 0.01)};
+    const std::array effects = {EffectOf("leg_zero_offset_1", size),
+                                EffectOf("sensor_offset_pitch", 0.01)};
     SimulationRequest q = RandomRobotDrop(p, 2, 0.2);
     q.effects = effects;
     q.integrator.relative_tolerance = kOracleRelative;
@@ -93,7 +87,7 @@ TEST(SensorOffsetPitch, IsAddedToThePitchAlone) {
   q.row_times = rows;
   q.channels = channels;
   const Trajectory straight = Simulate(q);
-  const std::array effects = {Setting("sensor_offset_pitch", 0.01)};
+  const std::array effects = {EffectOf("sensor_offset_pitch", 0.01)};
   q.effects = effects;
   const Trajectory askew = Simulate(q);
   EXPECT_DOUBLE_EQ(askew.samples[0], straight.samples[0] + 0.01);

@@ -15,12 +15,6 @@ namespace {
 using namespace testing;
 using D = SensitivityDirection;
 
-EffectSetting Bias(const char* name, double size) {
-  EffectSetting setting = EffectSetting::Null(*FindEffect(name));
-  setting.values[0] = size;
-  return setting;
-}
-
 // A motor that is held and biased moves as one that is told another angle, from the same state.
 TEST(TorqueBias, OfAHeldMotorIsAnotherReference) {
   for (const double play : {0.0, 0.012}) {
@@ -35,7 +29,7 @@ TEST(TorqueBias, OfAHeldMotorIsAnotherReference) {
     q.integrator.absolute_tolerance = kOracleAbsolute;
     for (double angle : {p.robot->angle[0], p.robot->angle[1] - 0.05}) q.initial.push_back(angle);
     for (double rate : {0.0, 0.0}) q.initial.push_back(rate);
-    const std::array effects = {Bias("torque_bias_2", bias)};
+    const std::array effects = {EffectOf("torque_bias_2", bias)};
     q.effects = effects;
     const Trajectory biased = Simulate(q);
     q.effects = {};
@@ -52,9 +46,9 @@ TEST(TorqueBias, OfAHeldMotorIsAnotherReference) {
 // Of all motors it is that of each.
 TEST(TorqueBias, OfAllMotorsIsThatOfEach) {
   SimulationRequest q = RobotDrop(Walking(), {0.0, 0.2, 0.4, 0.0, 0.02, 0.1}, 0.3);
-  const std::array all = {Bias("torque_bias", 0.2)};
-  const std::array each = {Bias("torque_bias_1", 0.2), Bias("torque_bias_2", 0.2),
-                           Bias("torque_bias_3", 0.2)};
+  const std::array all = {EffectOf("torque_bias", 0.2)};
+  const std::array each = {EffectOf("torque_bias_1", 0.2), EffectOf("torque_bias_2", 0.2),
+                           EffectOf("torque_bias_3", 0.2)};
   const Trajectory plain = Simulate(q);
   q.effects = all;
   const Trajectory one = Simulate(q);
@@ -70,7 +64,7 @@ TEST(TorqueBias, HasTheDerivativesOfDifferences) {
     p.robot->friction = 0.9;
     p.robot->damping = 3e-4;
     p.robot->rotor_inertia = 4e-3;
-    const std::array effects = {Bias("torque_bias_1", size), Bias("torque_bias", 0.1)};
+    const std::array effects = {EffectOf("torque_bias_1", size), EffectOf("torque_bias", 0.1)};
     SimulationRequest q = RandomRobotDrop(p, 2, 0.2);
     q.effects = effects;
     q.integrator.relative_tolerance = kOracleRelative;

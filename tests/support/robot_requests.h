@@ -1,6 +1,7 @@
 #pragma once
 
 #include <random>
+#include <string>
 #include <vector>
 
 #include "model/simulate.h"
@@ -44,6 +45,13 @@ inline Parameters<double> Walking() {
   robot.friction = 1.0;
   robot.damping = 4e-4;
   return p;
+}
+
+/// An effect with its first parameter at `size`, the others as they are given.
+inline EffectSetting EffectOf(const std::string& name, double size) {
+  EffectSetting setting = EffectSetting::Null(*FindEffect(name));
+  setting.values[0] = size;
+  return setting;
 }
 
 /// A drop of it: x, y, vx, vy, pitch, pitch rate.
