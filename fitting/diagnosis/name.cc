@@ -84,10 +84,8 @@ class Search {
   // With the best of what was given, if that is worth more than nothing.
   CandidateSet Begun() {
     std::vector<CandidateSet> given;
-    for (const FittedModel& model : options_.begin) {
-      const CandidateSet set = refits_.Adopt(model);
-      if (!set.empty()) given.push_back(set);
-    }
+    for (const FittedModel& model : options_.begin) given.push_back(refits_.Adopt(model));
+    std::erase(given, CandidateSet());
     return refits_.Better({}, given, static_cast<int>(given.size()));
   }
 
@@ -317,7 +315,7 @@ class Search {
       int taken = 0;
       for (const auto& [gain, i] : Ranked(less, refits_.At(less))) {
         if (taken >= kForwardWidth || gain < std::max(needed, kWorthATry)) break;
-        if (std::find(set.begin(), set.end(), i) != set.end()) continue;
+        if (Holds(set, i)) continue;
         swaps.push_back(With(less, i));
         ++taken;
       }
