@@ -104,6 +104,8 @@ constexpr bool IsContact(Channel c) {
 constexpr bool IsRobotChannel(Channel c) {
   return c >= Channel::kBodyPitch && c <= Channel::kLegForceY4;
 }
+/// Whether what tracks the body tells it: where it is, how it moves, its pitch.
+constexpr bool IsPose(Channel c) { return c <= Channel::kBodyVy || c == Channel::kBodyPitch; }
 /// The channel of a leg from that of leg 1.
 constexpr Channel OfLeg(Channel first, int leg) {
   return static_cast<Channel>(static_cast<int>(first) + leg);

@@ -20,21 +20,26 @@ constexpr double kReadingMargin = 0.01;  // s
 double LatestReading(std::span<const EffectSetting> settings, double last) {
   std::vector<const Effect*> effects;
   for (const EffectSetting& s : settings) {
-    if (s.effect->hooks0.change_observation_time) effects.push_back(s.effect);
+    if (s.effect->hooks0.change_observation_time || s.effect->hooks0.change_pose_time)
+      effects.push_back(s.effect);
   }
   if (effects.empty()) return last;
   std::stable_sort(effects.begin(), effects.end(),
                    [](const Effect* a, const Effect* b) { return a->info.order < b->info.order; });
   for (const Effect* effect : effects) {
-    double at_lower = last, at_upper = last;
     std::array<double, kMaxEffectParameters> lower{}, upper{};
     for (std::size_t i = 0; i < effect->info.parameters.size(); ++i) {
       lower[i] = effect->info.parameters[i].lower;
       upper[i] = effect->info.parameters[i].upper;
     }
-    effect->hooks0.change_observation_time(lower.data(), at_lower);
-    effect->hooks0.change_observation_time(upper.data(), at_upper);
-    last = std::max({last, at_lower, at_upper});
+    for (const auto change :
+         {effect->hooks0.change_pose_time, effect->hooks0.change_observation_time}) {
+      if (!change) continue;
+      double at_lower = last, at_upper = last;
+      change(lower.data(), at_lower);
+      change(upper.data(), at_upper);
+      last = std::max({last, at_lower, at_upper});
+    }
   }
   return last + kReadingMargin;
 }

@@ -17,6 +17,7 @@ template <class T>
 struct Observation {
   std::array<T, kSeenCount> channel;
   std::optional<std::array<T, kRobotSeenCount>> robot = std::nullopt;  // where there is one
+  T pitch_rate{0.0};                                                   // of a robot's body [rad/s]
 
   T& operator[](Channel c) {
     return IsRobotChannel(c) ? (*robot)[static_cast<std::size_t>(c) - kSeenCount]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "model/channels/channel_reading.h"
@@ -13,27 +14,16 @@
 
 namespace hoplab {
 
-/// One reading of a row: of the channels that one clock stamps.
+/// One reading of a row: of the channels that are stamped alike.
 struct Reading {
   int row = 0;
   int clock = -1;
-};
+  bool of_pose = false;  // told apart only where an effect gives the pose a time of its own
 
-/// The readings of a request in the order of their times, where clocks stamp its channels.
-inline std::vector<Reading> ReadingsOf(const SimulationRequest& request) {
-  std::vector<Reading> readings;
-  if (request.channel_clocks.empty()) return readings;
-  const auto offset = [&](int clock) { return clock < 0 ? 0.0 : request.clock_offsets[clock]; };
-  std::vector<int> clocks(request.channel_clocks.begin(), request.channel_clocks.end());
-  std::sort(clocks.begin(), clocks.end());
-  clocks.erase(std::unique(clocks.begin(), clocks.end()), clocks.end());
-  for (int row = 0; row < static_cast<int>(request.row_times.size()); ++row)
-    for (const int clock : clocks) readings.push_back({row, clock});
-  std::stable_sort(readings.begin(), readings.end(), [&](const Reading& a, const Reading& b) {
-    return request.row_times[a.row] + offset(a.clock) < request.row_times[b.row] + offset(b.clock);
-  });
-  return readings;
-}
+  bool IsStampedAs(const Reading& other) const {
+    return clock == other.clock && of_pose == other.of_pose;
+  }
+};
 
 /// Copies each row's wanted channels, with their directions, into a trajectory.
 template <class T>
@@ -47,7 +37,6 @@ class RowSink final : public RowReader<T> {
         effects_(effects),
         parameters_(parameters),
         clock_offsets_(clock_offsets),
-        readings_(ReadingsOf(request)),
         system_(system),
         frame_(frame),
         first_(first_direction),
@@ -55,7 +44,8 @@ class RowSink final : public RowReader<T> {
         out_(out),
         body_only_(std::all_of(request.channels.begin(), request.channels.end(),
                                [](Channel c) { return c <= Channel::kBodyVy; }) &&
-                   !parameters_.law_terms.leg_mass_active)  // M88
+                   !parameters_.law_terms.leg_mass_active &&                 // M88
+                   !(parameters_.robot && effects_.HasObservationChange()))  // M102
   {
     for (const Channel channel : request.channels) {
       const ChannelSource source = SourceOf(channel);
@@ -63,17 +53,15 @@ class RowSink final : public RowReader<T> {
       if (source.reading && std::find(read_.begin(), read_.end(), source.reading) == read_.end())
         read_.push_back(source.reading);
     }
+    if (!request.channel_clocks.empty() || effects.HasPoseTime()) ListReadings();
   }
 
   int count() const override {
     return static_cast<int>(readings_.empty() ? request_.row_times.size() : readings_.size());
   }
   T Time(int i) const override {
-    if (readings_.empty()) return effects_.ObservationTime(T(request_.row_times[i]));
-    const Reading& reading = readings_[static_cast<std::size_t>(i)];
-    T time(request_.row_times[reading.row]);
-    if (reading.clock >= 0) time += clock_offsets_[static_cast<std::size_t>(reading.clock)];
-    return effects_.ObservationTime(time);
+    return readings_.empty() ? effects_.ObservationTime(T(request_.row_times[i]))
+                             : TimeOf(readings_[static_cast<std::size_t>(i)]);
   }
   // How many rows, from the first on, have all their readings among the first `count`.
   int RowsAmong(int count) const {
@@ -85,7 +73,6 @@ class RowSink final : public RowReader<T> {
 
   void Read(int i, Mode mode, const T& time, const T* z) override {
     const Reading reading = readings_.empty() ? Reading{i} : readings_[static_cast<std::size_t>(i)];
-    const int row = reading.row, clock = reading.clock;
     Observation<T> seen;
     if (body_only_) {
       for (int i = 0; i < 4; ++i) seen.channel[i] = z[i];
@@ -95,33 +82,63 @@ class RowSink final : public RowReader<T> {
     }
     frame_.BodyToWorld(seen);
     const Instant<T> at{mode, time, z, system_, parameters_, frame_, seen};
-    for (const ChannelReading* reading : read_) {
+    for (const ChannelReading* more : read_) {
       ReadValues<T> values;
-      reading->Read(at, values);
-      WriteWhere(row, clock, [&](std::size_t c) -> const T* {
+      more->Read(at, values);
+      WriteWhere(reading, [&](std::size_t c) -> const T* {
         const ChannelSource& source = sources_[c];
-        return source.reading == reading ? &values[static_cast<std::size_t>(source.place)]
-                                         : nullptr;
+        return source.reading == more ? &values[static_cast<std::size_t>(source.place)] : nullptr;
       });
     }
     effects_.ChangeObservation(time + parameters_.time_origin, seen);
-    WriteWhere(row, clock, [&](std::size_t c) -> const T* {
+    WriteWhere(reading, [&](std::size_t c) -> const T* {
       const Channel channel = request_.channels[c];
       return !sources_[c].reading && seen.Has(channel) ? &seen[channel] : nullptr;
     });
   }
 
  private:
-  // What `value_of` tells of the row's channels that this clock stamps; where it tells nothing NaN
-  // stays.
+  Reading StampOf(std::size_t channel) const {
+    return {0, request_.channel_clocks.empty() ? -1 : request_.channel_clocks[channel],
+            effects_.HasPoseTime() && IsPose(request_.channels[channel])};
+  }
+  T TimeOf(const Reading& reading) const {
+    T time(request_.row_times[static_cast<std::size_t>(reading.row)]);
+    if (reading.clock >= 0) time += clock_offsets_[static_cast<std::size_t>(reading.clock)];
+    return reading.of_pose ? effects_.PoseTime(time) : effects_.ObservationTime(time);
+  }
+  // Those of every row, in the order of their times.
+  void ListReadings() {
+    boost::container::small_vector<Reading, 4> stamps;
+    for (std::size_t c = 0; c < request_.channels.size(); ++c) {
+      const Reading stamp = StampOf(c);
+      if (std::none_of(stamps.begin(), stamps.end(),
+                       [&](const Reading& other) { return stamp.IsStampedAs(other); }))
+        stamps.push_back(stamp);
+    }
+    std::vector<std::pair<double, Reading>> timed;
+    timed.reserve(stamps.size() * request_.row_times.size());
+    for (int row = 0; row < static_cast<int>(request_.row_times.size()); ++row) {
+      for (const Reading& stamp : stamps) {
+        const Reading reading{row, stamp.clock, stamp.of_pose};
+        timed.emplace_back(Value(TimeOf(reading)), reading);
+      }
+    }
+    std::stable_sort(timed.begin(), timed.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    readings_.reserve(timed.size());
+    for (const auto& [time, reading] : timed) readings_.push_back(reading);
+  }
+  // What `value_of` tells of the row's channels that are stamped as the reading; where it tells
+  // nothing NaN stays.
   template <class ValueOf>
-  void WriteWhere(int row, int clock, const ValueOf& value_of) {
+  void WriteWhere(const Reading& reading, const ValueOf& value_of) {
     const std::size_t channels = request_.channels.size(), width = request_.directions.size();
     for (std::size_t c = 0; c < channels; ++c) {
-      if (!readings_.empty() && request_.channel_clocks[c] != clock) continue;
+      if (!readings_.empty() && !reading.IsStampedAs(StampOf(c))) continue;
       const T* value = value_of(c);
       if (!value) continue;
-      const std::size_t cell = static_cast<std::size_t>(row) * channels + c;
+      const std::size_t cell = static_cast<std::size_t>(reading.row) * channels + c;
       out_.samples[cell] = Value(*value);
       for (int k = 0; k < count_; ++k)
         out_.sensitivities[cell * width + static_cast<std::size_t>(first_ + k)] = Slope(*value, k);
@@ -132,7 +149,7 @@ class RowSink final : public RowReader<T> {
   const ActiveEffects<T>& effects_;
   const Parameters<T>& parameters_;
   std::span<const T> clock_offsets_;
-  std::vector<Reading> readings_;  // empty: row by row
+  std::vector<Reading> readings_;  // empty: row by row, all channels at once
   const HybridSystem<T>& system_;
   const GroundFrame<T>& frame_;
   int first_, count_;

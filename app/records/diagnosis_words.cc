@@ -15,8 +15,9 @@ namespace hoplab {
 namespace {
 
 constexpr double kLeastChance = 1e-3;
-constexpr int kMostWords = 30;         // of a first sentence
-constexpr std::size_t kMostNamed = 3;  // in it, fewer where it gets too long
+constexpr double kNothingExplained = 0.005;  // of the misfit, by the best attempt
+constexpr int kMostWords = 30;               // of a first sentence
+constexpr std::size_t kMostNamed = 3;        // in it, fewer where it gets too long
 
 // "a", "a and b", "a, b and c".
 std::string Listed(const std::vector<std::string>& words) {
@@ -99,15 +100,18 @@ std::string CausesSentence(const Diagnosis& d, std::size_t most) {
     if (told.size() > 1 && most > 1) name += fmt::format(" ({})", ShareText(e.OfMisfit(c->share)));
     names.push_back(std::move(name));
   }
-  const bool sure = e.Probability() >= kSure;
+  // What stands in for something that is not listed says nothing against the causes that are told.
+  const double told_probability = e.ToldProbability(), unlisted = 1.0 - e.Probability();
+  const bool sure = told_probability >= kSure, beside = 1.0 - unlisted < told_probability;
   // How little it is, where it is.
   const double misfit = MisfitOverNoise(d.detection);
   std::string text = !sure && misfit > 0.0 && misfit < kSlight
                          ? fmt::format("The simulation is off by {:.2f} of the noise and ", misfit)
                          : "The simulation ";
-  text += sure ? "lacks " : e.Probability() >= kLikely ? "probably lacks " : "may lack ";
+  text += sure ? "lacks " : told_probability >= kLikely ? "probably lacks " : "may lack ";
   text += FirstOf(names, most);
-  if (!sure) text += fmt::format(" (P {:.2f})", e.Probability());
+  if (!sure) text += fmt::format(" (P {:.2f})", told_probability);
+  if (beside) text += fmt::format(" and something not listed (P {:.2f})", unlisted);
   return text + "; " + HeldOutClause(d) + ".";
 }
 
@@ -115,6 +119,8 @@ std::string UnexplainedSentence(const Diagnosis& d, std::size_t most) {
   const std::string missing = "Something is missing that the catalogue does not hold";
   if (!d.extension) return missing + ".";
   const ExtensionReport& e = *d.extension;
+  if (e.explained < kNothingExplained && !e.at_bound)
+    return missing + ", and no cause in it explains any of the misfit.";
   std::vector<std::string> names;
   for (const CauseReport* c : e.ToldCauses()) names.push_back(CauseText(c->cause));
   return fmt::format("{}; the best attempt, {}, {}.", missing, FirstOf(names, most),

@@ -50,6 +50,15 @@ bool HasNoGuide(const FitProblem& problem, const Effect& effect) {
                       [](const TrialProblem& t) { return t.parameters.on_guide; });
 }
 
+// Where all that is compared is the pose, one that is late is a recording that is late.
+bool IsDelayOfAll(const FitProblem& problem, const Effect& effect) {
+  return effect.hooks0.change_pose_time != nullptr &&
+         (std::none_of(problem.channels.begin(), problem.channels.end(),
+                       [](const ChannelProblem& c) { return IsPose(c.channel); }) ||
+          std::all_of(problem.channels.begin(), problem.channels.end(),
+                      [](const ChannelProblem& c) { return IsPose(c.channel); }));
+}
+
 // On one leg what is of that leg alone is what is of all of them.
 bool IsOfAllLegs(const FitProblem& problem, const Effect& effect) {
   const EffectInfo& info = effect.info;
@@ -87,7 +96,9 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
                    problem.robot_legs()) ||
         IsFitted(problem, *effect) || Simulates(problem, *effect))
       continue;
-    if (only.empty() && (HasNoGuide(problem, *effect) || IsOfAllLegs(problem, *effect))) continue;
+    if (only.empty() && (HasNoGuide(problem, *effect) || IsOfAllLegs(problem, *effect) ||
+                         IsDelayOfAll(problem, *effect)))
+      continue;
     if (holds(without, effect) || (!only.empty() && !holds(only, effect))) continue;
     if (!problem.known.RulesOut(*effect)) candidates.push_back({effect, "", problem.known});
   }

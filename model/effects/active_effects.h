@@ -125,6 +125,12 @@ class ActiveEffects {
     }
     return t;
   }
+  T PoseTime(T t) const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->change_pose_time) e.hooks->change_pose_time(e.values.data(), t);
+    }
+    return ObservationTime(t);
+  }
   /// `t`: when it was seen, since the trial's first row [s].
   void ChangeObservation(const T& t, Observation<T>& seen) const {
     for (const Entry& e : entries_) {
@@ -136,6 +142,12 @@ class ActiveEffects {
   bool HasBodyForce() const {
     return Any([](const EffectHooks<T>& hooks) { return hooks.add_body_force != nullptr; }) ||
            AnyFormula([](const Formula& f) { return f.place() <= FormulaPlace::kBodyForceAcross; });
+  }
+  bool HasObservationChange() const {
+    return Any([](const EffectHooks<T>& hooks) { return hooks.change_observation != nullptr; });
+  }
+  bool HasPoseTime() const {
+    return Any([](const EffectHooks<T>& hooks) { return hooks.change_pose_time != nullptr; });
   }
   bool HasChordForce() const {
     return Any([](const EffectHooks<T>& hooks) { return hooks.add_chord_force != nullptr; }) ||

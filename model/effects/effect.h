@@ -139,6 +139,8 @@ struct EffectHooks {
   void (*change_touchdown_angle)(const T* p, const T& vx, T& theta_td) = nullptr;
   /// Changes the time at which the row stamped `t` was really read.
   void (*change_observation_time)(const T* p, T& t) = nullptr;
+  /// Changes the time at which the pose of a row stamped `t` was read (IsPose), before that.
+  void (*change_pose_time)(const T* p, T& t) = nullptr;
   /// Changes what the sensors report.
   void (*change_observation)(const T* p, Observation<T>& seen) = nullptr;
 };
@@ -238,6 +240,8 @@ constexpr EffectHooks<T> HooksOf() {
     hooks.change_touchdown_angle = &Physics::template ChangeTouchdownAngle<T>;
   if constexpr (requires(const T* p, T& t) { Physics::ChangeObservationTime(p, t); })
     hooks.change_observation_time = &Physics::template ChangeObservationTime<T>;
+  if constexpr (requires(const T* p, T& t) { Physics::ChangePoseTime(p, t); })
+    hooks.change_pose_time = &Physics::template ChangePoseTime<T>;
   if constexpr (requires(const T* p, Observation<T>& o) { Physics::ChangeObservation(p, o); })
     hooks.change_observation = &Physics::template ChangeObservation<T>;
   return hooks;

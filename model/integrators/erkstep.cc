@@ -17,6 +17,7 @@ struct ErkStepSolver::Memory {
   IntegratorOptions options;
   N_Vector y = nullptr;
   void* solver = nullptr;
+  bool backward = false;
 
   Memory(const IntegratorOptions& o, const FlatSystem& s) : system(s), options(o) {}
   ~Memory() {
@@ -74,6 +75,10 @@ ErkStepSolver::~ErkStepSolver() = default;
 void ErkStepSolver::Start(double t, const double* y, double first_step) {
   Memory& m = *memory_;
   std::copy(y, y + m.system.size, N_VGetArrayPointer(m.y));
+  // ERKStepReInit keeps the direction of the last step: a stopping time on the other side is
+  // refused.
+  if (m.solver && m.backward != (first_step < 0.0)) ERKStepFree(&m.solver);
+  m.backward = first_step < 0.0;
   if (m.solver == nullptr) {
     m.solver = ERKStepCreate(&Memory::Derivative, t, m.y, m.context);
     HOPLAB_CHECK(m.solver != nullptr);

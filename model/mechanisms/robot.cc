@@ -242,6 +242,7 @@ Observation<T> Robot<T>::Observe(Mode mode, const T& t, const T* z) const {
   seen.robot.emplace();
   for (T& c : *seen.robot) c = T(std::numeric_limits<double>::quiet_NaN());
   seen[Channel::kBodyPitch] = z[Pitch()];
+  seen.pitch_rate = z[Pitch() + 1];
   const Frame frame(z[Pitch()] - p_.slope);
   T force_x(0.0), force_y(0.0);
   for (int i = 0; i < legs_; ++i) {

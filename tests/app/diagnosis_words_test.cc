@@ -91,6 +91,30 @@ TEST_F(VerdictSentenceTest, SaysHowLikelyANameInDoubtIs) {
       << VerdictSentence(d_);
 }
 
+// What stands in for something not listed takes nothing from the cause that is told.
+TEST_F(VerdictSentenceTest, SaysThatSomethingElseActsBesideALikelyCause) {
+  Accept({Add("air_drag")}, 0.84);
+  Accept({Add("touchdown_loss")}, 0.2, 0.03);
+  d_.extension->causes.back().main = false;
+  d_.extension->causes.back().stands_in = true;
+  d_.verdict = Verdict::kConfounded;
+  EXPECT_EQ(VerdictSentence(d_).find("The simulation probably lacks air_drag (P 0.84) and "
+                                     "something not listed (P 0.80); "),
+            0u)
+      << VerdictSentence(d_);
+}
+
+TEST_F(VerdictSentenceTest, NamesNoBestAttemptThatExplainsNothing) {
+  Accept({Add("air_drag")}, 0.1);
+  d_.verdict = Verdict::kUnexplained;
+  d_.extension->explained = 0.004;
+  EXPECT_EQ(VerdictSentence(d_),
+            "Something is missing that the catalogue does not hold, and no cause in it explains "
+            "any of the misfit.");
+  d_.extension->explained = 0.006;
+  EXPECT_NE(VerdictSentence(d_).find("the best attempt, air_drag, explains "), std::string::npos);
+}
+
 TEST_F(VerdictSentenceTest, SaysHowLittleIsMissedWhereANameIsInDoubt) {
   Accept({Add("air_drag")}, 0.8);
   d_.verdict = Verdict::kConfounded;

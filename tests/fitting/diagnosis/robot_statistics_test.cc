@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <random>
 #include <thread>
 
 #include "base/parallel.h"
@@ -39,6 +40,13 @@ const Fault kFaults[] = {
     {"pitch read 10 mrad askew", "sensor_offset_pitch", "offset", 0.01},
     {"ground that sinks 30 um a newton", "ground_compliance", "c_g", 3e-5},
     {"0.3 N m more on one motor", "torque_bias_%", "tau_0", 0.3},
+    {"a marker 8 mm above where it was said to be", "marker_offset", "dy", 0.008},
+    {"the body's pose 4 ms late", "pose_delay", "tau", 0.004},
+    {"pitch read 3 % too large", "sensor_scale_pitch", "gain", 0.03},
+    {"x read 1 % too large", "sensor_scale_x", "gain", 0.01},
+    {"y read 1 % too large", "sensor_scale_y", "gain", 0.01},
+    {"a clock 0.5 % fast", "clock_scale", "gamma_t", 0.005},
+    {"a camera that hangs 10 mrad askew", "camera_roll", "roll", 0.01},
 };
 
 std::string NameFor(const Fault& fault, int seed) {
@@ -48,12 +56,14 @@ std::string NameFor(const Fault& fault, int seed) {
   return name;
 }
 
-// `share` of the fault's size; of 0 a sound robot.
-Dataset RobotWith(const Fault& fault, int seed, double share = 1.0) {
+// `share` of each fault's size; of 0 a sound robot.
+Dataset RobotWith(const std::vector<const Fault*>& faults, int seed, double share = 1.0) {
   Scenario scenario = RobotDrops();
-  EffectSpec spec{NameFor(fault, seed), {}, {"a planted effect"}};
-  spec.parameters.push_back({fault.parameter, share * fault.size, {"a planted effect"}});
-  if (share > 0.0) scenario.effects = {spec};
+  for (const Fault* fault : faults) {
+    EffectSpec spec{NameFor(*fault, seed), {}, {"a planted effect"}};
+    spec.parameters.push_back({fault->parameter, share * fault->size, {"a planted effect"}});
+    if (share > 0.0) scenario.effects.push_back(spec);
+  }
   GenerateOptions options;
   options.seed = NoiseSeed(Table::kNaming, 1000 + seed);
   return GenerateDataset(scenario, options).dataset;
@@ -99,7 +109,7 @@ TEST(RobotStatistics, NamesWhatIsWrongAndWhichLeg) {
     DiagnosisOptions options;
     options.fit.jobs = 1;
     answers[static_cast<std::size_t>(fault * seeds + seed)] =
-        AnswerOf(Diagnose(RobotWith(kFaults[fault], seed), options), kFaults[fault], seed);
+        AnswerOf(Diagnose(RobotWith({&kFaults[fault]}, seed), options), kFaults[fault], seed);
   });
 
   Report report("9-robot", "Robots: what is wrong, and which leg");
@@ -135,6 +145,62 @@ TEST(RobotStatistics, NamesWhatIsWrongAndWhichLeg) {
   EXPECT_TRUE(IsAtMost(wrong_leg, all, 0.02));
 }
 
+// What was said of a robot with two things wrong, the second on the other leg where it is of one.
+struct PairAnswer {
+  std::string planted, said;
+  int named = 0;  // of the two
+  long main = 0;  // main causes with P >= kSure
+  long planted_among_main = 0;
+};
+
+PairAnswer PairAnswerOf(int drawn) {
+  std::mt19937 random(static_cast<unsigned>(drawn));
+  std::uniform_int_distribution<std::size_t> any(0, std::size(kFaults) - 1);
+  const Fault& first = kFaults[any(random)];
+  const Fault* second = &first;
+  while (second == &first) second = &kFaults[any(random)];
+  PairAnswer answer;
+  const std::string names[] = {NameFor(first, drawn), NameFor(*second, drawn)};
+  answer.planted = names[0] + " and " + names[1];
+  SCOPED_TRACE(answer.planted);
+  DiagnosisOptions options;
+  options.fit.jobs = 1;
+  const Diagnosis d = Diagnose(RobotWith({&first, second}, drawn), options);
+  answer.said = d.refusal.empty() ? std::string(NameOf(d.verdict)) : d.refusal;
+  if (!d.extension) return answer;
+  for (const CauseReport& c : d.extension->causes) {
+    const bool right = c.cause.Name() == names[0] || c.cause.Name() == names[1];
+    answer.said += (c.main ? ", " : ", small ") + c.cause.Name() + Cell(" %.3f", c.probability);
+    answer.named += right && c.probability >= kSure;
+    if (!c.main || c.probability < kSure) continue;
+    ++answer.main;
+    answer.planted_among_main += right;
+  }
+  return answer;
+}
+
+TEST(RobotStatistics, NamesTwoThingsThatAreWrong) {
+  const int cases = SeedCount(40);
+  std::vector<PairAnswer> answers(static_cast<std::size_t>(cases));
+  const int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  ParallelFor(cases, jobs, [&](int i) { answers[static_cast<std::size_t>(i)] = PairAnswerOf(i); });
+  long named = 0, both = 0, main = 0, planted = 0;
+  for (const PairAnswer& a : answers) {
+    named += a.named;
+    both += a.named == 2;
+    main += a.main;
+    planted += a.planted_among_main;
+    std::printf("%s: %s\n", a.planted.c_str(), a.said.c_str());
+  }
+  Report report("9-robot-pairs", "Robots with two things wrong");
+  report.Say(
+      "The same robot with two of these faults, drawn at random, %d times: %ld of %d named with "
+      "P >= 0.95, both in %ld; of %ld main causes with P >= 0.95 %ld are planted.",
+      cases, named, 2 * cases, both, main, planted);
+  EXPECT_TRUE(IsAtLeast(named, 2L * cases, 0.9));
+  EXPECT_TRUE(IsAtLeast(planted, main, 0.95));
+}
+
 // What was said of a small fault, or of none.
 struct SmallAnswer {
   double over_noise = 0.0;
@@ -146,7 +212,7 @@ struct SmallAnswer {
 SmallAnswer SmallAnswerOf(const Fault& fault, int seed, double share) {
   DiagnosisOptions options;
   options.fit.jobs = 1;
-  const Diagnosis d = Diagnose(RobotWith(fault, seed, share), options);
+  const Diagnosis d = Diagnose(RobotWith({&fault}, seed, share), options);
   SmallAnswer answer;
   answer.seen = d.refusal.empty() && d.detection.p_value <= kDetectionLevel;
   answer.over_noise = MisfitOverNoise(d.detection);
