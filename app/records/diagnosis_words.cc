@@ -90,6 +90,10 @@ std::string GroupText(const Diagnosis& d, const CauseReport& c, std::size_t most
                                        : "one of " + FirstOf(names, most);
 }
 
+// Whether something that is not listed acts beside the causes that are told, since something stands
+// in for it. That says nothing against them.
+bool ActsBeside(const ExtensionReport& e) { return e.Probability() < e.ToldProbability(); }
+
 // "The simulation lacks a (91 %) and b or c (5 %); it takes the test error of ..".
 std::string CausesSentence(const Diagnosis& d, std::size_t most) {
   const ExtensionReport& e = *d.extension;
@@ -100,9 +104,8 @@ std::string CausesSentence(const Diagnosis& d, std::size_t most) {
     if (told.size() > 1 && most > 1) name += fmt::format(" ({})", ShareText(e.OfMisfit(c->share)));
     names.push_back(std::move(name));
   }
-  // What stands in for something that is not listed says nothing against the causes that are told.
-  const double told_probability = e.ToldProbability(), unlisted = 1.0 - e.Probability();
-  const bool sure = told_probability >= kSure, beside = 1.0 - unlisted < told_probability;
+  const double told_probability = e.ToldProbability();
+  const bool sure = told_probability >= kSure;
   // How little it is, where it is.
   const double misfit = MisfitOverNoise(d.detection);
   std::string text = !sure && misfit > 0.0 && misfit < kSlight
@@ -111,7 +114,8 @@ std::string CausesSentence(const Diagnosis& d, std::size_t most) {
   text += sure ? "lacks " : told_probability >= kLikely ? "probably lacks " : "may lack ";
   text += FirstOf(names, most);
   if (!sure) text += fmt::format(" (P {:.2f})", told_probability);
-  if (beside) text += fmt::format(" and something not listed (P {:.2f})", unlisted);
+  if (ActsBeside(e))
+    text += fmt::format(" and something not listed (P {:.2f})", 1.0 - e.Probability());
   return text + "; " + HeldOutClause(d) + ".";
 }
 
@@ -122,7 +126,14 @@ std::string UnexplainedSentence(const Diagnosis& d, std::size_t most) {
   if (e.explained < kNothingExplained && !e.at_bound)
     return missing + ", and no cause in it explains any of the misfit.";
   std::vector<std::string> names;
-  for (const CauseReport* c : e.ToldCauses()) names.push_back(CauseText(c->cause));
+  double share = 0.0;
+  for (const CauseReport* c : e.ToldCauses()) {
+    names.push_back(CauseText(c->cause));
+    share += e.OfMisfit(c->share);
+  }
+  if (e.ToldProbability() >= kLikely && ActsBeside(e) && !e.at_bound)
+    return fmt::format("{}, beside {} (P {:.2f}), which explains {} of the misfit.", missing,
+                       FirstOf(names, most), e.ToldProbability(), ShareText(share));
   return fmt::format("{}; the best attempt, {}, {}.", missing, FirstOf(names, most),
                      e.at_bound ? "needs a size beyond what is physical"
                                 : "explains " + ShareText(e.explained) + " of the misfit");

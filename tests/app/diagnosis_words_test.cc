@@ -104,6 +104,17 @@ TEST_F(VerdictSentenceTest, SaysThatSomethingElseActsBesideALikelyCause) {
       << VerdictSentence(d_);
 }
 
+TEST_F(VerdictSentenceTest, NamesALikelyCauseBesideWhatIsNotListed) {
+  Accept({Add("air_drag")}, 0.91, 0.83);
+  Accept({Add("touchdown_loss")}, 0.07, 0.1);
+  d_.extension->causes.back().main = false;
+  d_.extension->causes.back().stands_in = true;
+  d_.verdict = Verdict::kUnexplained;
+  EXPECT_EQ(VerdictSentence(d_),
+            "Something is missing that the catalogue does not hold, beside air_drag (P 0.91), "
+            "which explains 83 % of the misfit.");
+}
+
 TEST_F(VerdictSentenceTest, NamesNoBestAttemptThatExplainsNothing) {
   Accept({Add("air_drag")}, 0.1);
   d_.verdict = Verdict::kUnexplained;
