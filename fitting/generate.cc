@@ -239,13 +239,16 @@ Trajectory RunOf(const Recording& r, const GenerateTrial& plan, const StateSpec&
   return run;
 }
 
-// How many rows the run has; a note where it ends before its time.
+// How many rows the run has, some of their channels at least; a note where it ends before its time.
 std::size_t RowsOf(const Recording& r, const GenerateTrial& plan, const Trajectory& run,
                    std::vector<std::string>& notes) {
+  const auto has_samples = [&](std::size_t row) {
+    const auto first = run.samples.begin() + static_cast<std::ptrdiff_t>(row * r.wanted.size());
+    return std::any_of(first, first + static_cast<std::ptrdiff_t>(r.wanted.size()),
+                       [](double sample) { return std::isfinite(sample); });
+  };
   std::size_t rows = 0;
-  while (rows < r.times.size() && r.times[rows] <= run.end_time &&
-         std::isfinite(run.samples[rows * r.wanted.size()]))
-    ++rows;
+  while (rows < r.times.size() && r.times[rows] <= run.end_time && has_samples(rows)) ++rows;
   const std::string end =
       std::string(SentenceOf(run.outcome)) + " at " + FormatDouble(run.end_time) + " s";
   if (rows < 2) {

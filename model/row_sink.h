@@ -98,10 +98,6 @@ class RowSink final : public RowReader<T> {
   }
 
  private:
-  Reading StampOf(std::size_t channel) const {
-    return {0, request_.channel_clocks.empty() ? -1 : request_.channel_clocks[channel],
-            effects_.HasPoseTime() && IsPose(request_.channels[channel])};
-  }
   T TimeOf(const Reading& reading) const {
     T time(request_.row_times[static_cast<std::size_t>(reading.row)]);
     if (reading.clock >= 0) time += clock_offsets_[static_cast<std::size_t>(reading.clock)];
@@ -109,9 +105,12 @@ class RowSink final : public RowReader<T> {
   }
   // Those of every row, in the order of their times.
   void ListReadings() {
-    boost::container::small_vector<Reading, 4> stamps;
+    const bool splits = effects_.HasPoseTime();
+    boost::container::small_vector<Reading, 4> stamps;  // each once
     for (std::size_t c = 0; c < request_.channels.size(); ++c) {
-      const Reading stamp = StampOf(c);
+      const Reading stamp{0, request_.channel_clocks.empty() ? -1 : request_.channel_clocks[c],
+                          splits && IsPose(request_.channels[c])};
+      stamps_.push_back(stamp);
       if (std::none_of(stamps.begin(), stamps.end(),
                        [&](const Reading& other) { return stamp.IsStampedAs(other); }))
         stamps.push_back(stamp);
@@ -135,7 +134,7 @@ class RowSink final : public RowReader<T> {
   void WriteWhere(const Reading& reading, const ValueOf& value_of) {
     const std::size_t channels = request_.channels.size(), width = request_.directions.size();
     for (std::size_t c = 0; c < channels; ++c) {
-      if (!readings_.empty() && !reading.IsStampedAs(StampOf(c))) continue;
+      if (!readings_.empty() && !reading.IsStampedAs(stamps_[c])) continue;
       const T* value = value_of(c);
       if (!value) continue;
       const std::size_t cell = static_cast<std::size_t>(reading.row) * channels + c;
@@ -149,7 +148,8 @@ class RowSink final : public RowReader<T> {
   const ActiveEffects<T>& effects_;
   const Parameters<T>& parameters_;
   std::span<const T> clock_offsets_;
-  std::vector<Reading> readings_;  // empty: row by row, all channels at once
+  boost::container::small_vector<Reading, 8> stamps_;  // of the request's channels
+  std::vector<Reading> readings_;                      // empty: row by row, all channels at once
   const HybridSystem<T>& system_;
   const GroundFrame<T>& frame_;
   int first_, count_;

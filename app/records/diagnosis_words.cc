@@ -108,7 +108,7 @@ std::string CausesSentence(const Diagnosis& d, std::size_t most) {
   const bool sure = told_probability >= kSure;
   // How little it is, where it is.
   const double misfit = MisfitOverNoise(d.detection);
-  std::string text = !sure && misfit > 0.0 && misfit < kSlight
+  std::string text = !sure && !ActsBeside(e) && misfit > 0.0 && misfit < kSlight
                          ? fmt::format("The simulation is off by {:.2f} of the noise and ", misfit)
                          : "The simulation ";
   text += sure ? "lacks " : told_probability >= kLikely ? "probably lacks " : "may lack ";
@@ -125,15 +125,17 @@ std::string UnexplainedSentence(const Diagnosis& d, std::size_t most) {
   const ExtensionReport& e = *d.extension;
   if (e.explained < kNothingExplained && !e.at_bound)
     return missing + ", and no cause in it explains any of the misfit.";
-  std::vector<std::string> names;
+  std::vector<std::string> names, groups;
   double share = 0.0;
   for (const CauseReport* c : e.ToldCauses()) {
     names.push_back(CauseText(c->cause));
+    groups.push_back(GroupText(d, *c, most));
     share += e.OfMisfit(c->share);
   }
   if (e.ToldProbability() >= kLikely && ActsBeside(e) && !e.at_bound)
-    return fmt::format("{}, beside {} (P {:.2f}), which explains {} of the misfit.", missing,
-                       FirstOf(names, most), e.ToldProbability(), ShareText(share));
+    return fmt::format("{}; {} (P {:.2f}) {} {} of the misfit.", missing, FirstOf(groups, most),
+                       e.ToldProbability(), groups.size() > 1 ? "explain" : "explains",
+                       ShareText(share));
   return fmt::format("{}; the best attempt, {}, {}.", missing, FirstOf(names, most),
                      e.at_bound ? "needs a size beyond what is physical"
                                 : "explains " + ShareText(e.explained) + " of the misfit");

@@ -122,6 +122,7 @@ class TrialColumns {
     bare.law = model_.problem.law;
     bare.shared = model_.problem.shared;
     bare.effects = model_.problem.effects;
+    bare.clocks = model_.problem.clocks;
     bare.channels = model_.problem.channels;
     bare.uses_contact = model_.problem.uses_contact;
     bare.noise = model_.problem.noise;

@@ -102,6 +102,10 @@ TEST_F(VerdictSentenceTest, SaysThatSomethingElseActsBesideALikelyCause) {
                                      "something not listed (P 0.80); "),
             0u)
       << VerdictSentence(d_);
+  // Within thirty words, also where the misfit is slight.
+  d_.detection.degrees_of_freedom = 10000;
+  d_.detection.chi2 = 10144.0;
+  EXPECT_LE(WordsOf(VerdictSentence(d_)), 30) << VerdictSentence(d_);
 }
 
 TEST_F(VerdictSentenceTest, NamesALikelyCauseBesideWhatIsNotListed) {
@@ -111,8 +115,8 @@ TEST_F(VerdictSentenceTest, NamesALikelyCauseBesideWhatIsNotListed) {
   d_.extension->causes.back().stands_in = true;
   d_.verdict = Verdict::kUnexplained;
   EXPECT_EQ(VerdictSentence(d_),
-            "Something is missing that the catalogue does not hold, beside air_drag (P 0.91), "
-            "which explains 83 % of the misfit.");
+            "Something is missing that the catalogue does not hold; air_drag (P 0.91) explains "
+            "83 % of the misfit.");
 }
 
 TEST_F(VerdictSentenceTest, NamesNoBestAttemptThatExplainsNothing) {

@@ -7,6 +7,7 @@
 #include "fitting/noise.h"
 #include "tests/support/hop_scenarios.h"
 #include "tests/support/input_error_of.h"
+#include "tests/support/robot_drops.h"
 
 namespace hoplab {
 namespace {
@@ -126,6 +127,19 @@ TEST(EstimateNoise, StancesInTheWindowsOfALowRateDoNotRaiseIt) {
     mean += estimate / kSeeds;
   }
   EXPECT_NEAR(mean, 1e-3, 0.05e-3);
+}
+
+// A pose that is early ends before the other channels do: rows stay, their pose is blank.
+TEST(Generate, ARowHasWhatItsChannelsHave) {
+  Scenario s = testing::RobotDrops();
+  const Dataset plain = GenerateDataset(s, {}).dataset;
+  s.effects = {{"pose_delay", {{"tau", -0.02}}}};
+  const Dataset early = GenerateDataset(s, {}).dataset;
+  const Trace &all = plain.trials[0].trace, &some = early.trials[0].trace;
+  EXPECT_EQ(some.time_s, all.time_s);
+  EXPECT_TRUE(std::isnan(some.Find(Channel::kBodyX)->back()));
+  EXPECT_TRUE(std::isfinite(some.Find(Channel::kLegAngle1)->back()));
+  EXPECT_TRUE(std::isfinite(*(some.Find(Channel::kBodyX)->end() - 15)));
 }
 
 }  // namespace

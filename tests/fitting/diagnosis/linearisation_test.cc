@@ -244,5 +244,18 @@ TEST(RowLabels, TellSamplesContactTimesAndPriorsApart) {
   EXPECT_EQ(priors, 4 * static_cast<long>(fit.train.size()));
 }
 
+// A camera's clock, known to 3 ms, that is 1.3 of them off: nothing else is wrong.
+TEST(Linearisation, KnowsTheClocksOfTheChannels) {
+  Dataset hops = testing::DatasetOf({});
+  hops.clocks = {{"camera", 0.004, 0.003}};
+  hops.channels[1].clock = "camera";
+  DiagnosisOptions options;
+  options.fit.jobs = 1;
+  options.candidates.only = {"air_drag", "sensor_delay"};
+  const Diagnosis d = Diagnose(hops, options);
+  EXPECT_EQ(d.refusal, "");
+  EXPECT_EQ(d.verdict, Verdict::kAdequate) << d.reason;
+}
+
 }  // namespace
 }  // namespace hoplab

@@ -43,10 +43,10 @@ const Fault kFaults[] = {
     {"a marker 8 mm above where it was said to be", "marker_offset", "dy", 0.008},
     {"the body's pose 4 ms late", "pose_delay", "tau", 0.004},
     {"pitch read 3 % too large", "sensor_scale_pitch", "gain", 0.03},
-    {"x read 1 % too large", "sensor_scale_x", "gain", 0.01},
+    {"x read 3 % too large", "sensor_scale_x", "gain", 0.03},
     {"y read 1 % too large", "sensor_scale_y", "gain", 0.01},
     {"a clock 0.5 % fast", "clock_scale", "gamma_t", 0.005},
-    {"a camera that hangs 10 mrad askew", "camera_roll", "roll", 0.01},
+    {"a camera that hangs 20 mrad askew", "camera_roll", "roll", 0.02},
 };
 
 std::string NameFor(const Fault& fault, int seed) {
@@ -145,7 +145,7 @@ TEST(RobotStatistics, NamesWhatIsWrongAndWhichLeg) {
   EXPECT_TRUE(IsAtMost(wrong_leg, all, 0.02));
 }
 
-// What was said of a robot with two things wrong, the second on the other leg where it is of one.
+// What was said of a robot with two things wrong, of the same leg where both are of one.
 struct PairAnswer {
   std::string planted, said;
   int named = 0;  // of the two
