@@ -50,13 +50,11 @@ bool HasNoGuide(const FitProblem& problem, const Effect& effect) {
                       [](const TrialProblem& t) { return t.parameters.on_guide; });
 }
 
-// Where all that is compared is the pose, one that is late is a recording that is late.
+// Beside no other channel, a pose that is late is a recording that is late.
 bool IsDelayOfAll(const FitProblem& problem, const Effect& effect) {
   return effect.hooks0.change_pose_time != nullptr &&
-         (std::none_of(problem.channels.begin(), problem.channels.end(),
-                       [](const ChannelProblem& c) { return IsPose(c.channel); }) ||
-          std::all_of(problem.channels.begin(), problem.channels.end(),
-                      [](const ChannelProblem& c) { return IsPose(c.channel); }));
+         std::all_of(problem.channels.begin(), problem.channels.end(),
+                     [](const ChannelProblem& c) { return IsPose(c.channel); });
 }
 
 // On one leg what is of that leg alone is what is of all of them.

@@ -21,8 +21,7 @@ constexpr std::size_t kScoreWidth = 4;
 // Nats a further cause must promise by the linear model to be tried.
 constexpr double kWorthATry = 4.0;
 // It must promise this share of the misfit beyond noise, or this in nats a sample (a fiftieth of
-// the noise's square). What explains less than both is a detail of the model, which the discrepancy
-// stands for.
+// the noise's square). The discrepancy stands for what explains less than both.
 constexpr double kLeastShare = 1e-3, kLeastPerSample = 0.01;
 // A set that leaves this share of the misfit beyond noise may be one of stand-ins, and slow causes
 // are sought; so many causes join it at once. (With 2 % for the slow ones stand-ins took the place

@@ -45,6 +45,24 @@ TEST(Candidates, OfAFreeBallHoldNoFrictionOfAGuide) {
   EXPECT_EQ(guides({}), 2);
 }
 
+// A pose that is late is a recording that is late, but for channels that are not the pose.
+TEST(Candidates, OfAPoseAloneHaveOneDelay) {
+  FitProblem robot;
+  robot.law = Law::kRobot;
+  robot.trials.resize(1);
+  robot.trials[0].parameters.robot = RobotParameters<double>();
+  robot.trials[0].parameters.robot->legs = 2;
+  robot.channels = {{Channel::kBodyX, 1e-3, false}, {Channel::kBodyPitch, 1e-3, false}};
+  const auto has_delay = [&](const CandidateOptions& options) {
+    const std::vector<std::string> names = NamesOf(CandidatesOf(robot, options));
+    return std::find(names.begin(), names.end(), "pose_delay") != names.end();
+  };
+  EXPECT_FALSE(has_delay({}));
+  EXPECT_TRUE(has_delay({.only = {"pose_delay"}}));
+  robot.channels.push_back({Channel::kLegAngle1, 1e-3, false});
+  EXPECT_TRUE(has_delay({}));
+}
+
 // On one leg what rubs in its hip is what rubs in every hip; on two it is not.
 TEST(Candidates, OfARobotOnOneLegAreNotNamedTwice) {
   FitProblem robot;

@@ -163,7 +163,6 @@ PairAnswer PairAnswerOf(int drawn) {
   PairAnswer answer;
   const std::string names[] = {NameFor(first, drawn), NameFor(*second, drawn)};
   answer.planted = names[0] + " and " + names[1];
-  SCOPED_TRACE(answer.planted);
   DiagnosisOptions options;
   options.fit.jobs = 1;
   const Diagnosis d = Diagnose(RobotWith({&first, second}, drawn), options);
