@@ -22,6 +22,12 @@ constexpr double kSmallestUsualAngle_deg = 1.6;
 // The median over a trace that moves quickly overrates the noise by a factor of a few, and filtered
 // or rounded recordings have less of it than their error.
 constexpr double kSigmaFactor = 20;
+// How a trace begins is told by this much of it, and by so many samples at least; a stated velocity
+// is far from it by so much, and by that share of it.
+constexpr double kBeginning_s = 0.05;
+constexpr std::size_t kFewest = 8;
+constexpr double kVelocity_m_per_s = 0.5;
+constexpr double kVelocityShare = 0.5;
 // Relative to the size of a column, what differences of doubles leave of a smooth one.
 constexpr double kRounding = 1e-9;
 
@@ -38,6 +44,15 @@ double Quantile(std::vector<double> values, double fraction) {
                   static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
+}
+
+// Of the straight line through points, by the median of all pairs half of them apart.
+double MedianSlope(const std::vector<double>& t, const std::vector<double>& y) {
+  std::vector<double> slopes;
+  const std::size_t apart = t.size() / 2;
+  for (std::size_t i = 0; i + apart < t.size(); ++i)
+    slopes.push_back((y[i + apart] - y[i]) / (t[i + apart] - t[i]));
+  return Quantile(slopes, 0.5);
 }
 
 std::string Rounded(double value) {
@@ -177,6 +192,40 @@ class Inspector {
                                  ", below the touch-down height of " + Rounded(height_m) +
                                  " m; the first row must lie in flight");
     }
+    const double ratio = FallRatio(trial);
+    if (!trial.initial || (std::isfinite(ratio) && !IsNear(ratio, 1))) return;
+    const double vx = trial.initial->vx_m_per_s, vy = trial.initial->vy_m_per_s;
+    InspectVelocity(trial, Channel::kBodyX, {"initial.vx_m_per_s", vx, 0.0});
+    InspectVelocity(trial, Channel::kBodyY,
+                    {"initial.vy_m_per_s", vy, -trial.mechanism.gravity_m_per_s2});
+  }
+
+  struct StatedVelocity {
+    const char* key;
+    double value;         // m/s
+    double acceleration;  // in flight [m/s^2]
+  };
+  // A start that is stated far from how the trace begins: an axis that points the other way, a
+  // velocity in other units.
+  void InspectVelocity(const Trial& trial, Channel id, const StatedVelocity& stated) {
+    const std::vector<double>* column = trial.trace.Find(id);
+    if (column == nullptr || !std::isfinite(stated.value)) return;
+    const std::vector<double>& times = trial.trace.time_s;
+    std::vector<double> t, y;
+    for (std::size_t i = 0; i < times.size() && times[i] - times[0] <= kBeginning_s; ++i) {
+      if (!std::isfinite((*column)[i])) continue;
+      const double since = times[i] - times[0];
+      t.push_back(since);
+      y.push_back((*column)[i] - 0.5 * stated.acceleration * since * since);
+    }
+    if (t.size() < kFewest) return;
+    const double begins = MedianSlope(t, y), off = std::abs(begins - stated.value);
+    if (off < kVelocity_m_per_s || off < kVelocityShare * std::abs(begins)) return;
+    if (std::all_of(column->begin(), column->end(), [&](double v) { return v == (*column)[0]; }))
+      return;
+    Warn(trial.origin.place, std::string(stated.key) + " = " + Rounded(stated.value) + ", but " +
+                                 ChannelName(id) + " begins at " + Rounded(begins) +
+                                 " m/s; check the direction of the axis and the units");
   }
 
   void InspectColumn(const Trial& trial, Channel id) {

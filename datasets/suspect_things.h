@@ -9,8 +9,8 @@ namespace hoplab {
 
 /// Sentences about what is legal in a dataset but probably not meant, each beginning with its
 /// place: times in milliseconds, heights in millimetres, an angle in radians, a constant or single
-/// sample, a start that is not in flight, a sigma far from the noise of the trace, no test trial.
-/// Empty for a dataset without such things.
+/// sample, a start that is not in flight or moves otherwise than the trace begins, a sigma far from
+/// the noise of the trace, no test trial. Empty for a dataset without such things.
 std::vector<std::string> SuspectThings(const Dataset& dataset);
 
 /// Why no hop of the dataset can be followed, with the remedy; empty if that is not so: every

@@ -194,7 +194,15 @@ std::vector<std::string> FitProblem::shared_names() const {
 }
 
 FitProblem MakeProblem(const Dataset& dataset, const ProblemOptions& options) {
-  return Builder(dataset, options).Build();
+  std::vector<TraceFault> faults = FindTraceFaults(dataset);
+  FitProblem problem = options.keep_stray || faults.empty()
+                           ? Builder(dataset, options).Build()
+                           : Builder(WithoutFaults(dataset, faults), options).Build();
+  const std::vector<std::string> sentences = FaultSentences(dataset, faults, options.keep_stray);
+  problem.notes.insert(problem.notes.begin(), sentences.begin(), sentences.end());
+  problem.trace_faults = std::move(faults);
+  problem.keeps_stray = options.keep_stray;
+  return problem;
 }
 
 Eigen::VectorXd InitialShared(const FitProblem& problem) {

@@ -10,6 +10,7 @@
 #include "datasets/dataset.h"
 #include "fitting/discrepancy/noise_model.h"
 #include "fitting/known.h"
+#include "fitting/trace_faults.h"
 #include "model/simulate.h"
 
 namespace hoplab {
@@ -122,6 +123,8 @@ struct FitProblem {
   NoiseModel noise;  // white until it is estimated
   IntegratorOptions integrator;
   std::vector<std::string> notes;  // what was decided on the way, for the reader
+  std::vector<TraceFault> trace_faults;  // of the dataset, whose trials and rows they count
+  bool keeps_stray = false;              // stray and held samples of these are compared
 
   /// Whether the leg has a mass at its toe in any trial.
   LegMass leg_mass() const;
@@ -141,6 +144,8 @@ struct ProblemOptions {
   std::vector<std::string> with_effects;  // their parameters are freed
   /// A robot's legs share one modulus unless a leg is told apart by name. Else each has its own.
   bool legs_alike = false;
+  /// Samples that no body can have made (TraceFault) are compared like the others.
+  bool keep_stray = false;
   IntegratorOptions integrator;
 };
 

@@ -119,6 +119,7 @@ ProblemOptions ProblemOptionsOf(const py::dict& options) {
   out.free = Option<std::vector<std::string>>(options, "free");
   out.fix = Option<std::map<std::string, double>>(options, "fix");
   out.with_effects = Option<std::vector<std::string>>(options, "with_");
+  out.keep_stray = Option<bool>(options, "keep_stray");
   out.integrator = IntegratorOf(options);
   return out;
 }

@@ -36,6 +36,7 @@ Json CheckRecord(const Dataset& dataset, const CheckSettings& settings, const Ch
   Json record = NewRecord(header);
   record["warnings"] = check.warnings;
   record["notes"] = check.notes;
+  record["trace_faults"] = TraceFaultsRecord(problem, dataset);
   record["known"] = KnownRecord(problem);
   if (!problem.formulas.empty()) record["formulas"] = FormulasRecord(problem);
   record["trials"] = Json::array();

@@ -13,6 +13,7 @@
 #include "app/records/record_parts.h"
 #include "app/records/trial_design_record.h"
 #include "app/records/trial_tables.h"
+#include "datasets/suspect_things.h"
 
 namespace hoplab {
 namespace {
@@ -243,6 +244,8 @@ Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument
       FittedMechanismRecord({&d.problem, &d.null.shared, &d.before.trials, "before"});
   RecordSpan(d.by_hop, d.until, record);
   record["whole_trials"] = WholeTrialsRecord(d);
+  record["trace_faults"] = TraceFaultsRecord(d.problem, dataset);
+  record["warnings"] = SuspectThings(dataset);
   record["notes"] = d.notes;
   record["interrupted"] = d.interrupted;
   record["tools"] = ToolsRecord();

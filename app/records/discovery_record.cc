@@ -151,6 +151,7 @@ Json DiscoveryRecord(const Dataset& dataset, const std::string& dataset_argument
       d.base.before.trials.empty() ? Json(nullptr) : HeldOutRecord(d.base.problem, d.base.before);
   record["test_after"] = extended ? HeldOutRecord(d.naming.best.problem, d.after) : Json(nullptr);
   record["channels"] = ChannelsRecord(d.base.problem);
+  record["trace_faults"] = TraceFaultsRecord(d.base.problem, dataset);
   record["known"] = KnownRecord(d.base.problem);
   record["refits"] = d.naming.refits;
   RecordSpan(d.base.by_hop, d.base.until, record);

@@ -117,6 +117,7 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
   AddUncertainty(run, record);
   record["profiles"] = ProfilesRecord(run);
   record["channels"] = ChannelsRecord(run.problem);
+  record["trace_faults"] = TraceFaultsRecord(run.problem, dataset);
   record["known"] = KnownRecord(run.problem);
   if (!run.problem.formulas.empty()) record["formulas"] = FormulasRecord(run.problem);
   record["sentences"] = FitSentences(run);

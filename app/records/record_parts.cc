@@ -160,6 +160,23 @@ Json ChannelsRecord(const FitProblem& problem) {
   return out;
 }
 
+Json TraceFaultsRecord(const FitProblem& problem, const Dataset& dataset) {
+  Json out = Json::array();
+  for (const TraceFault& fault : problem.trace_faults) {
+    const Trial& trial = dataset.trials[fault.trial];
+    Json times = Json::array();
+    for (const std::size_t row : fault.rows) times.push_back(trial.trace.time_s[row]);
+    out.push_back({{"kind", NameOf(fault.kind)},
+                   {"file", trial.file},
+                   {"channel", ChannelName(fault.channel)},
+                   {"unit", ChannelUnit(fault.channel)},
+                   {"times_s", std::move(times)},
+                   {"largest", fault.largest},
+                   {"compared", problem.keeps_stray}});
+  }
+  return out;
+}
+
 Json KnownRecord(const FitProblem& problem) {
   Json out = Json::array();
   for (const KnownParameter& known : problem.known.parameters()) {
@@ -221,6 +238,7 @@ Json OptionsRecord(const FitProblem& problem, const FitConfiguration& configurat
           {"free", problem.shared_names()},
           {"fix", fix},
           {"with", configuration.problem_options->with_effects},
+          {"keep_stray", configuration.problem_options->keep_stray},
           {"starts", fit.restarts},
           {"seed", fit.seed},
           {"strategy", NameOf(fit.strategy)},

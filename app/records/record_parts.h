@@ -50,6 +50,9 @@ Json ChannelsRecord(const FitProblem& problem);
 /// What the set-up rules out or bounds, one entry a parameter: [{"effect", "parameter", "unit",
 /// "at_most"}]; at_most 0: it is not there.
 Json KnownRecord(const FitProblem& problem);
+/// What the traces show that no body does: [{"kind" ("stray", "held", "jump"), "file", "channel",
+/// "unit", "times_s", "largest", "compared"}].
+Json TraceFaultsRecord(const FitProblem& problem, const Dataset& dataset);
 /// Effects that are formulas, those simulated and those tried: [{"name", "acts_as", "symbol",
 /// "unit", "formula", "mathml", "sentence", "parameters"}].
 Json FormulasRecord(const FitProblem& problem);

@@ -10,7 +10,9 @@
 #include "app/terminal/quantity.h"
 #include "app/terminal/report_text.h"
 #include "app/terminal/text_table.h"
+#include "app/terminal/warnings.h"
 #include "base/text.h"
+#include "datasets/suspect_things.h"
 
 namespace hoplab {
 namespace {
@@ -93,6 +95,16 @@ std::string ErrorLine(const FitRun& run, const RoleErrors& errors) {
   return parts.empty() ? "contact times only" : Join(parts);
 }
 
+std::string NoteLines(const Dataset& dataset, const FitRun& run, bool colours) {
+  std::string text;
+  for (const std::string& fault :
+       FaultSentences(dataset, run.problem.trace_faults, run.problem.keeps_stray))
+    text += Labelled("note", fault, colours);
+  if (!run.note.empty()) text += Labelled("note", run.note, colours);
+  for (const std::string& remark : TrialRemarks(run)) text += Labelled("note", remark, colours);
+  return text + WarningLines(SuspectThings(dataset), colours);
+}
+
 }  // namespace
 
 std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
@@ -113,9 +125,7 @@ std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
     text += Labelled(
         "no result",
         "the search stopped at " + Join(stops) + ", which is no minimum and no estimate", colours);
-    if (!run.note.empty()) text += Labelled("note", run.note, colours);
-    for (const std::string& remark : TrialRemarks(run)) text += Labelled("note", remark, colours);
-    return text;
+    return text + NoteLines(dataset, run, colours);
   }
   if (const std::string caveat = run.Caveat(); !caveat.empty())
     text += Labelled("not whole", caveat, colours);
@@ -145,8 +155,7 @@ std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
   }
   if (const std::string known = run.problem.known.Text(); !known.empty())
     text += Labelled("known", known, colours);
-  if (!run.note.empty()) text += Labelled("note", run.note, colours);
-  for (const std::string& remark : TrialRemarks(run)) text += Labelled("note", remark, colours);
+  text += NoteLines(dataset, run, colours);
   return text;
 }
 

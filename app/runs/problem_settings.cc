@@ -25,6 +25,8 @@ void AddProblemOptions(CLI::App& sub, ProblemSettings& settings) {
       ->delimiter(',')
       ->option_text("EFFECT,...")
       ->allow_extra_args(false);
+  sub.add_flag("--keep-stray", settings.keep_stray,
+               "Compare samples, too, that lie off the motion before and after them");
   AddSolverOptions(sub, settings.solver);
   AddJobsOption(sub, settings.jobs);
 }
@@ -58,6 +60,7 @@ ProblemOptions ProblemOptionsOf(const ProblemSettings& settings) {
   options.law = settings.law;
   options.free = settings.free;
   options.with_effects = settings.with;
+  options.keep_stray = settings.keep_stray;
   options.integrator = IntegratorOptionsOf(settings.solver);
   options.fix = ParseAssignments(settings.fix, "--fix");
   return options;

@@ -15,6 +15,7 @@ struct ProblemSettings {
   std::string dataset;
   std::string law;
   std::vector<std::string> free, fix, with;
+  bool keep_stray = false;
   SolverSettings solver;
   int jobs = 0;  // 0: all cores
 };

@@ -52,12 +52,13 @@ def jobs_of(jobs):
     return index(jobs) if jobs is not None else os.cpu_count() or 1
 
 
-def problem_options(law, free, fix, with_, integrator, tolerance):
+def problem_options(law, free, fix, with_, keep_stray, integrator, tolerance):
     return {
         "law": law or "",
         "free": words(free),
         "fix": numbers(fix),
         "with_": words(with_),
+        "keep_stray": bool(keep_stray),
         "integrator": integrator,
         "tolerance": float(tolerance),
     }

@@ -103,6 +103,7 @@ def diagnose(
     free=(),
     fix=None,
     with_=(),
+    keep_stray=False,
     effects=(),
     without=(),
     max_effects=5,
@@ -118,7 +119,7 @@ def diagnose(
 
     Parameters
     ----------
-    dataset, law, free, fix, with_, span, discrepancy, jobs, integrator
+    dataset, law, free, fix, with_, keep_stray, span, discrepancy, jobs, integrator
         As in `fit`.
     tolerance : float, optional
         Relative tolerance of a step: hundreds of models are tried.
@@ -145,7 +146,7 @@ def diagnose(
         On Ctrl-C, once the step under way is over.
     """
     began = time.perf_counter()
-    options = problem_options(law, free, fix, with_, integrator, tolerance)
+    options = problem_options(law, free, fix, with_, keep_stray, integrator, tolerance)
     options |= search_options(starts, seed, "apex_shooting", span, "squared", 2.0, discrepancy, jobs)
     options |= {"effects": words(effects), "without": words(without)}
     options["max_effects"] = index(max_effects)

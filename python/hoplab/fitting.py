@@ -171,6 +171,7 @@ def fit(
     free=(),
     fix=None,
     with_=(),
+    keep_stray=False,
     starts=1,
     seed=1,
     strategy="apex_shooting",
@@ -199,6 +200,8 @@ def fit(
         Parameters to hold, with their values in SI units.
     with_ : sequence of str, optional
         Effects whose parameters are fitted, too.
+    keep_stray : bool, optional
+        Whether samples that lie off the motion before and after them are compared like the others.
     starts : int, optional
         Searches: one from the nominal values, then scattered ones.
     seed : int, optional
@@ -232,7 +235,7 @@ def fit(
         On Ctrl-C, once the iteration under way is over.
     """
     began = time.perf_counter()
-    options = problem_options(law, free, fix, with_, integrator, tolerance)
+    options = problem_options(law, free, fix, with_, keep_stray, integrator, tolerance)
     options |= search_options(starts, seed, strategy, span, loss, loss_scale, discrepancy, jobs)
     options["profile"] = words(profile)
     result = _core.fit(dataset_source(dataset), options)

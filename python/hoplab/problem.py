@@ -42,7 +42,7 @@ class Problem:
 
     Parameters
     ----------
-    dataset, law, free, fix, with_, jobs, integrator, tolerance
+    dataset, law, free, fix, with_, keep_stray, jobs, integrator, tolerance
         As in `hoplab.fit`.
 
     Attributes
@@ -71,11 +71,12 @@ class Problem:
         free=(),
         fix=None,
         with_=(),
+        keep_stray=False,
         jobs=None,
         integrator="dop853",
         tolerance=1e-9,
     ):
-        options = problem_options(law, free, fix, with_, integrator, tolerance)
+        options = problem_options(law, free, fix, with_, keep_stray, integrator, tolerance)
         self._problem = _core.TrainProblem(
             dataset_source(dataset), options | {"jobs": jobs_of(jobs)}
         )

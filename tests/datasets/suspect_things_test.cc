@@ -150,6 +150,27 @@ TEST(SuspectThings, AnAngleOfZeroIsNoRadian) {
   EXPECT_EQ(SuspectThings(dataset), Warnings{});
 }
 
+TEST(SuspectThings, SeesAStartThatMovesTheOtherWay) {
+  Dataset dataset = Bouncing();
+  for (double& x : dataset.trials[1].trace.columns[0].values) x = -x;
+  const Warnings warnings = SuspectThings(dataset);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].rfind("hops/dataset.yaml:17: initial.vx_m_per_s = 1, but body_x_m begins "
+                              "at -",
+                              0),
+            0U)
+      << warnings[0];
+}
+
+TEST(SuspectThings, SeesAStartThatIsThrownUpOtherwise) {
+  Dataset dataset = Bouncing();
+  dataset.trials[0].initial->vy_m_per_s = 2;
+  const Warnings warnings = SuspectThings(dataset);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].rfind("hops/dataset.yaml:13: initial.vy_m_per_s = 2, but body_y_m", 0), 0U)
+      << warnings[0];
+}
+
 TEST(SuspectThings, SeesASigmaFarAboveTheNoise) {
   Dataset dataset = Bouncing();
   dataset.channels[0].sigma = 0.5;

@@ -1,0 +1,326 @@
+#include "fitting/stray_samples.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "datasets/suspect_things.h"
+
+namespace hoplab {
+namespace {
+
+constexpr std::size_t kBeside = 3;    // samples on either side that say how the body moves
+constexpr std::size_t kOther = 6;     // where one side is looked at alone
+constexpr std::size_t kLongest = 10;  // stray samples in a row
+constexpr double kStray = 6.0, kJump = 10.0, kSmooth = 3.0;  // standard deviations
+constexpr double kOneSide = 4.0;    // likewise, of the motion on one side alone
+constexpr double kSeen = 0.6;       // of a trace, what must be smooth from sample to sample
+constexpr double kEdge = 0.5;       // of a distance, what has to come about within one sample
+constexpr double kWayBack = 0.1;    // of a jump, by which the way back may differ
+constexpr double kByChance = 1e-3;  // of equal samples in a whole column
+constexpr double kAlike = 1e-3;     // two steps of one grid, of a step
+constexpr double kOften = 0.05;     // of all steps, those of one grid
+constexpr double kFinest = 1e-12;   // decimals
+constexpr double kSteps = 8.0;      // of its digits, that a body has moved on while it was held
+
+// A parabola through a few samples, with a step at one of them or without.
+class LocalMotion {
+ public:
+  // `step`: place in `at` from which on the step counts; 0: none.
+  LocalMotion(const Samples& samples, const std::vector<std::size_t>& at, std::size_t step = 0)
+      : middle_(samples.t[at[at.size() / 2]]),
+        width_(samples.t[at.back()] - samples.t[at.front()]) {
+    const Eigen::Index n = static_cast<Eigen::Index>(at.size()), k = step > 0 ? 4 : 3;
+    Matrix A(n, k);
+    Vector y(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      A.row(i).head(3) = Powers(samples.t[at[i]]);
+      if (step > 0) A(i, 3) = i >= static_cast<Eigen::Index>(step) ? 1.0 : 0.0;
+      y[i] = samples.y[at[i]];
+    }
+    const Eigen::HouseholderQR<Matrix> qr(A);
+    motion_ = qr.solve(y);
+    spread_ = n > k ? (y - A * motion_).norm() / std::sqrt(static_cast<double>(n - k)) : 0.0;
+    cofactors_ = (A.transpose() * A).inverse();
+  }
+  // Standard deviation of the samples about it.
+  double spread() const { return spread_; }
+  double At(double t) const { return Powers(t).dot(motion_.head(3)); }
+  // Of a sample's distance from it, over that of a sample.
+  double Doubt(double t) const {
+    const Eigen::RowVector3d powers = Powers(t);
+    return std::sqrt(1.0 + powers.dot(cofactors_.topLeftCorner(3, 3) * powers.transpose()));
+  }
+  double step() const { return motion_[3]; }
+  double StepDoubt() const { return std::sqrt(cofactors_(3, 3)); }
+
+ private:
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kBeside + 2, 4>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kBeside + 2, 1>;
+  Eigen::RowVector3d Powers(double t) const {
+    const double u = (t - middle_) / width_;
+    return {1.0, u, u * u};
+  }
+
+  double middle_, width_, spread_ = 0.0;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1> motion_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> cofactors_;
+};
+
+class Column {
+ public:
+  // `least`: what lies off by less is of no interest.
+  Column(const Samples& samples, double sigma, double least)
+      : s_(samples), sigma_(sigma), least_(least), stray_(s_.size(), false) {}
+
+  // Stray ones are seen once those beside them are known, too.
+  void FindStray() {
+    if (!IsSmooth()) return;
+    for (int pass = 0; pass < 3; ++pass) {
+      bool found = false;
+      for (std::size_t count = 1; count <= kLongest; ++count)
+        for (std::size_t first = kBeside; first + count + kBeside <= s_.size(); ++first)
+          found |= AreStray(first, count);
+      for (std::size_t i = kBeside; i-- > 0 && s_.size() > 2 * kBeside;) {
+        found |= IsStrayAtEnd(i, true);
+        found |= IsStrayAtEnd(s_.size() - 1 - i, false);
+      }
+      if (!found) return;
+    }
+  }
+
+  // Where the motion comes back by what it went, it was elsewhere for a while: stray.
+  void FindJumps() {
+    if (!IsSmooth()) return;
+    std::vector<Jump> jumps;
+    constexpr std::size_t kSide = kBeside + 1;
+    for (std::size_t i = 1; i < s_.size(); ++i) {
+      if (stray_[i] || stray_[i - 1] || HasGap(i - 1, i)) continue;
+      std::vector<std::size_t> before = Before(i, kSide), after = After(i - 1, kSide);
+      if (before.size() < kSide || after.size() < kSide) continue;
+      const double bound = kJump * sigma_;
+      if (!ComesAtOnce(i, before, bound) || !ComesAtOnce(i - 1, after, bound)) continue;
+      std::vector<std::size_t> at(before.rbegin(), before.rend());
+      at.insert(at.end(), after.begin(), after.end());
+      const LocalMotion motion(s_, at, kSide);
+      const double size = std::abs(motion.step());
+      if (motion.spread() > kSmooth * sigma_ || size < bound * motion.StepDoubt() ||
+          size < least_ || !ComesAtOnce(i, Before(i, kOther), size) ||
+          !ComesAtOnce(i - 1, After(i - 1, kOther), size))
+        continue;
+      jumps.push_back({s_.row[i], motion.step()});
+    }
+    for (std::size_t k = 0; k < jumps.size(); ++k) {
+      if (k + 1 < jumps.size() && IsWayBack(jumps[k].size, jumps[k + 1].size)) {
+        for (std::size_t i = 0; i < s_.size(); ++i)
+          if (s_.row[i] >= jumps[k].row && s_.row[i] < jumps[k + 1].row) SetStray(i, i, 0.0);
+        found_.largest_stray = std::max(found_.largest_stray, std::abs(jumps[k].size));
+        ++k;
+      } else {
+        found_.jumps.push_back(jumps[k].row);
+        found_.largest_jump = std::max(found_.largest_jump, std::abs(jumps[k].size));
+      }
+    }
+  }
+
+  OffMotion Found() const {
+    OffMotion found = found_;
+    for (std::size_t i = 0; i < s_.size(); ++i)
+      if (stray_[i]) found.stray.push_back(s_.row[i]);
+    return found;
+  }
+
+ private:
+  struct Jump {
+    std::size_t row;
+    double size;
+  };
+  bool IsWayBack(double there, double back) const {
+    return std::abs(there + back) <
+           std::max(kJump * sigma_, kWayBack * std::min(std::abs(there), std::abs(back)));
+  }
+
+  // `count` neighbours of a place that are not stray, going away from it.
+  std::vector<std::size_t> Before(std::size_t i, std::size_t count) const {
+    std::vector<std::size_t> at;
+    while (i-- > 0 && at.size() < count)
+      if (!stray_[i]) at.push_back(i);
+    return at;
+  }
+  std::vector<std::size_t> After(std::size_t i, std::size_t count) const {
+    std::vector<std::size_t> at;
+    while (++i < s_.size() && at.size() < count)
+      if (!stray_[i]) at.push_back(i);
+    return at;
+  }
+
+  // Whether the sample at place i, the next one, is off the motion on that side, which lies off it
+  // by `off` in all.
+  bool ComesAtOnce(std::size_t i, std::vector<std::size_t> side, double off) const {
+    std::sort(side.begin(), side.end());
+    const LocalMotion motion = MotionThrough(side);
+    const double here = std::abs(s_.y[i] - motion.At(s_.t[i]));
+    return here >= kEdge * off && here >= kOneSide * sigma_ * motion.Doubt(s_.t[i]);
+  }
+
+  // Whether the samples are so close that most of the motion is a parabola from each to the next.
+  bool IsSmooth() const {
+    std::size_t smooth = 0, all = 0;
+    for (std::size_t i = kBeside; i + kBeside < s_.size(); ++i) {
+      std::vector<std::size_t> at = Before(i, kBeside);
+      std::reverse(at.begin(), at.end());
+      for (const std::size_t j : After(i, kBeside)) at.push_back(j);
+      if (at.size() < 2 * kBeside) continue;
+      ++all;
+      if (MotionThrough(at).spread() <= kSmooth * sigma_) ++smooth;
+    }
+    return static_cast<double>(smooth) > kSeen * static_cast<double>(all);
+  }
+
+  bool AreStray(std::size_t first, std::size_t count) {
+    const std::size_t last = first + count - 1;
+    for (std::size_t i = first; i <= last; ++i)
+      if (stray_[i]) return false;
+    const std::vector<std::size_t> before = Before(first, kBeside), after = After(last, kBeside);
+    if (before.size() < kBeside || after.size() < kBeside || HasGap(before.back(), after.back()))
+      return false;
+    // Beside one that is stray already it has come about.
+    const auto begins = [&](double off) {
+      return stray_[first - 1] || ComesAtOnce(first, Before(first, kOther), off);
+    };
+    const auto ends = [&](double off) {
+      return stray_[last + 1] || ComesAtOnce(last, After(last, kOther), off);
+    };
+    if (!begins(kStray * sigma_) || !ends(kStray * sigma_)) return false;
+    std::vector<std::size_t> at(before.rbegin(), before.rend());
+    at.insert(at.end(), after.begin(), after.end());
+    const LocalMotion motion = MotionThrough(at);
+    double largest = 0.0;
+    for (std::size_t i = first; i <= last; ++i) {
+      const double off = std::abs(s_.y[i] - motion.At(s_.t[i]));
+      if (!IsFar(i, off, motion)) return false;
+      if ((i == first && !begins(off)) || (i == last && !ends(off))) return false;
+      largest = std::max(largest, off);
+    }
+    SetStray(first, last, largest);
+    return true;
+  }
+
+  // One of the first or the last, beside which the motion goes on to one side only.
+  bool IsStrayAtEnd(std::size_t i, bool at_begin) {
+    std::vector<std::size_t> at = at_begin ? After(i, kOther) : Before(i, kOther);
+    if (stray_[i] || at.size() < kOther || HasGap(at.front(), at.back())) return false;
+    if (!at_begin) std::reverse(at.begin(), at.end());
+    const LocalMotion motion = MotionThrough(at);
+    const double off = std::abs(s_.y[i] - motion.At(s_.t[i]));
+    if (!IsFar(i, off, motion)) return false;
+    SetStray(i, i, off);
+    return true;
+  }
+
+  bool IsFar(std::size_t i, double off, const LocalMotion& motion) const {
+    return motion.spread() <= kSmooth * sigma_ && off > least_ &&
+           off > kStray * sigma_ * motion.Doubt(s_.t[i]);
+  }
+  void SetStray(std::size_t first, std::size_t last, double off) {
+    for (std::size_t i = first; i <= last; ++i) stray_[i] = true;
+    found_.largest_stray = std::max(found_.largest_stray, off);
+  }
+  // Whether more than every other sample is missing from one place to another.
+  bool HasGap(std::size_t a, std::size_t b) const {
+    const auto [first, last] = std::minmax(a, b);
+    return s_.t[last] - s_.t[first] > 2.0 * static_cast<double>(last - first) * s_.step;
+  }
+
+  // Through all, or without the one that is worst, which may be stray, too.
+  LocalMotion MotionThrough(const std::vector<std::size_t>& at) const {
+    LocalMotion best(s_, at);
+    if (best.spread() <= kSmooth * sigma_ || at.size() <= kBeside + 1) return best;
+    for (std::size_t out = 0; out < at.size(); ++out) {
+      std::vector<std::size_t> others = at;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(out));
+      const LocalMotion motion(s_, others);
+      if (motion.spread() < best.spread()) best = motion;
+    }
+    return best;
+  }
+
+  const Samples& s_;
+  double sigma_, least_;
+  std::vector<bool> stray_;
+  OffMotion found_;  // but for the stray rows
+};
+
+// How far a body has gone from the sample before `first` to the end of the trace, at the speed it
+// had.
+double MovedUntilEnd(const Samples& s, std::size_t first) {
+  if (first < 3) return 0.0;
+  return std::abs((s.y[first - 1] - s.y[first - 3]) / (s.t[first - 1] - s.t[first - 3]) *
+                  (s.t.back() - s.t[first - 1]));
+}
+
+// How fine the values are: the grid of a sensor, where the least difference is met again and again,
+// or else that of their decimals.
+double Fineness(const std::vector<double>& values) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] != values[i - 1]) steps.push_back(std::abs(values[i] - values[i - 1]));
+  if (steps.empty()) return std::numeric_limits<double>::infinity();
+  const double least = *std::min_element(steps.begin(), steps.end());
+  const auto often = std::count_if(steps.begin(), steps.end(),
+                                   [&](double step) { return step < (1.0 + kAlike) * least; });
+  if (static_cast<double>(often) > kOften * static_cast<double>(steps.size())) return least;
+  for (double unit = 1.0; unit > kFinest; unit /= 10.0) {
+    const bool all = std::all_of(values.begin(), values.end(), [&](double value) {
+      return std::abs(value / unit - std::round(value / unit)) < kAlike;
+    });
+    if (all) return unit;
+  }
+  return kFinest;
+}
+
+}  // namespace
+
+Samples Samples::Without(const std::vector<bool>& left_out) const {
+  Samples rest;
+  rest.step = step;
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (left_out[i]) continue;
+    rest.t.push_back(t[i]);
+    rest.y.push_back(y[i]);
+    rest.row.push_back(row[i]);
+  }
+  return rest;
+}
+
+std::vector<bool> RepeatedSamples(const Samples& s) {
+  std::vector<bool> again(s.size(), false);
+  for (std::size_t i = 1; i < s.size(); ++i) again[i] = s.y[i] == s.y[i - 1];
+  const Samples fresh = s.Without(again);
+  const double sigma = HighFrequencyNoise(fresh.t, fresh.y), step = Fineness(s.y);
+  const double by_chance = sigma > 0.0 ? step / sigma : 1.0;
+  for (std::size_t first = 1; first < s.size(); ++first) {
+    if (!again[first]) continue;
+    std::size_t end = first;
+    while (end < s.size() && again[end]) ++end;
+    const double times =
+        static_cast<double>(s.size()) * std::pow(by_chance, static_cast<double>(end - first));
+    // A body at rest goes on from where it was.
+    const double moved = end < s.size() ? std::abs(s.y[end] - s.y[first]) : MovedUntilEnd(s, first);
+    if (!(by_chance < 1.0 && times < kByChance && moved > kSteps * step))
+      std::fill(again.begin() + static_cast<std::ptrdiff_t>(first),
+                again.begin() + static_cast<std::ptrdiff_t>(end), false);
+    first = end;
+  }
+  return again;
+}
+
+OffMotion FindOffMotion(const Samples& samples, double sigma, double least) {
+  Column column(samples, sigma, least);
+  column.FindStray();
+  column.FindJumps();
+  return column.Found();
+}
+
+}  // namespace hoplab

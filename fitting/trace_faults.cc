@@ -1,0 +1,195 @@
+#include "fitting/trace_faults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <string_view>
+
+#include "base/nan.h"
+#include "base/units.h"
+#include "datasets/suspect_things.h"
+#include "fitting/stray_samples.h"
+
+namespace hoplab {
+namespace {
+
+constexpr double kRounding = 1e-6;  // of a column's range: less is of no interest
+constexpr double kStated = 5.0;     // stated standard deviations, likewise
+
+// Bodies are slow. A hopper's leg is swung ahead at once, and a motor turns as quickly as noise.
+bool IsOfBody(Channel c) {
+  return c == Channel::kBodyX || c == Channel::kBodyY || c == Channel::kBodyPitch;
+}
+
+double MedianStep(const std::vector<double>& times) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+std::string Plain(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+void FindIn(const Trial& trial, std::size_t place, const ChannelSpec& channel,
+            std::vector<TraceFault>& faults) {
+  const std::vector<double>* values = trial.trace.Find(channel.id);
+  if (!values) return;
+  Samples s;
+  for (std::size_t row = 0; row < values->size(); ++row) {
+    if (std::isnan((*values)[row])) continue;
+    s.t.push_back(trial.trace.time_s[row]);
+    s.y.push_back((*values)[row]);
+    s.row.push_back(row);
+  }
+  if (s.size() < 2) return;
+  s.step = MedianStep(trial.trace.time_s);
+  const std::vector<bool> again = RepeatedSamples(s);
+  TraceFault held{TraceFault::Kind::kHeld, place, channel.id, {}, 0.0};
+  double from = s.y[0];
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    if (again[i]) held.rows.push_back(s.row[i]);
+    if (again[i - 1] && !again[i]) held.largest = std::max(held.largest, std::abs(s.y[i] - from));
+    from = s.y[i];
+  }
+  if (!held.rows.empty()) faults.push_back(held);
+
+  const Samples rest = s.Without(again);
+  const double sigma = HighFrequencyNoise(rest.t, rest.y);
+  if (!(sigma > 0.0)) return;
+  const auto [low, high] = std::minmax_element(rest.y.begin(), rest.y.end());
+  const double least = std::max(kRounding * (*high - *low), kStated * channel.sigma.value_or(0.0));
+  const OffMotion off = FindOffMotion(rest, sigma, least);
+  if (!off.stray.empty())
+    faults.push_back({TraceFault::Kind::kStray, place, channel.id, off.stray, off.largest_stray});
+  if (!off.jumps.empty())
+    faults.push_back({TraceFault::Kind::kJump, place, channel.id, off.jumps, off.largest_jump});
+}
+
+}  // namespace
+
+std::string_view NameOf(TraceFault::Kind kind) {
+  switch (kind) {
+    case TraceFault::Kind::kStray:
+      return "stray";
+    case TraceFault::Kind::kHeld:
+      return "held";
+    case TraceFault::Kind::kJump:
+      return "jump";
+  }
+  return "";
+}
+
+std::vector<TraceFault> FindTraceFaults(const Dataset& dataset) {
+  std::vector<TraceFault> faults;
+  for (const ChannelSpec& channel : dataset.channels) {
+    if (!IsOfBody(channel.id)) continue;
+    for (std::size_t k = 0; k < dataset.trials.size(); ++k)
+      FindIn(dataset.trials[k], k, channel, faults);
+  }
+  return faults;
+}
+
+Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults) {
+  for (const TraceFault& fault : faults) {
+    for (TraceColumn& column : dataset.trials[fault.trial].trace.columns) {
+      if (column.name != ChannelName(fault.channel)) continue;
+      if (fault.kind == TraceFault::Kind::kJump)
+        std::fill(column.values.begin() + static_cast<std::ptrdiff_t>(fault.rows[0]),
+                  column.values.end(), kNaN);
+      for (const std::size_t row : fault.rows) column.values[row] = kNaN;
+    }
+  }
+  return dataset;
+}
+
+namespace {
+
+// What a reader is told of one kind of fault in one channel.
+class Telling {
+ public:
+  Telling(const Dataset& dataset, const TraceFault& first, bool kept)
+      : trial_(dataset.trials[first.trial]), first_(first), kept_(kept) {}
+
+  bool Covers(const TraceFault& fault) const {
+    return fault.kind == first_.kind && fault.channel == first_.channel;
+  }
+  void Add(const TraceFault& fault) {
+    count_ += fault.rows.size();
+    ++trials_;
+    largest_ = std::max(largest_, fault.largest);
+  }
+
+  std::string Sentence() const {
+    const std::string name = ChannelName(first_.channel);
+    const bool one = count_ == 1;
+    const std::string samples = std::to_string(count_) + (one ? " sample of " : " samples of ") +
+                                name + Many() + (one ? ", in " : ", first in ") + Where() + ", ";
+    switch (first_.kind) {
+      case TraceFault::Kind::kStray:
+        return samples + (one ? "lies" : "lie") + " off the motion before and after by up to " +
+               Size() + Fate(one ? "it is" : "they are");
+      case TraceFault::Kind::kHeld:
+        return samples + (one ? "repeats" : "repeat") +
+               " the one before to the last digit, as where a sensor holds its value" +
+               Fate(one ? "it is" : "they are");
+      case TraceFault::Kind::kJump:
+        break;
+    }
+    return name + " jumps by " + Size() +
+           (one ? "" : " at most, " + std::to_string(count_) + " times") + Many() +
+           (one ? ", in " : ", first in ") + Where() + ", while the motion goes on" + Reason() +
+           Fate("what follows is");
+  }
+
+ private:
+  std::string Many() const {
+    return trials_ > 1 ? " in " + std::to_string(trials_) + " trials" : "";
+  }
+  std::string Where() const {
+    return trial_.file + " at " + Plain(trial_.trace.time_s[first_.rows[0]]) + " s";
+  }
+  std::string Size() const { return Plain(largest_) + " " + ChannelUnit(first_.channel); }
+  std::string Fate(const std::string& what) const {
+    return kept_ ? "" : "; " + what + " not compared";
+  }
+  std::string Reason() const {
+    constexpr double kTurn = 2.0 * kPi;
+    const bool angle = std::string_view(ChannelUnit(first_.channel)) == "rad";
+    if (angle && std::abs(largest_ - kTurn) < 0.01 * kTurn)
+      return ", by a whole turn: an angle must go on counting";
+    return angle ? "" : ", as where a camera or a marker is moved";
+  }
+
+  const Trial& trial_;
+  const TraceFault& first_;
+  bool kept_;
+  std::size_t count_ = 0, trials_ = 0;
+  double largest_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<std::string> FaultSentences(const Dataset& dataset,
+                                        const std::vector<TraceFault>& faults, bool kept) {
+  std::vector<Telling> tellings;
+  for (const TraceFault& fault : faults) {
+    auto telling = std::find_if(tellings.begin(), tellings.end(),
+                                [&](const Telling& t) { return t.Covers(fault); });
+    if (telling == tellings.end()) {
+      tellings.emplace_back(dataset, fault, kept);
+      telling = std::prev(tellings.end());
+    }
+    telling->Add(fault);
+  }
+  std::vector<std::string> sentences;
+  for (const Telling& telling : tellings) sentences.push_back(telling.Sentence());
+  return sentences;
+}
+
+}  // namespace hoplab

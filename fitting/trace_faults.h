@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "datasets/dataset.h"
+
+namespace hoplab {
+
+/// What a trace of the body's place or pitch shows that no body does, of one channel of one trial.
+struct TraceFault {
+  enum class Kind {
+    kStray,  // samples far off the motion on both of their sides, which is one smooth motion
+    kHeld,   // repeats of the sample before, where the noise makes equal samples impossible
+    kJump    // from these rows on the motion goes on smoothly, but from another place
+  };
+  Kind kind = Kind::kStray;
+  std::size_t trial = 0;
+  Channel channel = Channel::kBodyX;
+  std::vector<std::size_t> rows;  // of the trace, ascending
+  double largest = 0.0;           // the largest distance [the channel's unit]
+};
+/// "stray", "held" or "jump".
+std::string_view NameOf(TraceFault::Kind kind);
+
+/// All of them, by what is recorded alone: no law is asked. The motion beside a sample is a
+/// parabola through three samples on either side; where these are not within their noise of one, as
+/// about a blow, nothing is called stray. A stray sample is 6 standard deviations of the noise off,
+/// a jump 10; more than ten stray samples follow one another only between a jump and one back. The
+/// first and last three are held against six on the one side they have. The noise is that of
+/// HighFrequencyNoise: where it cannot be told, nothing is found.
+std::vector<TraceFault> FindTraceFaults(const Dataset& dataset);
+
+/// The dataset with stray and held samples missing, and of a channel that jumps all that follows:
+/// nobody knows where the body is from there on.
+Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults);
+
+/// A sentence for each channel and kind, for a reader: how many samples of which trials, and
+/// whether they are compared.
+std::vector<std::string> FaultSentences(const Dataset& dataset,
+                                        const std::vector<TraceFault>& faults, bool kept);
+
+}  // namespace hoplab

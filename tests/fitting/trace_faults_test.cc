@@ -1,0 +1,233 @@
+// What a trace shows that no body does, on paths in closed form: free flight, bounces, rest.
+
+#include "fitting/trace_faults.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <set>
+
+#include "base/random.h"
+#include "base/units.h"
+#include "datasets/read_dataset.h"
+#include "fitting/problem.h"
+#include "tests/support/fit_cases.h"
+
+namespace hoplab {
+namespace {
+
+using testing::SmallDataset;
+using Rows = std::vector<std::size_t>;
+using Kind = TraceFault::Kind;
+
+constexpr double kSigma = 0.0005;
+
+struct Path {
+  std::function<double(double)> height = [](double t) { return 0.3 + 1.5 * t - 4.905 * t * t; };
+  double sigma = kSigma;
+  std::size_t rows = 300;
+  double step = 0.002;
+  std::uint64_t seed = 1;
+};
+
+// One trial whose heights are those of the path, with noise.
+Dataset Recorded(const Path& path) {
+  Dataset dataset;
+  dataset.channels = {{Channel::kBodyY, kSigma, {}}};
+  RandomStream random(5, path.seed);
+  Trial trial;
+  trial.file = "drop.csv";
+  trial.trace.columns = {{"body_y_m", {}}};
+  for (std::size_t i = 0; i < path.rows; ++i) {
+    const double t = static_cast<double>(i) * path.step;
+    trial.trace.time_s.push_back(t);
+    trial.trace.columns[0].values.push_back(path.height(t) + path.sigma * random.Normal());
+  }
+  dataset.trials = {trial};
+  return dataset;
+}
+std::vector<double>& Heights(Dataset& dataset) { return dataset.trials[0].trace.columns[0].values; }
+
+// Meets the ground every 0.2 s at 1 m/s and leaves it as fast.
+double Bouncing(double t) {
+  const double since = std::fmod(t, 0.2);
+  return 0.5 * 9.81 * since * (0.2 - since);
+}
+// A leg of stiffness that carries from 0.1 to 0.2 s, without and with a force when it touches down.
+double Stance(double t, double blow) {
+  if (t < 0.1) return 0.2 - 1.5 * (t - 0.1) - 4.905 * (t - 0.1) * (t - 0.1);
+  const double w = kPi / 0.1, u = std::min(t, 0.2) - 0.1;
+  const double inside = 0.2 - 1.5 / w * std::sin(w * u) + blow * u * (0.1 - u);
+  return t < 0.2 ? inside : inside + 1.5 * (t - 0.2) - 4.905 * (t - 0.2) * (t - 0.2);
+}
+
+Rows RowsOf(const std::vector<TraceFault>& faults, Kind kind) {
+  for (const TraceFault& fault : faults)
+    if (fault.kind == kind) return fault.rows;
+  return {};
+}
+
+TEST(TraceFaults, AreNoneInAHundredHonestTraces) {
+  const std::vector<std::function<double(double)>> paths = {
+      Path().height, Bouncing, [](double t) { return Stance(t, 0.0); },
+      [](double t) { return Stance(t, 2.0); }};
+  for (std::uint64_t seed = 1; seed <= 25; ++seed)
+    for (const auto& height : paths)
+      for (const double step : {0.002, 0.008, 0.03})
+        EXPECT_TRUE(FindTraceFaults(Recorded({height, kSigma, 300, step, seed})).empty())
+            << "seed " << seed << " step " << step;
+}
+
+TEST(TraceFaults, AreNoneWhereNoNoiseIs) {
+  for (const double step : {0.0005, 0.002, 0.01}) {
+    EXPECT_TRUE(FindTraceFaults(Recorded({Bouncing, 0.0, 400, step})).empty());
+    EXPECT_TRUE(FindTraceFaults(Recorded({[](double t) { return Stance(t, 2.0); }, 0.0, 400, step}))
+                    .empty());
+  }
+}
+
+TEST(TraceFaults, AStraySampleIsFoundWhereverItLies) {
+  for (const std::size_t row : {0, 1, 2, 57, 99, 101, 150, 297, 298, 299}) {
+    Dataset dataset = Recorded({Bouncing});
+    Heights(dataset)[row] += 0.03;
+    const std::vector<TraceFault> faults = FindTraceFaults(dataset);
+    ASSERT_EQ(faults.size(), 1U) << row;
+    EXPECT_EQ(faults[0].kind, Kind::kStray);
+    EXPECT_EQ(faults[0].rows, Rows{row});
+    EXPECT_NEAR(faults[0].largest, 0.03, 0.004);
+  }
+}
+
+TEST(TraceFaults, ABlowIsNotTakenForAStraySample) {
+  // A ball that leaves the ground in another direction than it came, and one that is caught.
+  const auto wall = [](double t) { return t < 0.2 ? 3.0 * t : 0.6 - 2.0 * (t - 0.2); };
+  const auto caught = [](double t) { return t < 0.2 ? 3.0 * t : 0.6; };
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    EXPECT_TRUE(FindTraceFaults(Recorded({wall, kSigma, 300, 0.002, seed})).empty());
+    EXPECT_TRUE(FindTraceFaults(Recorded({caught, kSigma, 300, 0.002, seed})).empty());
+  }
+}
+
+TEST(TraceFaults, SamplesThatStrayOneBesideTheOtherAreAllFound) {
+  Dataset dataset = Recorded({});
+  const std::vector<double> off = {0.04, -0.02, 0.1, 0.05, -0.03, 0.02};
+  Rows expected;
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    Heights(dataset)[120 + i] += off[i];
+    expected.push_back(120 + i);
+  }
+  for (const std::size_t row : {200, 203}) {  // each in the neighbourhood of the other
+    Heights(dataset)[row] += 0.02;
+    expected.push_back(row);
+  }
+  EXPECT_EQ(RowsOf(FindTraceFaults(dataset), Kind::kStray), expected);
+}
+
+TEST(TraceFaults, AMarkerThatIsTakenForAnotherAndBackIsStray) {
+  Dataset dataset = Recorded({});
+  Rows expected;
+  for (std::size_t row = 80; row < 140; ++row) {
+    Heights(dataset)[row] += 0.05;
+    expected.push_back(row);
+  }
+  const std::vector<TraceFault> faults = FindTraceFaults(dataset);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].rows, expected);
+}
+
+TEST(TraceFaults, WhatJumpsIsMissingFromThereOn) {
+  Dataset dataset = Recorded({});
+  for (std::size_t row = 150; row < 300; ++row) Heights(dataset)[row] -= 0.01;
+  const std::vector<TraceFault> faults = FindTraceFaults(dataset);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, Kind::kJump);
+  EXPECT_EQ(faults[0].rows, Rows{150});
+  EXPECT_NEAR(faults[0].largest, 0.01, 0.003);
+  Dataset without = WithoutFaults(dataset, faults);
+  for (std::size_t row = 0; row < 300; ++row)
+    EXPECT_EQ(std::isnan(Heights(without)[row]), row >= 150) << row;
+  EXPECT_EQ(FaultSentences(dataset, faults, false),
+            std::vector<std::string>{
+                "body_y_m jumps by 0.00862 m, in drop.csv at 0.3 s, while the motion goes on, as "
+                "where a camera or a marker is moved; what follows is not compared"});
+}
+
+TEST(TraceFaults, ASensorThatHoldsItsValueIsFoundByItsDigits) {
+  Dataset dataset = Recorded({});
+  std::vector<double>& heights = Heights(dataset);
+  Rows expected;
+  for (std::size_t row = 60; row < 80; ++row) {
+    heights[row] = heights[59];
+    expected.push_back(row);
+  }
+  const std::vector<TraceFault> faults = FindTraceFaults(dataset);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, Kind::kHeld);
+  EXPECT_EQ(faults[0].rows, expected);
+}
+
+// 2 mm a step of the sensor: slow motion gives equal samples.
+TEST(TraceFaults, ACoarseSensorHoldsNothing) {
+  Dataset dataset = Recorded({});
+  for (double& height : Heights(dataset)) height = 0.002 * std::round(height / 0.002);
+  EXPECT_TRUE(FindTraceFaults(dataset).empty());
+}
+
+// Its samples are alike since nothing moves.
+TEST(TraceFaults, ABodyAtRestIsNotHeld) {
+  const auto released = [](double t) {
+    return t < 0.1 ? 1.0 : 1.0 - 4.905 * (t - 0.1) * (t - 0.1);
+  };
+  Dataset dataset = Recorded({released, 0.0});
+  EXPECT_TRUE(FindTraceFaults(dataset).empty());
+  dataset = Recorded({released});
+  for (double& height : Heights(dataset)) height = 0.002 * std::round(height / 0.002);
+  EXPECT_TRUE(FindTraceFaults(dataset).empty());
+}
+
+TEST(TraceFaults, AreToldOnceAChannelAndKind) {
+  Dataset dataset = Recorded({});
+  Heights(dataset)[50] += 0.02;
+  dataset.trials.push_back(Recorded({.seed = 2}).trials[0]);
+  dataset.trials[1].file = "other.csv";
+  for (const std::size_t row : {20, 90}) dataset.trials[1].trace.columns[0].values[row] -= 0.06;
+  const std::vector<TraceFault> faults = FindTraceFaults(dataset);
+  ASSERT_EQ(faults.size(), 2U);
+  EXPECT_EQ(FaultSentences(dataset, faults, false),
+            std::vector<std::string>{
+                "3 samples of body_y_m in 2 trials, first in drop.csv at 0.1 s, lie off the motion "
+                "before and after by up to 0.0607 m; they are not compared"});
+  EXPECT_EQ(FaultSentences(dataset, {faults[0]}, true),
+            std::vector<std::string>{"1 sample of body_y_m, in drop.csv at 0.1 s, lies off the "
+                                     "motion before and after by up to 0.0194 m"});
+}
+
+TEST(TraceFaults, AreNotComparedUnlessAskedFor) {
+  Dataset dataset = SmallDataset();
+  const long all = MakeProblem(dataset, {}).trials[0].sample_count;
+  for (TraceColumn& column : dataset.trials[0].trace.columns)
+    if (column.name == "body_y_m") column.values[40] += 0.05;
+  const FitProblem without = MakeProblem(dataset, {});
+  EXPECT_EQ(without.trials[0].sample_count, all - 1);
+  ASSERT_EQ(without.trace_faults.size(), 1U);
+  ASSERT_EQ(without.notes.size(), 1U);
+  ProblemOptions options;
+  options.keep_stray = true;
+  const FitProblem with = MakeProblem(dataset, options);
+  EXPECT_EQ(with.trials[0].sample_count, all);
+  EXPECT_EQ(with.trace_faults.size(), 1U);
+}
+
+TEST(TraceFaults, AreNoneInTheDatasetsThatComeAlong) {
+  for (const char* name : {"rig-drops", "rig-drops-undamped", "rig-controlled", "robot-drops",
+                           "robot-pronk", "robot-walk"})
+    EXPECT_TRUE(
+        FindTraceFaults(ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/" + name)).empty())
+        << name;
+}
+
+}  // namespace
+}  // namespace hoplab
