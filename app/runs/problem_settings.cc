@@ -21,12 +21,12 @@ void AddProblemOptions(CLI::App& sub, ProblemSettings& settings) {
       ->option_text("NAME=VALUE")
       ->allow_extra_args(false);
   sub.add_option("--with", settings.with,
-                 "Effects fitted too, by name or a formula's FILE.yaml; see hoplab effects")
+                 "Effects fitted too, by name or FILE.yaml of a formula")
       ->delimiter(',')
       ->option_text("EFFECT,...")
       ->allow_extra_args(false);
   sub.add_flag("--keep-stray", settings.keep_stray,
-               "Compare samples, too, that lie off the motion before and after them");
+               "Compare samples, too, that no body can have made");
   AddSolverOptions(sub, settings.solver);
   AddJobsOption(sub, settings.jobs);
 }
