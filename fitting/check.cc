@@ -5,6 +5,7 @@
 
 #include "datasets/suspect_things.h"
 #include "fitting/apex_segments.h"
+#include "fitting/turned_axes.h"
 
 namespace hoplab {
 namespace {
@@ -35,9 +36,16 @@ bool TouchesGround(const TrialProblem& trial, const Trajectory& trajectory) {
 
 }  // namespace
 
+std::vector<std::string> DataWarnings(const Dataset& dataset, const FitProblem& problem) {
+  std::vector<std::string> warnings = SuspectThings(dataset);
+  for (const std::string& turned : TurnedAxes(problem))
+    warnings.push_back(dataset.origin.place + ": " + turned + ".");
+  return warnings;
+}
+
 CheckReport CheckDataset(const Dataset& dataset, const FitProblem& problem, int jobs) {
   CheckReport report;
-  report.warnings = SuspectThings(dataset);
+  report.warnings = DataWarnings(dataset, problem);
   report.notes = problem.notes;
   const Eigen::VectorXd shared = InitialShared(problem);
   std::vector<TrialProblem> simulated;

@@ -33,6 +33,9 @@ struct CheckReport {
   std::optional<GradientCertificate> certificate;
 };
 
+/// What is legal but probably not meant: SuspectThings and TurnedAxes.
+std::vector<std::string> DataWarnings(const Dataset& dataset, const FitProblem& problem);
+
 CheckReport CheckDataset(const Dataset& dataset, const FitProblem& problem, int jobs);
 
 }  // namespace hoplab

@@ -15,6 +15,7 @@ constexpr std::size_t kOther = 6;     // where one side is looked at alone
 constexpr std::size_t kLongest = 10;  // stray samples in a row
 constexpr double kStray = 6.0, kJump = 10.0, kSmooth = 3.0;  // standard deviations
 constexpr double kOneSide = 4.0;    // likewise, of the motion on one side alone
+constexpr std::size_t kLooks = 4;   // every so many samples are asked whether they are
 constexpr double kSeen = 0.6;       // of a trace, what must be smooth from sample to sample
 constexpr double kEdge = 0.5;       // of a distance, what has to come about within one sample
 constexpr double kWayBack = 0.1;    // of a jump, by which the way back may differ
@@ -74,11 +75,25 @@ class Column {
   Column(const Samples& samples, double sigma, double least)
       : s_(samples), sigma_(sigma), least_(least), stray_(s_.size(), false) {}
 
+  // Whether the samples are so close that most of the motion is a parabola from each to the next.
+  bool IsSmooth() const {
+    std::size_t smooth = 0, all = 0;
+    for (std::size_t i = kBeside; i + kBeside < s_.size(); i += kLooks) {
+      std::vector<std::size_t> at = Before(i, kBeside);
+      std::reverse(at.begin(), at.end());
+      for (const std::size_t j : After(i, kBeside)) at.push_back(j);
+      if (at.size() < 2 * kBeside) continue;
+      ++all;
+      if (MotionThrough(at).spread() <= kSmooth * sigma_) ++smooth;
+    }
+    return static_cast<double>(smooth) > kSeen * static_cast<double>(all);
+  }
+
   // Stray ones are seen once those beside them are known, too.
   void FindStray() {
-    if (!IsSmooth()) return;
     for (int pass = 0; pass < 3; ++pass) {
       bool found = false;
+      FindEdges();
       for (std::size_t count = 1; count <= kLongest; ++count)
         for (std::size_t first = kBeside; first + count + kBeside <= s_.size(); ++first)
           found |= AreStray(first, count);
@@ -92,7 +107,6 @@ class Column {
 
   // Where the motion comes back by what it went, it was elsewhere for a while: stray.
   void FindJumps() {
-    if (!IsSmooth()) return;
     std::vector<Jump> jumps;
     constexpr std::size_t kSide = kBeside + 1;
     for (std::size_t i = 1; i < s_.size(); ++i) {
@@ -164,22 +178,19 @@ class Column {
     return here >= kEdge * off && here >= kOneSide * sigma_ * motion.Doubt(s_.t[i]);
   }
 
-  // Whether the samples are so close that most of the motion is a parabola from each to the next.
-  bool IsSmooth() const {
-    std::size_t smooth = 0, all = 0;
+  // Where strays may begin and end: what is not off the motion on that side is no stray's edge.
+  void FindEdges() {
+    begins_.assign(s_.size(), false);
+    ends_.assign(s_.size(), false);
     for (std::size_t i = kBeside; i + kBeside < s_.size(); ++i) {
-      std::vector<std::size_t> at = Before(i, kBeside);
-      std::reverse(at.begin(), at.end());
-      for (const std::size_t j : After(i, kBeside)) at.push_back(j);
-      if (at.size() < 2 * kBeside) continue;
-      ++all;
-      if (MotionThrough(at).spread() <= kSmooth * sigma_) ++smooth;
+      begins_[i] = stray_[i - 1] || ComesAtOnce(i, Before(i, kOther), kStray * sigma_);
+      ends_[i] = stray_[i + 1] || ComesAtOnce(i, After(i, kOther), kStray * sigma_);
     }
-    return static_cast<double>(smooth) > kSeen * static_cast<double>(all);
   }
 
   bool AreStray(std::size_t first, std::size_t count) {
     const std::size_t last = first + count - 1;
+    if (!begins_[first] || !ends_[last]) return false;
     for (std::size_t i = first; i <= last; ++i)
       if (stray_[i]) return false;
     const std::vector<std::size_t> before = Before(first, kBeside), after = After(last, kBeside);
@@ -192,7 +203,6 @@ class Column {
     const auto ends = [&](double off) {
       return stray_[last + 1] || ComesAtOnce(last, After(last, kOther), off);
     };
-    if (!begins(kStray * sigma_) || !ends(kStray * sigma_)) return false;
     std::vector<std::size_t> at(before.rbegin(), before.rend());
     at.insert(at.end(), after.begin(), after.end());
     const LocalMotion motion = MotionThrough(at);
@@ -248,7 +258,7 @@ class Column {
 
   const Samples& s_;
   double sigma_, least_;
-  std::vector<bool> stray_;
+  std::vector<bool> stray_, begins_, ends_;
   OffMotion found_;  // but for the stray rows
 };
 
@@ -318,6 +328,7 @@ std::vector<bool> RepeatedSamples(const Samples& s) {
 
 OffMotion FindOffMotion(const Samples& samples, double sigma, double least) {
   Column column(samples, sigma, least);
+  if (!column.IsSmooth()) return {};
   column.FindStray();
   column.FindJumps();
   return column.Found();

@@ -24,7 +24,7 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
   const InterruptGuard interrupt;
   Progress progress(console, settings.quiet);
   options.fit.stop = interrupt.flag();
-  ShowProgress(options, progress);
+  ShowProgress(options, progress, console);
   const DiagnosisRun run = RunDiagnosis(dataset, options);
   std::optional<Discovery> discovery;
   if (settings.discover && run.WantsFormula()) discovery = DiscoverBeside(run.diagnosis, options);

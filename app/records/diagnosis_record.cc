@@ -13,7 +13,6 @@
 #include "app/records/record_parts.h"
 #include "app/records/trial_design_record.h"
 #include "app/records/trial_tables.h"
-#include "datasets/suspect_things.h"
 
 namespace hoplab {
 namespace {
@@ -245,7 +244,7 @@ Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument
   RecordSpan(d.by_hop, d.until, record);
   record["whole_trials"] = WholeTrialsRecord(d);
   record["trace_faults"] = TraceFaultsRecord(d.problem, dataset);
-  record["warnings"] = SuspectThings(dataset);
+  record["warnings"] = d.warnings;
   record["notes"] = d.notes;
   record["interrupted"] = d.interrupted;
   record["tools"] = ToolsRecord();

@@ -14,9 +14,7 @@
 #include "app/terminal/quantity.h"
 #include "app/terminal/report_text.h"
 #include "app/terminal/text_table.h"
-#include "app/terminal/warnings.h"
 #include "base/text.h"
-#include "datasets/suspect_things.h"
 
 namespace hoplab {
 namespace {
@@ -217,7 +215,7 @@ std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, boo
   if (!dataset.title.empty()) text += "  " + Printable(dataset.title, 100);
   text += "\n" + DiagnosisSentence(d);
   if (const std::string failure = run.Failure(); !failure.empty())
-    return text + NoVerdict(d, failure, colours) + WarningLines(SuspectThings(dataset), colours);
+    return text + NoVerdict(d, failure, colours);
 
   text += "\n  " + Styled(Wrapped(VerdictSentence(d), 2), Emphasis::kBold, colours) + "\n\n";
   if (d.verdict != Verdict::kAdequate) {
@@ -247,7 +245,7 @@ std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, boo
   text += ExclusionLines(d, colours);
   if (d.experiment) text += Labelled("next trial", ExperimentLine(d), colours);
   for (const std::string& note : d.notes) text += Labelled("note", note, colours);
-  return text + WarningLines(SuspectThings(dataset), colours);
+  return text;
 }
 
 std::string FormulaReport(const DiagnosisRun& run, const std::optional<Discovery>& discovery,

@@ -10,9 +10,7 @@
 #include "app/terminal/quantity.h"
 #include "app/terminal/report_text.h"
 #include "app/terminal/text_table.h"
-#include "app/terminal/warnings.h"
 #include "base/text.h"
-#include "datasets/suspect_things.h"
 
 namespace hoplab {
 namespace {
@@ -102,7 +100,7 @@ std::string NoteLines(const Dataset& dataset, const FitRun& run, bool colours) {
     text += Labelled("note", fault, colours);
   if (!run.note.empty()) text += Labelled("note", run.note, colours);
   for (const std::string& remark : TrialRemarks(run)) text += Labelled("note", remark, colours);
-  return text + WarningLines(SuspectThings(dataset), colours);
+  return text;
 }
 
 }  // namespace

@@ -35,7 +35,11 @@ void ShowProgress(FitRunOptions& options, Progress& progress, const Console& con
   };
 }
 
-void ShowProgress(DiagnosisOptions& options, Progress& progress) {
+void ShowProgress(DiagnosisOptions& options, Progress& progress, const Console& console) {
+  options.warned = [&progress, &console](const std::vector<std::string>& warnings) {
+    progress.Clear();
+    for (const std::string& warning : CollapseWarnings(warnings)) Warn(console, warning);
+  };
   options.stage = [&progress](std::string_view stage) { progress.Stage(std::string(stage)); };
   options.step = [&progress](const std::string& text, int done, int of) {
     progress.Step(text, done, of);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "app/terminal/report_text.h"
-
 namespace hoplab {
 namespace {
 
@@ -50,13 +48,6 @@ std::vector<std::string> CollapseWarnings(const std::vector<std::string>& warnin
       lines.back() += " (likewise in " + std::to_string(g.more) +
                       (g.more == 1 ? " more file)" : " more files)");
   }
-  return lines;
-}
-
-std::string WarningLines(const std::vector<std::string>& warnings, bool colours) {
-  std::string lines;
-  for (const std::string& warning : CollapseWarnings(warnings))
-    lines += Labelled("warning", warning, colours);
   return lines;
 }
 

@@ -9,7 +9,4 @@ namespace hoplab {
 /// aside, is said once, with how many more files it holds for. Order of first appearance.
 std::vector<std::string> CollapseWarnings(const std::vector<std::string>& warnings);
 
-/// "  warning      text\n" for each of these.
-std::string WarningLines(const std::vector<std::string>& warnings, bool colours);
-
 }  // namespace hoplab

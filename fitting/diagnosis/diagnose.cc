@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "datasets/suspect_things.h"
+#include "fitting/check.h"
 #include "fitting/diagnosis/after_verdict.h"
 #include "fitting/diagnosis/carry_on.h"
 #include "fitting/diagnosis/diagnosis.h"
@@ -149,9 +150,12 @@ Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
   // What is asked for by name is looked at before anything is computed.
   CandidatesOf(problem, options.candidates);
   Diagnosis d;
+  std::vector<std::string> warnings = DataWarnings(dataset, problem);
+  if (options.warned) options.warned(warnings);
   d.refusal = UnreadableTimes(dataset);
   if (!d.refusal.empty()) {
     d.problem = std::move(problem);
+    d.warnings = std::move(warnings);
     return d;
   }
   const std::vector<std::string> notes = CorrectNoise(problem);
@@ -161,6 +165,7 @@ Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
                 : DiagnoseFitted(FitPlain(std::move(problem), options, options.span), options);
   TellBesides(d, options);
   d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
+  d.warnings = std::move(warnings);
   return d;
 }
 

@@ -65,6 +65,8 @@ struct DiagnosisOptions {
   int max_effects = 5;
   double material = kMaterial;
   std::uint64_t Seed(Draws of) const { return fit.seed * 64 + static_cast<std::uint64_t>(of); }
+  /// Called with what is probably not meant in the data (DataWarnings), before anything is fitted.
+  std::function<void(const std::vector<std::string>& warnings)> warned = nullptr;
   /// Called where a stage begins, and how far it is (may come from several threads, one at a time).
   std::function<void(std::string_view stage)> stage = nullptr;
   /// `of` is what is planned so far: more may follow from what is found.
@@ -170,7 +172,8 @@ struct Diagnosis {
   FitProblem problem;  // the null problem; trials are hops if `by_hop`
   bool by_hop = false;
   std::optional<double> until;     // DatasetFit::until
-  std::vector<std::string> notes;  // what was decided on the way
+  std::vector<std::string> warnings;  // DataWarnings
+  std::vector<std::string> notes;     // what was decided on the way
   FitResult fit;
   Gate gate;
   /// Why there is no diagnosis; empty if there is one.

@@ -1,0 +1,146 @@
+#include "fitting/turned_axes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "fitting/fit.h"
+#include "fitting/trial_evaluator.h"
+
+namespace hoplab {
+namespace {
+
+constexpr double kHorizon_s = 0.5;  // later a robot's motion goes apart at its own pace
+constexpr std::size_t kTrials = 6;  // are enough
+constexpr double kMissed = 0.2;     // rms, of the motion's own rms
+constexpr double kBetter = 0.5;     // of what is missed as it stands
+constexpr double kFarOff = 1.0;     // what a sample is counted as at most, or without a simulation
+constexpr double kLeastMotion = 10.0;  // standard deviations of the noise
+
+// What may have been recorded otherwise.
+enum class Axis { kX, kPitch, kLegOrder, kLegAngles };
+struct Turn {
+  Axis axis;
+  const char* what;
+  const char* rule;
+};
+constexpr std::array kTurns = {
+    Turn{Axis::kX, "the sign of x", "x must grow ahead, where a touch-down angle takes the foot"},
+    Turn{Axis::kPitch, "the sign of the pitch", "it must grow as the nose goes up"},
+    Turn{Axis::kLegOrder, "the order of the legs", "leg 1 is the hindmost, and hip_m grows ahead"},
+    Turn{Axis::kLegAngles, "the signs of the legs' angles",
+         "they must grow as the toe goes ahead"}};
+
+bool Turns(Axis axis, Channel c) {
+  if (axis == Axis::kPitch) return c == Channel::kBodyPitch;
+  return axis == Axis::kX && (c == Channel::kBodyX || c == Channel::kBodyVx);
+}
+bool Turns(Axis axis, const std::string& start) {
+  if (axis == Axis::kPitch) return start == "pitch0" || start == "pitch_rate0";
+  return axis == Axis::kX && (start == "x0" || start == "vx0" || start == "contact0");
+}
+
+void TurnMotors(RobotParameters<double>& robot) {
+  for (double* angles : {robot.angle.data(), robot.rate.data()})
+    for (int leg = 0; leg < kMaxLegs; ++leg) angles[leg] = -angles[leg];
+  robot.sweep = -robot.sweep;
+  robot.offset = -robot.offset;
+}
+
+void Apply(Axis axis, const FitProblem& problem, TrialProblem& trial) {
+  const std::size_t width = problem.channels.size();
+  for (std::size_t c = 0; c < width; ++c) {
+    if (!Turns(axis, problem.channels[c].channel)) continue;
+    for (std::size_t i = c; i < trial.data.size(); i += width) trial.data[i] = -trial.data[i];
+  }
+  for (int k = 0; k < trial.own_count(); ++k)
+    if (Turns(axis, trial.own[static_cast<std::size_t>(k)].name)) trial.start[k] = -trial.start[k];
+  if (!trial.parameters.robot) return;
+  RobotParameters<double>& robot = *trial.parameters.robot;
+  if (axis == Axis::kLegOrder)
+    for (double& hip : robot.hip_x) hip = -hip;
+  if (axis == Axis::kLegAngles) {
+    TurnMotors(robot);
+    for (DrivenColumn& column : trial.inputs)
+      for (double& value : column.values) value = -value;
+  }
+}
+
+// The mean square of what a simulation at the nominal values misses of each channel's motion, over
+// that motion's own.
+double Missed(const FitProblem& problem, const TrialProblem& trial) {
+  Trajectory simulated;
+  TrialEvaluator(problem, trial)
+      .Simulate({InitialShared(problem), trial.start, false}, problem.integrator, simulated);
+  const std::size_t width = problem.channels.size();
+  std::size_t rows = 0;
+  while (rows < trial.row_times.size() && trial.row_times[rows] <= kHorizon_s) ++rows;
+  double missed = 0.0;
+  int channels = 0;
+  for (std::size_t c = 0; c < width; ++c) {
+    if (!IsPose(problem.channels[c].channel)) continue;
+    double count = 0.0, sum = 0.0, squares = 0.0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double value = trial.data[row * width + c];
+      if (std::isnan(value)) continue;
+      count += 1.0;
+      sum += value;
+      squares += value * value;
+    }
+    if (count < 2.0) continue;
+    const double least = kLeastMotion * problem.channels[c].sigma;
+    const double motion = std::max(squares / count - sum * sum / (count * count), least * least);
+    double off = 0.0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double value = trial.data[row * width + c];
+      if (std::isnan(value)) continue;
+      const double miss = simulated.samples[row * width + c] - value;
+      off += std::isfinite(miss) ? std::min(miss * miss / motion, kFarOff) : kFarOff;
+    }
+    missed += off / count;
+    ++channels;
+  }
+  return channels > 0 ? missed / channels : 0.0;
+}
+
+double MeanMissed(const FitProblem& problem, const std::vector<TrialProblem>& trials,
+                  const Turn* turn) {
+  double sum = 0.0;
+  for (TrialProblem trial : trials) {
+    if (turn) Apply(turn->axis, problem, trial);
+    sum += Missed(problem, trial);
+  }
+  return sum / static_cast<double>(trials.size());
+}
+
+std::string Percent(double missed) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.0f %%", 100.0 * std::sqrt(missed));
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> TurnedAxes(const FitProblem& problem) {
+  std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
+  if (trials.size() > kTrials) trials.resize(kTrials);
+  if (trials.empty()) return {};
+  const double as_it_stands = MeanMissed(problem, trials, nullptr);
+  if (as_it_stands < kMissed * kMissed) return {};
+  const Turn* best = nullptr;
+  double least = kBetter * kBetter * as_it_stands;
+  for (const Turn& turn : kTurns) {
+    if (turn.axis != Axis::kX && problem.robot_legs().count == 0) continue;
+    const double missed = MeanMissed(problem, trials, &turn);
+    if (missed >= least) continue;
+    least = missed;
+    best = &turn;
+  }
+  if (!best) return {};
+  return {std::string("at the nominal values the simulation misses the body by ") +
+          Percent(as_it_stands) + " of its motion, and by " + Percent(least) + " with " +
+          best->what + " turned; " + best->rule};
+}
+
+}  // namespace hoplab

@@ -1,0 +1,100 @@
+// Records of another engine's robot and rig, written with one sign or order turned.
+
+#include "fitting/turned_axes.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "datasets/read_dataset.h"
+#include "fitting/problem.h"
+
+namespace hoplab {
+namespace {
+
+Dataset Shipped(const std::string& name) {
+  return ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/" + name);
+}
+std::vector<std::string> SaidOf(const Dataset& dataset) {
+  return TurnedAxes(MakeProblem(dataset, {}));
+}
+std::vector<std::string> SaidOfRobotWith(const std::function<void(Trial&)>& turn) {
+  Dataset robot = Shipped("robot-drops");
+  for (Trial& trial : robot.trials) turn(trial);
+  return SaidOf(robot);
+}
+void Negate(Trial& trial, const std::string& name) {
+  for (TraceColumn& column : trial.trace.columns)
+    if (column.name == name)
+      for (double& value : column.values) value = -value;
+}
+void ExpectSaid(const std::vector<std::string>& said, const std::string& what) {
+  ASSERT_EQ(said.size(), 1U) << what;
+  EXPECT_NE(said[0].find("with " + what + " turned"), std::string::npos) << said[0];
+}
+
+TEST(TurnedAxes, NothingIsSaidOfRecordsThatAreRight) {
+  for (const char* name : {"robot-drops", "robot-pronk", "robot-walk", "rig-drops",
+                           "rig-controlled", "rig-drops-undamped"})
+    EXPECT_TRUE(SaidOf(Shipped(name)).empty()) << name;
+}
+
+TEST(TurnedAxes, NothingIsSaidOfAWrongModulus) {
+  for (const double factor : {0.5, 2.0}) {
+    Dataset robot = Shipped("robot-drops");
+    for (Trial& trial : robot.trials) trial.mechanism.robot.E_Pa *= factor;
+    EXPECT_TRUE(SaidOf(robot).empty()) << factor;
+    Dataset rig = Shipped("rig-drops");
+    for (Trial& trial : rig.trials) trial.mechanism.c_leg.E_Pa *= factor;
+    EXPECT_TRUE(SaidOf(rig).empty()) << factor;
+  }
+}
+
+TEST(TurnedAxes, ARobotsPitchIsSeen) {
+  ExpectSaid(SaidOfRobotWith([](Trial& trial) {
+               Negate(trial, "body_pitch_rad");
+               trial.initial->pitch_rad = -*trial.initial->pitch_rad;
+               trial.initial->pitch_rate_rad_per_s = -*trial.initial->pitch_rate_rad_per_s;
+             }),
+             "the sign of the pitch");
+}
+
+TEST(TurnedAxes, ARobotsWayIsSeen) {
+  ExpectSaid(SaidOfRobotWith([](Trial& trial) {
+               Negate(trial, "body_x_m");
+               trial.initial->x_m = -trial.initial->x_m;
+               trial.initial->vx_m_per_s = -trial.initial->vx_m_per_s;
+             }),
+             "the sign of x");
+}
+
+TEST(TurnedAxes, TheOrderOfItsLegsIsSeen) {
+  ExpectSaid(SaidOfRobotWith([](Trial& trial) {
+               std::swap(trial.controller->motors->angles_rad[0],
+                         trial.controller->motors->angles_rad[1]);
+               std::swap(trial.trace.columns[3].name, trial.trace.columns[4].name);
+             }),
+             "the order of the legs");
+}
+
+TEST(TurnedAxes, TheSignsOfItsLegsAnglesAreSeen) {
+  ExpectSaid(SaidOfRobotWith([](Trial& trial) {
+               for (double& angle : trial.controller->motors->angles_rad) angle = -angle;
+               Negate(trial, "leg_angle_1_rad");
+               Negate(trial, "leg_angle_2_rad");
+             }),
+             "the signs of the legs' angles");
+}
+
+TEST(TurnedAxes, AHoppersWayIsSeen) {
+  Dataset rig = Shipped("rig-drops");
+  for (Trial& trial : rig.trials) {
+    Negate(trial, "body_x_m");
+    trial.initial->x_m = -trial.initial->x_m;
+    trial.initial->vx_m_per_s = -trial.initial->vx_m_per_s;
+  }
+  ExpectSaid(SaidOf(rig), "the sign of x");
+}
+
+}  // namespace
+}  // namespace hoplab
