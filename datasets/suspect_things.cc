@@ -193,16 +193,19 @@ class Inspector {
                                  " m; the first row must lie in flight");
     }
     const double ratio = FallRatio(trial);
-    if (!trial.initial || (std::isfinite(ratio) && !IsNear(ratio, 1))) return;
-    const double vx = trial.initial->vx_m_per_s, vy = trial.initial->vy_m_per_s;
-    InspectVelocity(trial, Channel::kBodyX, {"initial.vx_m_per_s", vx, 0.0});
+    const bool in_flight = trial.initial && trial.initial->mode == StartMode::kFlight;
+    if (!in_flight || column == nullptr || (std::isfinite(ratio) && !IsNear(ratio, 1))) return;
+    const StateSpec known = trial.initial_sigma.value_or(StateSpec{});
+    InspectVelocity(trial, Channel::kBodyX,
+                    {"initial.vx_m_per_s", trial.initial->vx_m_per_s, known.vx_m_per_s, 0.0});
     InspectVelocity(trial, Channel::kBodyY,
-                    {"initial.vy_m_per_s", vy, -trial.mechanism.gravity_m_per_s2});
+                    {"initial.vy_m_per_s", trial.initial->vy_m_per_s, known.vy_m_per_s,
+                     -trial.mechanism.gravity_m_per_s2});
   }
 
   struct StatedVelocity {
     const char* key;
-    double value;         // m/s
+    double value, sigma;  // m/s
     double acceleration;  // in flight [m/s^2]
   };
   // A start that is stated far from how the trace begins: an axis that points the other way, a
@@ -211,8 +214,11 @@ class Inspector {
     const std::vector<double>* column = trial.trace.Find(id);
     if (column == nullptr || !std::isfinite(stated.value)) return;
     const std::vector<double>& times = trial.trace.time_s;
+    const std::vector<double>& heights = *trial.trace.Find(Channel::kBodyY);
+    const double lands_m = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
     std::vector<double> t, y;
     for (std::size_t i = 0; i < times.size() && times[i] - times[0] <= kBeginning_s; ++i) {
+      if (heights[i] < lands_m) break;
       if (!std::isfinite((*column)[i])) continue;
       const double since = times[i] - times[0];
       t.push_back(since);
@@ -220,7 +226,8 @@ class Inspector {
     }
     if (t.size() < kFewest) return;
     const double begins = MedianSlope(t, y), off = std::abs(begins - stated.value);
-    if (off < kVelocity_m_per_s || off < kVelocityShare * std::abs(begins)) return;
+    const double doubt = std::isfinite(stated.sigma) ? 3.0 * stated.sigma : 0.0;
+    if (off < kVelocity_m_per_s + doubt || off < kVelocityShare * std::abs(begins)) return;
     if (std::all_of(column->begin(), column->end(), [&](double v) { return v == (*column)[0]; }))
       return;
     Warn(trial.origin.place, std::string(stated.key) + " = " + Rounded(stated.value) + ", but " +

@@ -38,6 +38,7 @@ bool TouchesGround(const TrialProblem& trial, const Trajectory& trajectory) {
 
 std::vector<std::string> DataWarnings(const Dataset& dataset, const FitProblem& problem) {
   std::vector<std::string> warnings = SuspectThings(dataset);
+  if (!UnreadableTimes(dataset).empty()) return warnings;
   for (const std::string& turned : TurnedAxes(problem))
     warnings.push_back(dataset.origin.place + ": " + turned + ".");
   return warnings;

@@ -77,10 +77,11 @@ class Builder {
         }
         c.sigma = EstimateNoise(columns);
         if (!(c.sigma > 0.0)) {
-          throw InputError({spec.origin.place,
-                            std::string(ChannelName(spec.id)) + ": {sigma: estimate}",
-                            "the noise cannot be estimated from so few (or constant) samples",
-                            "State sigma, one standard deviation in the channel's unit."});
+          throw InputError(
+              {spec.origin.place, std::string(ChannelName(spec.id)) + ": {sigma: estimate}",
+               "the noise cannot be estimated from so few (or constant) samples",
+               "State sigma, one standard deviation in the channel's unit, or look with "
+               "--keep-stray whether samples that were set aside are missed."});
         }
         problem_.notes.push_back("noise of " + std::string(ChannelName(spec.id)) +
                                  " estimated from the traces: " + Rounded(c.sigma));

@@ -10,20 +10,23 @@
 namespace hoplab {
 namespace {
 
-constexpr std::size_t kBeside = 3;    // samples on either side that say how the body moves
-constexpr std::size_t kOther = 6;     // where one side is looked at alone
+constexpr std::size_t kBeside = 6;    // samples on a side that say how the body moves
+constexpr std::size_t kFewest = 8;    // on both, near an end of the trace
+constexpr std::size_t kJumpSide = 4;  // likewise, on either side of a jump
 constexpr std::size_t kLongest = 10;  // stray samples in a row
-constexpr double kStray = 6.0, kJump = 10.0, kSmooth = 3.0;  // standard deviations
-constexpr double kOneSide = 4.0;    // likewise, of the motion on one side alone
-constexpr std::size_t kLooks = 4;   // every so many samples are asked whether they are
-constexpr double kSeen = 0.6;       // of a trace, what must be smooth from sample to sample
+constexpr std::size_t kRemnant = 3;   // samples between a gap and an end of the trace
+constexpr double kStray = 6.0, kJump = 10.0, kSmooth = 2.0, kOneSide = 4.0;  // noise's deviations
+constexpr double kRough = 0.08;     // of a trace's samples, those that may be off the motion before
 constexpr double kEdge = 0.5;       // of a distance, what has to come about within one sample
 constexpr double kWayBack = 0.1;    // of a jump, by which the way back may differ
+constexpr double kGap = 4.0;        // median steps
 constexpr double kByChance = 1e-3;  // of equal samples in a whole column
 constexpr double kAlike = 1e-3;     // two steps of one grid, of a step
 constexpr double kOften = 0.05;     // of all steps, those of one grid
 constexpr double kFinest = 1e-12;   // decimals
 constexpr double kSteps = 8.0;      // of its digits, that a body has moved on while it was held
+constexpr double kAhead = 2.5;      // of the step that follows, likewise
+constexpr double kNoisy = 20.0;     // of its digits, the noise of a sensor that may hold
 
 // A parabola through a few samples, with a step at one of them or without.
 class LocalMotion {
@@ -57,8 +60,8 @@ class LocalMotion {
   double StepDoubt() const { return std::sqrt(cofactors_(3, 3)); }
 
  private:
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kBeside + 2, 4>;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kBeside + 2, 1>;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kBeside, 4>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kBeside, 1>;
   Eigen::RowVector3d Powers(double t) const {
     const double u = (t - middle_) / width_;
     return {1.0, u, u * u};
@@ -75,32 +78,23 @@ class Column {
   Column(const Samples& samples, double sigma, double least)
       : s_(samples), sigma_(sigma), least_(least), stray_(s_.size(), false) {}
 
-  // Whether the samples are so close that most of the motion is a parabola from each to the next.
+  // Whether the samples are so close that few of them are off the motion before.
   bool IsSmooth() const {
-    std::size_t smooth = 0, all = 0;
-    for (std::size_t i = kBeside; i + kBeside < s_.size(); i += kLooks) {
-      std::vector<std::size_t> at = Before(i, kBeside);
-      std::reverse(at.begin(), at.end());
-      for (const std::size_t j : After(i, kBeside)) at.push_back(j);
-      if (at.size() < 2 * kBeside) continue;
-      ++all;
-      if (MotionThrough(at).spread() <= kSmooth * sigma_) ++smooth;
-    }
-    return static_cast<double>(smooth) > kSeen * static_cast<double>(all);
+    std::size_t off = 0, all = 0;
+    for (std::size_t i = kBeside; i < s_.size(); ++i, ++all)
+      if (IsOff(i, Before(i, kBeside), 0.0)) ++off;
+    return static_cast<double>(off) < kRough * static_cast<double>(all);
   }
 
   // Stray ones are seen once those beside them are known, too.
   void FindStray() {
+    SetRemnants();
     for (int pass = 0; pass < 3; ++pass) {
       bool found = false;
       FindEdges();
       for (std::size_t count = 1; count <= kLongest; ++count)
-        for (std::size_t first = kBeside; first + count + kBeside <= s_.size(); ++first)
+        for (std::size_t first = 1; first + count < s_.size(); ++first)
           found |= AreStray(first, count);
-      for (std::size_t i = kBeside; i-- > 0 && s_.size() > 2 * kBeside;) {
-        found |= IsStrayAtEnd(i, true);
-        found |= IsStrayAtEnd(s_.size() - 1 - i, false);
-      }
       if (!found) return;
     }
   }
@@ -108,20 +102,19 @@ class Column {
   // Where the motion comes back by what it went, it was elsewhere for a while: stray.
   void FindJumps() {
     std::vector<Jump> jumps;
-    constexpr std::size_t kSide = kBeside + 1;
     for (std::size_t i = 1; i < s_.size(); ++i) {
-      if (stray_[i] || stray_[i - 1] || HasGap(i - 1, i)) continue;
-      std::vector<std::size_t> before = Before(i, kSide), after = After(i - 1, kSide);
-      if (before.size() < kSide || after.size() < kSide) continue;
+      if (stray_[i] || stray_[i - 1] || s_.t[i] - s_.t[i - 1] > kGap * s_.step) continue;
+      std::vector<std::size_t> before = Before(i, kJumpSide), after = After(i - 1, kJumpSide);
+      if (before.size() < kJumpSide || after.size() < kJumpSide) continue;
       const double bound = kJump * sigma_;
-      if (!ComesAtOnce(i, before, bound) || !ComesAtOnce(i - 1, after, bound)) continue;
+      if (!IsOff(i, before, kEdge * bound) || !IsOff(i - 1, after, kEdge * bound)) continue;
       std::vector<std::size_t> at(before.rbegin(), before.rend());
       at.insert(at.end(), after.begin(), after.end());
-      const LocalMotion motion(s_, at, kSide);
+      const LocalMotion motion(s_, at, kJumpSide);
       const double size = std::abs(motion.step());
       if (motion.spread() > kSmooth * sigma_ || size < bound * motion.StepDoubt() ||
-          size < least_ || !ComesAtOnce(i, Before(i, kOther), size) ||
-          !ComesAtOnce(i - 1, After(i - 1, kOther), size))
+          size < least_ || !IsOff(i, Before(i, kBeside), kEdge * size) ||
+          !IsOff(i - 1, After(i - 1, kBeside), kEdge * size))
         continue;
       jumps.push_back({s_.row[i], motion.step()});
     }
@@ -169,22 +162,29 @@ class Column {
     return at;
   }
 
-  // Whether the sample at place i, the next one, is off the motion on that side, which lies off it
-  // by `off` in all.
-  bool ComesAtOnce(std::size_t i, std::vector<std::size_t> side, double off) const {
+  // Whether the sample at place i, the next one, lies off the motion on that side by `least` or
+  // more.
+  bool IsOff(std::size_t i, std::vector<std::size_t> side, double least) const {
     std::sort(side.begin(), side.end());
     const LocalMotion motion = MotionThrough(side);
     const double here = std::abs(s_.y[i] - motion.At(s_.t[i]));
-    return here >= kEdge * off && here >= kOneSide * sigma_ * motion.Doubt(s_.t[i]);
+    return here >= least && here >= kOneSide * sigma_ * motion.Doubt(s_.t[i]);
   }
 
   // Where strays may begin and end: what is not off the motion on that side is no stray's edge.
+  // Beside one that is stray already it has come about; near an end of the trace it is not asked.
+  bool Begins(std::size_t i, double off) const {
+    return i < kJumpSide || stray_[i - 1] || IsOff(i, Before(i, kBeside), kEdge * off);
+  }
+  bool Ends(std::size_t i, double off) const {
+    return i + kJumpSide >= s_.size() || stray_[i + 1] || IsOff(i, After(i, kBeside), kEdge * off);
+  }
   void FindEdges() {
     begins_.assign(s_.size(), false);
     ends_.assign(s_.size(), false);
-    for (std::size_t i = kBeside; i + kBeside < s_.size(); ++i) {
-      begins_[i] = stray_[i - 1] || ComesAtOnce(i, Before(i, kOther), kStray * sigma_);
-      ends_[i] = stray_[i + 1] || ComesAtOnce(i, After(i, kOther), kStray * sigma_);
+    for (std::size_t i = 1; i + 1 < s_.size(); ++i) {
+      begins_[i] = Begins(i, kStray * sigma_);
+      ends_[i] = Ends(i, kStray * sigma_);
     }
   }
 
@@ -194,39 +194,46 @@ class Column {
     for (std::size_t i = first; i <= last; ++i)
       if (stray_[i]) return false;
     const std::vector<std::size_t> before = Before(first, kBeside), after = After(last, kBeside);
-    if (before.size() < kBeside || after.size() < kBeside || HasGap(before.back(), after.back()))
+    const bool near_end = std::min(before.size(), after.size()) < kBeside;
+    if (before.empty() || after.empty() || before.size() + after.size() < kFewest ||
+        (near_end && count > 1) ||
+        s_.t[after.back()] - s_.t[before.back()] >
+            kGap * static_cast<double>(after.back() - before.back()) * s_.step)
       return false;
-    // Beside one that is stray already it has come about.
-    const auto begins = [&](double off) {
-      return stray_[first - 1] || ComesAtOnce(first, Before(first, kOther), off);
-    };
-    const auto ends = [&](double off) {
-      return stray_[last + 1] || ComesAtOnce(last, After(last, kOther), off);
-    };
     std::vector<std::size_t> at(before.rbegin(), before.rend());
     at.insert(at.end(), after.begin(), after.end());
     const LocalMotion motion = MotionThrough(at);
     double largest = 0.0;
     for (std::size_t i = first; i <= last; ++i) {
       const double off = std::abs(s_.y[i] - motion.At(s_.t[i]));
-      if (!IsFar(i, off, motion)) return false;
-      if ((i == first && !begins(off)) || (i == last && !ends(off))) return false;
+      if (!IsFar(i, off, motion) || (i == first && !Begins(i, off)) || (i == last && !Ends(i, off)))
+        return false;
       largest = std::max(largest, off);
     }
     SetStray(first, last, largest);
     return true;
   }
 
-  // One of the first or the last, beside which the motion goes on to one side only.
-  bool IsStrayAtEnd(std::size_t i, bool at_begin) {
-    std::vector<std::size_t> at = at_begin ? After(i, kOther) : Before(i, kOther);
-    if (stray_[i] || at.size() < kOther || HasGap(at.front(), at.back())) return false;
-    if (!at_begin) std::reverse(at.begin(), at.end());
+  // A few samples between a gap and an end of the trace that lie elsewhere than the motion leads.
+  void SetRemnants() {
+    const std::size_t n = s_.size();
+    for (std::size_t count = 1; count <= kRemnant && count + kBeside <= n; ++count) {
+      if (s_.t[n - count] - s_.t[n - count - 1] > kGap * s_.step)
+        SetIfFar(n - count, n - 1, Before(n - count, kBeside));
+      if (s_.t[count] - s_.t[count - 1] > kGap * s_.step)
+        SetIfFar(0, count - 1, After(count - 1, kBeside));
+    }
+  }
+  void SetIfFar(std::size_t first, std::size_t last, std::vector<std::size_t> at) {
+    std::sort(at.begin(), at.end());
     const LocalMotion motion = MotionThrough(at);
-    const double off = std::abs(s_.y[i] - motion.At(s_.t[i]));
-    if (!IsFar(i, off, motion)) return false;
-    SetStray(i, i, off);
-    return true;
+    double largest = 0.0;
+    for (std::size_t i = first; i <= last; ++i) {
+      const double off = std::abs(s_.y[i] - motion.At(s_.t[i]));
+      if (!IsFar(i, off, motion)) return;
+      largest = std::max(largest, off);
+    }
+    SetStray(first, last, largest);
   }
 
   bool IsFar(std::size_t i, double off, const LocalMotion& motion) const {
@@ -237,16 +244,10 @@ class Column {
     for (std::size_t i = first; i <= last; ++i) stray_[i] = true;
     found_.largest_stray = std::max(found_.largest_stray, off);
   }
-  // Whether more than every other sample is missing from one place to another.
-  bool HasGap(std::size_t a, std::size_t b) const {
-    const auto [first, last] = std::minmax(a, b);
-    return s_.t[last] - s_.t[first] > 2.0 * static_cast<double>(last - first) * s_.step;
-  }
-
   // Through all, or without the one that is worst, which may be stray, too.
   LocalMotion MotionThrough(const std::vector<std::size_t>& at) const {
     LocalMotion best(s_, at);
-    if (best.spread() <= kSmooth * sigma_ || at.size() <= kBeside + 1) return best;
+    if (best.spread() <= kSmooth * sigma_ || at.size() <= kJumpSide) return best;
     for (std::size_t out = 0; out < at.size(); ++out) {
       std::vector<std::size_t> others = at;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(out));
@@ -262,12 +263,16 @@ class Column {
   OffMotion found_;  // but for the stray rows
 };
 
-// How far a body has gone from the sample before `first` to the end of the trace, at the speed it
-// had.
-double MovedUntilEnd(const Samples& s, std::size_t first) {
-  if (first < 3) return 0.0;
-  return std::abs((s.y[first - 1] - s.y[first - 3]) / (s.t[first - 1] - s.t[first - 3]) *
-                  (s.t.back() - s.t[first - 1]));
+// Whether the body has moved on while its samples from `first` to before `end` repeated the one
+// before: one at rest goes on from where it was.
+bool HasMovedOn(const Samples& s, std::size_t first, std::size_t end, double digit) {
+  if (end + 1 < s.size()) {
+    const double moved = std::abs(s.y[end] - s.y[first]);
+    return moved > kSteps * digit && moved > kAhead * std::abs(s.y[end + 1] - s.y[end]);
+  }
+  if (first < 3) return false;
+  const double speed = (s.y[first - 1] - s.y[first - 3]) / (s.t[first - 1] - s.t[first - 3]);
+  return std::abs(speed * (s.t.back() - s.t[first - 1])) > kSteps * digit;
 }
 
 // How fine the values are: the grid of a sensor, where the least difference is met again and again,
@@ -316,9 +321,7 @@ std::vector<bool> RepeatedSamples(const Samples& s) {
     while (end < s.size() && again[end]) ++end;
     const double times =
         static_cast<double>(s.size()) * std::pow(by_chance, static_cast<double>(end - first));
-    // A body at rest goes on from where it was.
-    const double moved = end < s.size() ? std::abs(s.y[end] - s.y[first]) : MovedUntilEnd(s, first);
-    if (!(by_chance < 1.0 && times < kByChance && moved > kSteps * step))
+    if (!(by_chance * kNoisy < 1.0 && times < kByChance && HasMovedOn(s, first, end, step)))
       std::fill(again.begin() + static_cast<std::ptrdiff_t>(first),
                 again.begin() + static_cast<std::ptrdiff_t>(end), false);
     first = end;

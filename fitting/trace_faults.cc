@@ -156,7 +156,7 @@ class Telling {
   }
   std::string Size() const { return Plain(largest_) + " " + ChannelUnit(first_.channel); }
   std::string Fate(const std::string& what) const {
-    return kept_ ? "" : "; " + what + " not compared";
+    return "; " + what + (kept_ ? " compared all the same" : " not compared");
   }
   std::string Reason() const {
     constexpr double kTurn = 2.0 * kPi;

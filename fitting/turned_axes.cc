@@ -14,6 +14,7 @@ namespace {
 constexpr double kHorizon_s = 0.5;  // later a robot's motion goes apart at its own pace
 constexpr std::size_t kTrials = 6;  // are enough
 constexpr double kMissed = 0.2;     // rms, of the motion's own rms
+constexpr double kFollowed = 0.3;   // likewise, at most, with one turned
 constexpr double kBetter = 0.5;     // of what is missed as it stands
 constexpr double kFarOff = 1.0;     // what a sample is counted as at most, or without a simulation
 constexpr double kLeastMotion = 10.0;  // standard deviations of the noise
@@ -41,13 +42,6 @@ bool Turns(Axis axis, const std::string& start) {
   return axis == Axis::kX && (start == "x0" || start == "vx0" || start == "contact0");
 }
 
-void TurnMotors(RobotParameters<double>& robot) {
-  for (double* angles : {robot.angle.data(), robot.rate.data()})
-    for (int leg = 0; leg < kMaxLegs; ++leg) angles[leg] = -angles[leg];
-  robot.sweep = -robot.sweep;
-  robot.offset = -robot.offset;
-}
-
 void Apply(Axis axis, const FitProblem& problem, TrialProblem& trial) {
   const std::size_t width = problem.channels.size();
   for (std::size_t c = 0; c < width; ++c) {
@@ -58,10 +52,13 @@ void Apply(Axis axis, const FitProblem& problem, TrialProblem& trial) {
     if (Turns(axis, trial.own[static_cast<std::size_t>(k)].name)) trial.start[k] = -trial.start[k];
   if (!trial.parameters.robot) return;
   RobotParameters<double>& robot = *trial.parameters.robot;
-  if (axis == Axis::kLegOrder)
-    for (double& hip : robot.hip_x) hip = -hip;
+  if (axis == Axis::kLegOrder) {
+    std::reverse(robot.hip_x.begin(), robot.hip_x.begin() + robot.legs);
+    std::reverse(robot.hip_y.begin(), robot.hip_y.begin() + robot.legs);
+  }
   if (axis == Axis::kLegAngles) {
-    TurnMotors(robot);
+    for (double& angle : robot.angle) angle = -angle;
+    for (double& rate : robot.rate) rate = -rate;
     for (DrivenColumn& column : trial.inputs)
       for (double& value : column.values) value = -value;
   }
@@ -74,8 +71,7 @@ double Missed(const FitProblem& problem, const TrialProblem& trial) {
   TrialEvaluator(problem, trial)
       .Simulate({InitialShared(problem), trial.start, false}, problem.integrator, simulated);
   const std::size_t width = problem.channels.size();
-  std::size_t rows = 0;
-  while (rows < trial.row_times.size() && trial.row_times[rows] <= kHorizon_s) ++rows;
+  const std::size_t rows = trial.row_times.size();
   double missed = 0.0;
   int channels = 0;
   for (std::size_t c = 0; c < width; ++c) {
@@ -114,6 +110,15 @@ double MeanMissed(const FitProblem& problem, const std::vector<TrialProblem>& tr
   return sum / static_cast<double>(trials.size());
 }
 
+// A clock turns one way only, so that no sign of its angles turns it.
+bool MeansSomething(Axis axis, const TrialProblem& trial) {
+  if (axis == Axis::kX) return true;
+  if (!trial.parameters.robot) return false;
+  const RobotParameters<double>& robot = *trial.parameters.robot;
+  if (axis == Axis::kLegOrder) return robot.legs > 1;
+  return axis == Axis::kPitch || robot.control != MotorControl::kClock;
+}
+
 std::string Percent(double missed) {
   char text[16];
   std::snprintf(text, sizeof text, "%.0f %%", 100.0 * std::sqrt(missed));
@@ -125,13 +130,14 @@ std::string Percent(double missed) {
 std::vector<std::string> TurnedAxes(const FitProblem& problem) {
   std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
   if (trials.size() > kTrials) trials.resize(kTrials);
+  for (TrialProblem& trial : trials) trial = FirstPart(problem, trial, kHorizon_s);
   if (trials.empty()) return {};
   const double as_it_stands = MeanMissed(problem, trials, nullptr);
   if (as_it_stands < kMissed * kMissed) return {};
   const Turn* best = nullptr;
-  double least = kBetter * kBetter * as_it_stands;
+  double least = std::min(kBetter * kBetter * as_it_stands, kFollowed * kFollowed);
   for (const Turn& turn : kTurns) {
-    if (turn.axis != Axis::kX && problem.robot_legs().count == 0) continue;
+    if (!MeansSomething(turn.axis, trials.front())) continue;
     const double missed = MeanMissed(problem, trials, &turn);
     if (missed >= least) continue;
     least = missed;

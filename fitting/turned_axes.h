@@ -11,7 +11,7 @@ namespace hoplab {
 /// pitch, the angles of a robot's legs, the order of the legs. Each train trial is simulated at the
 /// nominal values for its first half second, as it stands and with one of these turned. One is told
 /// where what is recorded of the body is missed by a fifth of its motion or more as it stands, and
-/// by less than half as much with that one turned.
+/// by less than half as much, and less than three tenths, with that one turned.
 std::vector<std::string> TurnedAxes(const FitProblem& problem);
 
 }  // namespace hoplab
