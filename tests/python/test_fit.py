@@ -59,6 +59,21 @@ class Fit(unittest.TestCase):
         better = hoplab.fit(RIG_DROPS, discrepancy="none", **kwargs)
         self.assertLess(better.cost, without.cost)
 
+    def test_a_stray_sample_is_set_aside_unless_asked_for(self):
+        dataset = rig_drops_in_memory()
+        trace = dataset["trials"][0]["trace"]
+        trace["body_y_m"] = np.array(trace["body_y_m"], dtype=float)
+        trace["body_y_m"][100] += 0.1
+        fit = hoplab.fit(dataset)
+        (fault,) = fit.record()["trace_faults"]
+        self.assertEqual(fault["kind"], "stray")
+        self.assertEqual(fault["channel"], "body_y_m")
+        self.assertEqual(fault["times_s"], [trace["time_s"][100]])
+        self.assertFalse(fault["compared"])
+        kept = hoplab.fit(dataset, keep_stray=True)
+        self.assertTrue(kept.record()["trace_faults"][0]["compared"])
+        self.assertGreater(kept.cost, fit.cost + 0.5 * (0.09 / 0.0005) ** 2)
+
     def test_bad_input_names_the_argument(self):
         for kwargs, place in (
             ({"law": "rubber"}, "law"),
