@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdio>
 #include <limits>
 #include <system_error>
 
@@ -70,6 +71,12 @@ std::optional<double> ParseDouble(std::string_view text) {
     value = IsBelowOne(text) ? 0.0 : std::numeric_limits<double>::infinity();
   }
   return negative ? -value : value;
+}
+
+std::string Rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
 }
 
 std::string FormatDouble(double value) {

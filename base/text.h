@@ -20,6 +20,9 @@ std::optional<double> ParseDouble(std::string_view text);
 /// The shortest text that ParseDouble reads back as the same double; `nan`, `inf`, `-inf`.
 std::string FormatDouble(double value);
 
+/// To three significant digits, for a message.
+std::string Rounded(double value);
+
 /// `text` fit for a message of one line: control characters as \xNN, cut after `max_length` bytes.
 std::string Printable(std::string_view text, std::size_t max_length = 60);
 

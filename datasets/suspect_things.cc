@@ -55,12 +55,6 @@ double MedianSlope(const std::vector<double>& t, const std::vector<double>& y) {
   return Quantile(slopes, 0.5);
 }
 
-std::string Rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 // Curvature (second derivative) of the parabola through the samples [first, last) by least squares.
 double Curvature(const std::vector<double>& t, const std::vector<double>& y, std::size_t first,
                  std::size_t last) {

@@ -93,12 +93,6 @@ class Builder {
     }
   }
 
-  static std::string Rounded(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-  }
-
   void FillTrials() {
     const std::size_t width = problem_.channels.size();
     for (std::size_t i = 0; i < problem_.trials.size(); ++i) {

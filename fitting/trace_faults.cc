@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <string_view>
 
 #include "base/nan.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "datasets/suspect_things.h"
 #include "fitting/stray_samples.h"
@@ -28,12 +28,6 @@ double MedianStep(const std::vector<double>& times) {
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   return *middle;
-}
-
-std::string Plain(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
 }
 
 void FindIn(const Trial& trial, std::size_t place, const ChannelSpec& channel,
@@ -152,9 +146,9 @@ class Telling {
     return trials_ > 1 ? " in " + std::to_string(trials_) + " trials" : "";
   }
   std::string Where() const {
-    return trial_.file + " at " + Plain(trial_.trace.time_s[first_.rows[0]]) + " s";
+    return trial_.file + " at " + Rounded(trial_.trace.time_s[first_.rows[0]]) + " s";
   }
-  std::string Size() const { return Plain(largest_) + " " + ChannelUnit(first_.channel); }
+  std::string Size() const { return Rounded(largest_) + " " + ChannelUnit(first_.channel); }
   std::string Fate(const std::string& what) const {
     return "; " + what + (kept_ ? " compared all the same" : " not compared");
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 
 #include "base/text.h"
 #include "datasets/suspect_things.h"
@@ -26,12 +25,6 @@ std::vector<double> ColumnNumbers(const Table& table, std::size_t column) {
 }
 
 double SiFactor(const LogUnit& unit) { return unit.factor * std::pow(10.0, unit.power_of_ten); }
-
-std::string Rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 std::string LowerStem(const std::string& name) {
   std::string stem = SplitTitle(name).stem;

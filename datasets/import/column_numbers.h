@@ -13,8 +13,6 @@ namespace hoplab {
 std::vector<double> ColumnNumbers(const Table& table, std::size_t column);
 /// SI value over value in `unit`.
 double SiFactor(const LogUnit& unit);
-/// Three digits, for people.
-std::string Rounded(double value);
 /// A column's name without its unit, in lower case.
 std::string LowerStem(const std::string& name);
 /// Times in seconds by the map; none where a sample rate stands in for them.

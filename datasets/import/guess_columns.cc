@@ -1,9 +1,9 @@
-#include "datasets/import/guess_columns.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "base/text.h"
 #include "datasets/import/column_numbers.h"
 #include "datasets/import/guess_robot.h"
 #include "datasets/suspect_things.h"

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/input_error.h"
+#include "base/text.h"
 #include "datasets/import/column_numbers.h"
 #include "datasets/import/guess_columns.h"
 
