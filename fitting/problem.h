@@ -122,7 +122,7 @@ struct FitProblem {
   std::vector<TrialProblem> trials;
   NoiseModel noise;  // white until it is estimated
   IntegratorOptions integrator;
-  std::vector<std::string> notes;  // what was decided on the way, for the reader
+  std::vector<std::string> notes;        // what was decided on the way, for the reader
   std::vector<TraceFault> trace_faults;  // of the dataset, whose trials and rows they count
   bool keeps_stray = false;              // stray and held samples of these are compared
 

@@ -20,8 +20,7 @@ void AddProblemOptions(CLI::App& sub, ProblemSettings& settings) {
       ->delimiter(',')
       ->option_text("NAME=VALUE")
       ->allow_extra_args(false);
-  sub.add_option("--with", settings.with,
-                 "Effects fitted too, by name or FILE.yaml of a formula")
+  sub.add_option("--with", settings.with, "Effects fitted too, by name or FILE.yaml of a formula")
       ->delimiter(',')
       ->option_text("EFFECT,...")
       ->allow_extra_args(false);

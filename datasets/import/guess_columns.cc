@@ -1,3 +1,4 @@
+#include "datasets/import/guess_columns.h"
 
 #include <algorithm>
 #include <cmath>

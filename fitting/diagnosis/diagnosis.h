@@ -171,7 +171,7 @@ struct CarriedOn {
 struct Diagnosis {
   FitProblem problem;  // the null problem; trials are hops if `by_hop`
   bool by_hop = false;
-  std::optional<double> until;     // DatasetFit::until
+  std::optional<double> until;        // DatasetFit::until
   std::vector<std::string> warnings;  // DataWarnings
   std::vector<std::string> notes;     // what was decided on the way
   FitResult fit;

@@ -28,7 +28,7 @@ std::set<std::string> MainCausesOf(const Dataset& dataset, bool keep_stray) {
   DiagnosisOptions options;
   options.fit.jobs = 2;
   options.problem.keep_stray = keep_stray;
-  options.candidates.only = {"leg_material_damping", "leg_mass", "leg_hysteresis",
+  options.candidates.only = {"leg_material_damping",   "leg_mass",  "leg_hysteresis",
                              "guide_coulomb_friction", "foot_slip", "sensor_scale_y"};
   const Diagnosis d = Diagnose(dataset, options);
   std::set<std::string> names;
