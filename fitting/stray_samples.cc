@@ -3,9 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include "datasets/suspect_things.h"
 
 namespace hoplab {
 namespace {
@@ -16,17 +13,11 @@ constexpr std::size_t kJumpSide = 4;  // likewise, on either side of a jump
 constexpr std::size_t kLongest = 10;  // stray samples in a row
 constexpr std::size_t kRemnant = 3;   // samples between a gap and an end of the trace
 constexpr double kStray = 6.0, kJump = 10.0, kSmooth = 2.0, kOneSide = 4.0;  // noise's deviations
-constexpr double kRough = 0.08;     // of a trace's samples, those that may be off the motion before
-constexpr double kEdge = 0.5;       // of a distance, what has to come about within one sample
-constexpr double kWayBack = 0.1;    // of a jump, by which the way back may differ
-constexpr double kGap = 4.0;        // median steps
-constexpr double kByChance = 1e-3;  // of equal samples in a whole column
-constexpr double kAlike = 1e-3;     // two steps of one grid, of a step
-constexpr double kOften = 0.05;     // of all steps, those of one grid
-constexpr double kFinest = 1e-12;   // decimals
-constexpr double kSteps = 8.0;      // of its digits, that a body has moved on while it was held
-constexpr double kAhead = 2.5;      // of the step that follows, likewise
-constexpr double kNoisy = 20.0;     // of its digits, the noise of a sensor that may hold
+constexpr double kBack = 3.0;     // likewise, of one that the motion leads to
+constexpr double kRough = 0.08;   // of a trace's samples, those that may be off the motion before
+constexpr double kEdge = 0.5;     // of a distance, what has to come about within one sample
+constexpr double kWayBack = 0.1;  // of a jump, by which the way back may differ
+constexpr double kGap = 4.0;      // median steps
 
 // A parabola through a few samples, with a step at one of them or without.
 class LocalMotion {
@@ -48,7 +39,6 @@ class LocalMotion {
     spread_ = n > k ? (y - A * motion_).norm() / std::sqrt(static_cast<double>(n - k)) : 0.0;
     cofactors_ = (A.transpose() * A).inverse();
   }
-  // Standard deviation of the samples about it.
   double spread() const { return spread_; }
   double At(double t) const { return Powers(t).dot(motion_.head(3)); }
   // Of a sample's distance from it, over that of a sample.
@@ -74,7 +64,6 @@ class LocalMotion {
 
 class Column {
  public:
-  // `least`: what lies off by less is of no interest.
   Column(const Samples& samples, double sigma, double least)
       : s_(samples), sigma_(sigma), least_(least), stray_(s_.size(), false) {}
 
@@ -89,6 +78,7 @@ class Column {
   // Stray ones are seen once those beside them are known, too.
   void FindStray() {
     SetRemnants();
+    SetAtEnds();
     for (int pass = 0; pass < 3; ++pass) {
       bool found = false;
       FindEdges();
@@ -224,6 +214,18 @@ class Column {
         SetIfFar(0, count - 1, After(count - 1, kBeside));
     }
   }
+  // The sample beside the outermost one, where the motion leads on to that one: a blow goes on.
+  void SetAtEnds() {
+    const std::size_t n = s_.size();
+    if (n < kBeside + 2) return;
+    if (LeadsTo(0, After(1, kBeside))) SetIfFar(1, 1, After(1, kBeside));
+    if (LeadsTo(n - 1, Before(n - 2, kBeside))) SetIfFar(n - 2, n - 2, Before(n - 2, kBeside));
+  }
+  bool LeadsTo(std::size_t i, std::vector<std::size_t> side) const {
+    std::sort(side.begin(), side.end());
+    const LocalMotion motion = MotionThrough(side);
+    return std::abs(s_.y[i] - motion.At(s_.t[i])) < kBack * sigma_ * motion.Doubt(s_.t[i]);
+  }
   void SetIfFar(std::size_t first, std::size_t last, std::vector<std::size_t> at) {
     std::sort(at.begin(), at.end());
     const LocalMotion motion = MotionThrough(at);
@@ -263,38 +265,6 @@ class Column {
   OffMotion found_;  // but for the stray rows
 };
 
-// Whether the body has moved on while its samples from `first` to before `end` repeated the one
-// before: one at rest goes on from where it was.
-bool HasMovedOn(const Samples& s, std::size_t first, std::size_t end, double digit) {
-  if (end + 1 < s.size()) {
-    const double moved = std::abs(s.y[end] - s.y[first]);
-    return moved > kSteps * digit && moved > kAhead * std::abs(s.y[end + 1] - s.y[end]);
-  }
-  if (first < 3) return false;
-  const double speed = (s.y[first - 1] - s.y[first - 3]) / (s.t[first - 1] - s.t[first - 3]);
-  return std::abs(speed * (s.t.back() - s.t[first - 1])) > kSteps * digit;
-}
-
-// How fine the values are: the grid of a sensor, where the least difference is met again and again,
-// or else that of their decimals.
-double Fineness(const std::vector<double>& values) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < values.size(); ++i)
-    if (values[i] != values[i - 1]) steps.push_back(std::abs(values[i] - values[i - 1]));
-  if (steps.empty()) return std::numeric_limits<double>::infinity();
-  const double least = *std::min_element(steps.begin(), steps.end());
-  const auto often = std::count_if(steps.begin(), steps.end(),
-                                   [&](double step) { return step < (1.0 + kAlike) * least; });
-  if (static_cast<double>(often) > kOften * static_cast<double>(steps.size())) return least;
-  for (double unit = 1.0; unit > kFinest; unit /= 10.0) {
-    const bool all = std::all_of(values.begin(), values.end(), [&](double value) {
-      return std::abs(value / unit - std::round(value / unit)) < kAlike;
-    });
-    if (all) return unit;
-  }
-  return kFinest;
-}
-
 }  // namespace
 
 Samples Samples::Without(const std::vector<bool>& left_out) const {
@@ -307,26 +277,6 @@ Samples Samples::Without(const std::vector<bool>& left_out) const {
     rest.row.push_back(row[i]);
   }
   return rest;
-}
-
-std::vector<bool> RepeatedSamples(const Samples& s) {
-  std::vector<bool> again(s.size(), false);
-  for (std::size_t i = 1; i < s.size(); ++i) again[i] = s.y[i] == s.y[i - 1];
-  const Samples fresh = s.Without(again);
-  const double sigma = HighFrequencyNoise(fresh.t, fresh.y), step = Fineness(s.y);
-  const double by_chance = sigma > 0.0 ? step / sigma : 1.0;
-  for (std::size_t first = 1; first < s.size(); ++first) {
-    if (!again[first]) continue;
-    std::size_t end = first;
-    while (end < s.size() && again[end]) ++end;
-    const double times =
-        static_cast<double>(s.size()) * std::pow(by_chance, static_cast<double>(end - first));
-    if (!(by_chance * kNoisy < 1.0 && times < kByChance && HasMovedOn(s, first, end, step)))
-      std::fill(again.begin() + static_cast<std::ptrdiff_t>(first),
-                again.begin() + static_cast<std::ptrdiff_t>(end), false);
-    first = end;
-  }
-  return again;
 }
 
 OffMotion FindOffMotion(const Samples& samples, double sigma, double least) {

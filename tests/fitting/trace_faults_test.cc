@@ -128,7 +128,7 @@ TEST(TraceFaults, AreNoneWhereNoNoiseIs) {
 }
 
 TEST(TraceFaults, AStraySampleIsFoundWhereverItLies) {
-  for (const std::size_t row : {2, 57, 120, 150, 297}) {
+  for (const std::size_t row : {1, 2, 57, 120, 150, 297, 298}) {
     Dataset dataset = Recorded({Bouncing});
     Heights(dataset)[row] += 0.03;
     const std::vector<TraceFault> faults = FindTraceFaults(dataset);
