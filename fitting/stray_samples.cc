@@ -153,8 +153,9 @@ class Column {
   }
 
   // Whether the sample at place i, the next one, lies off the motion on that side by `least` or
-  // more.
+  // more; too few samples tell no motion.
   bool IsOff(std::size_t i, std::vector<std::size_t> side, double least) const {
+    if (side.size() < kJumpSide) return false;
     std::sort(side.begin(), side.end());
     const LocalMotion motion = MotionThrough(side);
     const double here = std::abs(s_.y[i] - motion.At(s_.t[i]));

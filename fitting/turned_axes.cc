@@ -59,8 +59,10 @@ void Apply(Axis axis, const FitProblem& problem, TrialProblem& trial) {
   if (axis == Axis::kLegAngles) {
     for (double& angle : robot.angle) angle = -angle;
     for (double& rate : robot.rate) rate = -rate;
-    for (DrivenColumn& column : trial.inputs)
+    for (DrivenColumn& column : trial.inputs) {
+      if (column.kind < InputKind::kHipTorque1) continue;  // no motor's
       for (double& value : column.values) value = -value;
+    }
   }
 }
 

@@ -70,7 +70,7 @@ Rows RowsOf(const std::vector<TraceFault>& faults, Kind kind) {
   return {};
 }
 
-TEST(TraceFaults, AreNoneInAHundredHonestTraces) {
+TEST(TraceFaults, AreNoneInFlightsBouncesAndStances) {
   const std::vector<std::function<double(double)>> paths = {
       Path().height, Bouncing, [](double t) { return Stance(t, 0.0); },
       [](double t) { return Stance(t, 2.0); }};
