@@ -81,22 +81,42 @@ TEST(TraceFaults, AreNoneInFlightsBouncesAndStances) {
             << "seed " << seed << " step " << step;
 }
 
+// Flight under gravity and half a sine of stance [s], left at `speed` [m/s].
+std::function<double(double)> Hops(double speed, double stance) {
+  return [=](double t) {
+    const double flight = 2.0 * speed / 9.81, w = kPi / stance;
+    const double u = std::fmod(t, flight + stance);
+    return u < flight ? 0.3 + speed * u - 4.905 * u * u
+                      : 0.3 - speed / w * std::sin(w * (u - flight));
+  };
+}
+
 // Hops of all kinds, sampled finely and coarsely: a stance is no stray, however few its samples.
 TEST(TraceFaults, AreNoneInStancesThatAreSampledCoarsely) {
   for (const double stance : {0.05, 0.1, 0.2})
     for (const double speed : {0.5, 1.0, 2.0})
       for (const double step : {0.002, 0.005, 0.01, 1.0 / 60.0})
         for (const double sigma : {0.0002, 0.0005})
-          for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-            const auto hops = [=](double t) {
-              const double flight = 2.0 * speed / 9.81, w = kPi / stance;
-              const double u = std::fmod(t, flight + stance);
-              return u < flight ? 0.3 + speed * u - 4.905 * u * u
-                                : 0.3 - speed / w * std::sin(w * (u - flight));
-            };
-            EXPECT_TRUE(FindTraceFaults(Recorded({hops, sigma, 200, step, seed})).empty())
+          for (std::uint64_t seed = 1; seed <= 5; ++seed)
+            EXPECT_TRUE(
+                FindTraceFaults(Recorded({Hops(speed, stance), sigma, 200, step, seed})).empty())
                 << stance << ' ' << speed << ' ' << step << ' ' << sigma << ' ' << seed;
-          }
+}
+
+// Where too many samples are off the motion before them nothing can be told: a grid of 5 mm, and
+// 60 samples a second of a motion that changes within three.
+TEST(TraceFaults, AreNotLookedForWhereSamplesAreRough) {
+  for (const double stance : {0.05, 0.1, 0.15, 0.2})
+    for (int i = 0; i <= 20; ++i) {
+      const double speed = 0.5 + 0.1 * i;
+      Dataset coarse = Recorded({Hops(speed, stance), 0.0});
+      for (double& height : Heights(coarse)) height = 0.005 * std::round(height / 0.005);
+      EXPECT_TRUE(FindTraceFaults(coarse).empty()) << stance << ' ' << speed;
+      for (std::uint64_t seed = 1; seed <= 5; ++seed)
+        EXPECT_TRUE(
+            FindTraceFaults(Recorded({Hops(speed, stance), 0.001, 300, 1.0 / 60.0, seed})).empty())
+            << stance << ' ' << speed << ' ' << seed;
+    }
 }
 
 TEST(TraceFaults, ABlowJustBeforeTheEndIsNotStray) {
