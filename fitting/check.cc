@@ -5,6 +5,7 @@
 
 #include "datasets/suspect_things.h"
 #include "fitting/apex_segments.h"
+#include "fitting/smoothed_traces.h"
 #include "fitting/turned_axes.h"
 
 namespace hoplab {
@@ -39,8 +40,9 @@ bool TouchesGround(const TrialProblem& trial, const Trajectory& trajectory) {
 std::vector<std::string> DataWarnings(const Dataset& dataset, const FitProblem& problem) {
   std::vector<std::string> warnings = SuspectThings(dataset);
   if (!UnreadableTimes(dataset).empty()) return warnings;
-  for (const std::string& turned : TurnedAxes(problem))
-    warnings.push_back(dataset.origin.place + ": " + turned + ".");
+  for (const auto& sentences : {TurnedAxes(problem), SmoothedTraces(problem)})
+    for (const std::string& sentence : sentences)
+      warnings.push_back(dataset.origin.place + ": " + sentence + ".");
   return warnings;
 }
 

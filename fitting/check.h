@@ -33,7 +33,8 @@ struct CheckReport {
   std::optional<GradientCertificate> certificate;
 };
 
-/// What is legal but probably not meant: SuspectThings and TurnedAxes.
+/// What is legal but probably not meant: SuspectThings, TurnedAxes and
+/// SmoothedTraces.
 std::vector<std::string> DataWarnings(const Dataset& dataset, const FitProblem& problem);
 
 CheckReport CheckDataset(const Dataset& dataset, const FitProblem& problem, int jobs);

@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "base/text.h"
 #include "fitting/model_of_spec.h"
+#include "model/pose_filter.h"
 
 namespace hoplab {
 namespace {
@@ -230,6 +231,7 @@ Trajectory RunOf(const Recording& r, const GenerateTrial& plan, const StateSpec&
   request.touchdown_angles = plan.touchdown_angles_rad;
   request.inputs = r.inputs;
   request.horizon = HorizonOf(r.scenario);
+  if (PoseFilterOf(r.effects)) request.horizon += kFilterMargin;
   request.max_hops = r.scenario.stop.hops.value_or(0);
   request.row_times = r.times;
   request.channels = r.wanted;
@@ -265,15 +267,18 @@ std::size_t RowsOf(const Recording& r, const GenerateTrial& plan, const Trajecto
 // One stream a trial and channel: leaving one out does not change the others.
 std::vector<TraceColumn> NoisyColumns(const Recording& r, const Trajectory& run, std::size_t rows,
                                       std::size_t trial) {
+  const std::optional<PoseFilter> filter = PoseFilterOf(r.effects);
   std::vector<TraceColumn> columns;
   for (std::size_t c = 0; c < r.channels.size(); ++c) {
     RandomStream random = r.Stream(trial, c);
+    std::vector<double> noise(rows, 0.0);
+    if (!IsContact(r.channels[c].id))
+      for (double& value : noise) value = *r.channels[c].sigma * random.Normal();
+    if (filter && IsFiltered(r.channels[c].id))
+      noise = ThroughFilter(*filter, std::span(r.times).first(rows), noise);
     TraceColumn column{ChannelName(r.channels[c].id), {}};
-    const bool noisy = !IsContact(r.channels[c].id);
-    for (std::size_t row = 0; row < rows; ++row) {
-      const double value = run.samples[row * r.wanted.size() + c];
-      column.values.push_back(noisy ? value + *r.channels[c].sigma * random.Normal() : value);
-    }
+    for (std::size_t row = 0; row < rows; ++row)
+      column.values.push_back(run.samples[row * r.wanted.size() + c] + noise[row]);
     columns.push_back(std::move(column));
   }
   return columns;

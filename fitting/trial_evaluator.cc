@@ -6,6 +6,7 @@
 #include "fitting/deviation.h"
 #include "fitting/driven_trial.h"
 #include "model/mechanism_traits.h"
+#include "model/pose_filter.h"
 
 namespace hoplab {
 namespace {
@@ -14,6 +15,9 @@ namespace {
 constexpr double kContactMargin = 0.11;  // s
 // Beyond the last reading, so that it never lies on the horizon itself.
 constexpr double kReadingMargin = 0.01;  // s
+
+// A filter looks at what comes after the last row.
+bool FiltersPose(const EffectSetting& s) { return s.effect->hooks0.change_filter_time != nullptr; }
 
 // The latest a row stamped `last` may be read, whatever values within their bounds the effects that
 // shift time (a delay, a clock) come to have.
@@ -143,6 +147,8 @@ TrialEvaluator::TrialEvaluator(const FitProblem& problem, const TrialProblem& tr
   if (problem.uses_contact) horizon_ += kContactMargin;
   horizon_ = std::max(horizon_, LatestReading(problem.effects, trial.row_times.back()));
   horizon_ += LatestClock(problem, trial);
+  if (std::any_of(problem.effects.begin(), problem.effects.end(), FiltersPose))
+    horizon_ = std::max(horizon_, trial.row_times.back() + kFilterMargin);
   residual_count_ = static_cast<int>(trial.sample_count);
   for (const OwnParameter& o : trial.own) residual_count_ += std::isfinite(o.prior_sigma) ? 1 : 0;
   residual_count_ += static_cast<int>(trial.shared_priors.size());

@@ -5,6 +5,7 @@
 #include "model/mechanisms/leg.h"
 #include "model/mechanisms/robot.h"
 #include "model/mechanisms/toe_mass_body.h"
+#include "model/pose_filter.h"
 #include "model/run.h"
 
 namespace hoplab {
@@ -19,9 +20,7 @@ const Mechanism& MechanismFor(const SimulationRequest& request) {
   return request.parameters.m_toe > 0.0 ? kWithToe : LegLawOf(request.law).body;
 }
 
-}  // namespace
-
-void Simulate(const SimulationRequest& request, Trajectory& out) {
+void SimulateRows(const SimulationRequest& request, Trajectory& out) {
   out.Clear();
   out.directions = static_cast<int>(request.directions.size());
   out.channels = static_cast<int>(request.channels.size());
@@ -29,6 +28,18 @@ void Simulate(const SimulationRequest& request, Trajectory& out) {
   out.samples.assign(cells, kNaN);
   out.sensitivities.assign(cells * request.directions.size(), kNaN);
   RunRequest(request, MechanismFor(request), out);
+}
+
+}  // namespace
+
+void Simulate(const SimulationRequest& request, Trajectory& out) {
+  const std::optional<PoseFilter> filter = PoseFilterOf(request);
+  if (!filter) return SimulateRows(request, out);
+  const FilterRows rows(request, *filter);
+  SimulationRequest wide = request;
+  wide.row_times = rows.times();
+  SimulateRows(wide, out);
+  rows.Filter(out);
 }
 
 Trajectory Simulate(const SimulationRequest& request) {

@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "fitting/model_of_spec.h"
+#include "fitting/smoothed_traces.h"
 
 namespace hoplab {
 namespace {
@@ -82,6 +83,7 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
   const auto holds = [](const std::vector<const Effect*>& list, const Effect* effect) {
     return std::find(list.begin(), list.end(), effect) != list.end();
   };
+  const bool smoothed = !SmoothedChannels(problem).empty();
   std::vector<Candidate> candidates;
   std::vector<const Effect*> tried(AllEffects().begin(), AllEffects().end());
   const auto add = [&](const Effect* effect) {
@@ -94,8 +96,9 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
                    problem.robot_legs()) ||
         IsFitted(problem, *effect) || Simulates(problem, *effect))
       continue;
-    if (only.empty() && (HasNoGuide(problem, *effect) || IsOfAllLegs(problem, *effect) ||
-                         IsDelayOfAll(problem, *effect)))
+    if (only.empty() &&
+        (HasNoGuide(problem, *effect) || IsOfAllLegs(problem, *effect) ||
+         IsDelayOfAll(problem, *effect) || (effect->hooks0.change_filter_time && !smoothed)))
       continue;
     if (holds(without, effect) || (!only.empty() && !holds(only, effect))) continue;
     if (!problem.known.RulesOut(*effect)) candidates.push_back({effect, "", problem.known});

@@ -110,6 +110,11 @@ class ActiveEffects {
     }
     return restitution;
   }
+  void ChangeBounceSpeed(const Bounce<T>& bounce, T& vx) const {
+    for (const Entry& e : entries_) {
+      if (e.hooks->change_bounce_speed) e.hooks->change_bounce_speed(e.values.data(), bounce, vx);
+    }
+  }
   T TouchdownAngle(const PlacementMotion<T>& leg, T theta_td) const {
     for (const Entry& e : entries_) {
       if (e.hooks->change_touchdown_angle)

@@ -105,6 +105,13 @@ struct Landing {
   T theta;           // leg angle of a touch-down [rad]
 };
 
+/// A bounce of a ball, for what it does to the speed along the ground.
+template <class T>
+struct Bounce {
+  Vector2<T> arriving;  // the velocity before it, frame of the ground [m/s]
+  T leaving_vy;         // after it [m/s], positive
+};
+
 inline constexpr int kMaxEffectParameters = 6;
 
 class Formula;
@@ -135,12 +142,16 @@ struct EffectHooks {
   void (*change_contact_height)(const T* p, T& height) = nullptr;
   /// Changes the restitution of a ball from the speed of the impact [m/s], positive.
   void (*change_restitution)(const T* p, const T& speed, T& restitution) = nullptr;
+  /// Changes the speed along the ground with which a ball leaves a bounce [m/s].
+  void (*change_bounce_speed)(const T* p, const Bounce<T>& bounce, T& vx) = nullptr;
   /// Changes the leg angle that touches down (guard and reset) from the speed at that moment.
   void (*change_touchdown_angle)(const T* p, const T& vx, T& theta_td) = nullptr;
   /// Changes the time at which the row stamped `t` was really read.
   void (*change_observation_time)(const T* p, T& t) = nullptr;
   /// Changes the time at which the pose of a row stamped `t` was read (IsPose), before that.
   void (*change_pose_time)(const T* p, T& t) = nullptr;
+  /// Changes the time constant of the filter that the logged pose went through [s] (M105).
+  void (*change_filter_time)(const T* p, T& tau) = nullptr;
   /// Changes what the sensors report.
   void (*change_observation)(const T* p, Observation<T>& seen) = nullptr;
 };
@@ -236,12 +247,18 @@ constexpr EffectHooks<T> HooksOf() {
     hooks.change_contact_height = &Physics::template ChangeContactHeight<T>;
   if constexpr (requires(const T* p, const T& v, T& e) { Physics::ChangeRestitution(p, v, e); })
     hooks.change_restitution = &Physics::template ChangeRestitution<T>;
+  if constexpr (requires(const T* p, const Bounce<T>& b, T& v) {
+                  Physics::ChangeBounceSpeed(p, b, v);
+                })
+    hooks.change_bounce_speed = &Physics::template ChangeBounceSpeed<T>;
   if constexpr (requires(const T* p, const T& v, T& a) { Physics::ChangeTouchdownAngle(p, v, a); })
     hooks.change_touchdown_angle = &Physics::template ChangeTouchdownAngle<T>;
   if constexpr (requires(const T* p, T& t) { Physics::ChangeObservationTime(p, t); })
     hooks.change_observation_time = &Physics::template ChangeObservationTime<T>;
   if constexpr (requires(const T* p, T& t) { Physics::ChangePoseTime(p, t); })
     hooks.change_pose_time = &Physics::template ChangePoseTime<T>;
+  if constexpr (requires(const T* p, T& tau) { Physics::ChangeFilterTime(p, tau); })
+    hooks.change_filter_time = &Physics::template ChangeFilterTime<T>;
   if constexpr (requires(const T* p, Observation<T>& o) { Physics::ChangeObservation(p, o); })
     hooks.change_observation = &Physics::template ChangeObservation<T>;
   return hooks;

@@ -56,8 +56,10 @@ class Ball final : public HybridSystem<T> {
       effects_.CrossCorner(i - kOwnGuards, {.body = &body});
       return {mode};
     }
+    const Vector2<T> arriving{z[kVx], z[kVy]};
     z[kVx] *= 1.0 - p_.tangential_loss;
     z[kVy] *= -effects_.Restitution(-z[kVy], p_.restitution);
+    effects_.ChangeBounceSpeed({arriving, z[kVy]}, z[kVx]);
     const double next_interval = -2.0 * Value(z[kVy]) / Value(inertia_.gravity_y);
     if (!(next_interval >= kRestInterval)) return {mode, Outcome::kCameToRest};
     Seat(t, z);

@@ -57,6 +57,30 @@ TEST(MagnusLift, SendsABallAlongACycloid) {
   EXPECT_NEAR(EnergyAtEnd(q, run) / Energy(q, Mode::kFlight, q.initial), 1.0, 1e-12);
 }
 
+TEST(BounceCoulombFriction, SlowsABallThatSlidesAndLetsItRollAtMost) {
+  SimulationRequest q = ExcitedRequest(Law::kBall);
+  q.initial[2] = -q.initial[2];
+  q.parameters.tangential_loss = 0.0;
+  const double restitution = q.parameters.restitution;
+  // The impulse of Coulomb friction, mu m (1 + e) |vy|, turns a hollow ball that slides; it ends as
+  // the ball rolls: m v+ + I v+/r^2 = m v-, with I = 2/3 m r^2, so v+ = 3/5 v-.
+  for (const double mu : {0.002, 3.0, -0.002}) {
+    const std::array effects = {Setting("bounce_coulomb_friction", mu)};
+    q.effects = effects;
+    const Trajectory run = Simulate(q);
+    int bounces = 0;
+    for (const Event& e : run.events) {
+      if (e.kind != EventKind::kBounce) continue;
+      ++bounces;
+      ASSERT_LT(e.vx, 0.0);
+      const double slides = e.vx + mu * (1.0 + restitution) * std::abs(e.vy);
+      EXPECT_NEAR(e.vx_after, mu > 1.0 ? 0.6 * e.vx : slides, 1e-14) << mu;
+      EXPECT_NEAR(e.vy_after, -restitution * e.vy, 1e-14);
+    }
+    EXPECT_GT(bounces, 2) << mu;
+  }
+}
+
 TEST(RestitutionSpeed, ChangesRestitutionWithTheSpeedOfEachImpact) {
   SimulationRequest q = ExcitedRequest(Law::kBall);
   const std::array effects = {Setting("restitution_speed", -0.05)};

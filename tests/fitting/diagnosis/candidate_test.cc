@@ -25,7 +25,8 @@ FitProblem Problem() { return MakeProblem(DatasetOf({}), {}); }
 TEST(Candidates, AreEveryEffectThatAppliesInTheOrderOfTheCatalogue) {
   std::vector<std::string> expected;
   for (const Effect* effect : AllEffects()) {
-    if (AppliesTo(*effect, Law::kElastica)) expected.emplace_back(effect->info.name);
+    const bool filters = effect->info.name == "sensor_low_pass";  // white noise rules it out
+    if (AppliesTo(*effect, Law::kElastica) && !filters) expected.emplace_back(effect->info.name);
   }
   EXPECT_EQ(NamesOf(CandidatesOf(Problem(), {})), expected);
 }

@@ -1,0 +1,150 @@
+// Traces that were smoothed before they were logged: known by their noise, and the filter named.
+#include "fitting/smoothed_traces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "base/random.h"
+#include "datasets/read_dataset.h"
+#include "fitting/diagnosis/diagnosis.h"
+
+namespace hoplab {
+namespace {
+
+// A Butterworth filter of order 2, by the bilinear transform, run to and fro over a column that is
+// turned about its ends there: what tools for motion capture do.
+class Butterworth {
+ public:
+  explicit Butterworth(double cut_off_times_step) {
+    const double k = std::tan(std::numbers::pi * cut_off_times_step);
+    const double norm = 1.0 / (1.0 + std::numbers::sqrt2 * k + k * k);
+    b_ = k * k * norm;
+    a1_ = 2.0 * (k * k - 1.0) * norm;
+    a2_ = (1.0 - std::numbers::sqrt2 * k + k * k) * norm;
+  }
+  std::vector<double> ToAndFro(const std::vector<double>& column) const {
+    const std::size_t n = column.size(), beyond = std::min<std::size_t>(n - 1, 200);
+    std::vector<double> y;
+    for (std::size_t i = beyond; i > 0; --i) y.push_back(2.0 * column.front() - column[i]);
+    y.insert(y.end(), column.begin(), column.end());
+    for (std::size_t i = 1; i <= beyond; ++i) y.push_back(2.0 * column.back() - column[n - 1 - i]);
+    for (int way = 0; way < 2; ++way) {
+      y = Once(y);
+      std::reverse(y.begin(), y.end());
+    }
+    return {y.begin() + static_cast<std::ptrdiff_t>(beyond),
+            y.begin() + static_cast<std::ptrdiff_t>(beyond + n)};
+  }
+
+ private:
+  std::vector<double> Once(const std::vector<double>& x) const {
+    double x1 = x.front(), x2 = x1, y1 = x1, y2 = x1;
+    std::vector<double> y;
+    for (const double value : x) {
+      y.push_back(b_ * (value + 2.0 * x1 + x2) - a1_ * y1 - a2_ * y2);
+      x2 = x1;
+      x1 = value;
+      y2 = y1;
+      y1 = y.back();
+    }
+    return y;
+  }
+  double b_, a1_, a2_;
+};
+
+Dataset Shipped(const std::string& name) {
+  return ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/" + name);
+}
+
+// Every `nth` sample of a set.
+Dataset Thinned(Dataset dataset, std::size_t nth) {
+  const auto thin = [&](std::vector<double>& values) {
+    std::vector<double> kept;
+    for (std::size_t i = 0; i < values.size(); i += nth) kept.push_back(values[i]);
+    values = kept;
+  };
+  for (Trial& trial : dataset.trials) {
+    thin(trial.trace.time_s);
+    for (TraceColumn& column : trial.trace.columns) thin(column.values);
+  }
+  return dataset;
+}
+
+Dataset Smoothed(Dataset dataset, double cut_off_Hz) {
+  for (Trial& trial : dataset.trials) {
+    const double step = trial.trace.time_s[1] - trial.trace.time_s[0];
+    for (TraceColumn& column : trial.trace.columns)
+      if (column.name.starts_with("body_"))
+        column.values = Butterworth(cut_off_Hz * step).ToAndFro(column.values);
+  }
+  return dataset;
+}
+
+TEST(SmoothedTraces, AreKnownByTheirNoise) {
+  using C = Channel;
+  for (const char* name : {"rig-drops", "rig-controlled", "rig-drops-undamped", "robot-drops",
+                           "robot-pronk", "robot-walk"}) {
+    const Dataset raw = Shipped(name);
+    EXPECT_TRUE(SmoothedTraces(MakeProblem(raw, {})).empty()) << name;
+    std::vector<C> expected = {C::kBodyX, C::kBodyY};
+    if (raw.mechanism.type == MechanismKind::kRobot) expected.push_back(C::kBodyPitch);
+    for (const double cut_off : {6.0, 12.0, 25.0}) {
+      const FitProblem problem = MakeProblem(Smoothed(raw, cut_off), {});
+      EXPECT_EQ(SmoothedChannels(problem), expected) << name << " " << cut_off << " Hz";
+      EXPECT_EQ(SmoothedTraces(problem).size(), 1U);
+    }
+    EXPECT_EQ(SmoothedChannels(MakeProblem(Smoothed(Thinned(raw, 5), 12.0), {})), expected) << name;
+  }
+}
+
+// White noise and noise on a grid, long and short.
+TEST(SmoothedTraces, WhiteNoiseIsNone) {
+  double most = -1.0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    RandomStream random(seed, 3);
+    const std::size_t rows = 200 + 20 * (seed % 50);
+    const double digit = seed % 2 ? 0.0 : 1.5;  // standard deviations
+    std::vector<double> times, values;
+    for (std::size_t i = 0; i < rows; ++i) {
+      times.push_back(0.002 * static_cast<double>(i));
+      const double noise = random.Normal();
+      values.push_back(digit > 0.0 ? digit * std::round(noise / digit) : noise);
+    }
+    const SampledColumn column{times, values};
+    most = std::fmax(most, SmoothnessOfNoise(std::span(&column, 1)));
+  }
+  EXPECT_LT(most, -0.1);
+  EXPECT_GT(most, -0.6);
+}
+
+// A filter of 12 Hz rounds the corners of every stance. Named with it are the causes that the rig
+// has, and its modulus is right.
+TEST(SmoothedTraces, OfARigAreDiagnosedThroughTheirFilter) {
+  DiagnosisOptions options;
+  options.fit.jobs = 2;
+  const Diagnosis d = Diagnose(Smoothed(Thinned(Shipped("rig-drops"), 4), 12.0), options);
+  ASSERT_TRUE(d.extension.has_value());
+  std::set<std::string> names;
+  for (const CauseReport* cause : d.extension->MainCauses()) names.insert(cause->cause.Name());
+  EXPECT_EQ(names, (std::set<std::string>{"leg_mass", "leg_material_damping", "sensor_low_pass"}));
+  const auto value = [&](const std::string& name) {
+    const std::vector<std::string> all = d.naming.best.problem.shared_names();
+    const auto place = std::find(all.begin(), all.end(), name) - all.begin();
+    return d.naming.best.shared[place];
+  };
+  EXPECT_NEAR(value("E") / 21.99e9, 1.0, 0.01);
+  EXPECT_NEAR(value("sensor_low_pass.tau"), 1.0 / (2.0 * std::numbers::pi * 12.0), 3e-4);
+  EXPECT_NEAR(value("leg_material_damping.tau"), 400e-6, 30e-6);
+  EXPECT_NEAR(value("leg_mass.m_leg"), 0.010, 0.004);
+  EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& warning) {
+    return warning.find("as a filter leaves it") != std::string::npos;
+  }));
+}
+
+}  // namespace
+}  // namespace hoplab

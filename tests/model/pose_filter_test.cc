@@ -1,0 +1,125 @@
+#include "model/pose_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "base/random.h"
+#include "tests/support/effect_requests.h"
+
+namespace hoplab {
+namespace {
+
+using namespace testing;
+
+constexpr std::array kPlaceAndRates = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVy};
+
+std::array<EffectSetting, 1> LowPass(double tau) {
+  std::array effects = {EffectSetting::Null(*FindEffect("sensor_low_pass"))};
+  effects[0].values[0] = tau;
+  return effects;
+}
+
+// A ball that falls, bounces once and rises, in rows of `step` seconds.
+struct OneBounce {
+  SimulationRequest q = BallRequest();
+  std::vector<double> rows;
+
+  explicit OneBounce(double step) {
+    q.initial = {0.0, 0.5, 0.6, 0.0};
+    q.parameters.radius = 0.02;
+    q.parameters.restitution = 0.8;
+    q.parameters.tangential_loss = 0.0;
+    q.horizon = 0.8;
+    for (double t = 0.0; t < 0.5; t += step) rows.push_back(t);
+    q.row_times = rows;
+    q.channels = kPlaceAndRates;
+  }
+};
+
+// A corner of the path, the rate of which jumps by J at t = 0, is rounded by
+//     J G(t),  G'' = k - delta,  G(t) = tau/(2 sqrt 2) exp(-u) (cos u - sin u),  u = |t|/(sqrt 2
+//     tau)
+// with k the filter's answer to an impulse, the transform of 1/(1 + (2 pi f tau)^4).
+double Rounding(double t, double tau) {
+  const double u = std::abs(t) / (std::sqrt(2.0) * tau);
+  return tau / (2.0 * std::sqrt(2.0)) * std::exp(-u) * (std::cos(u) - std::sin(u));
+}
+
+TEST(PoseFilter, LeavesParabolasAndRoundsTheCornerOfABounce) {
+  for (const double step : {0.002, 0.0002}) {
+    OneBounce bounce(step);
+    const Trajectory sharp = Simulate(bounce.q);
+    ASSERT_EQ(sharp.events.front().kind, EventKind::kBounce);
+    const Event& hit = sharp.events.front();
+    const double tau = 0.008, jump = hit.vy_after - hit.vy;
+    const auto effects = LowPass(tau);
+    bounce.q.effects = effects;
+    const Trajectory smooth = Simulate(bounce.q);
+    ASSERT_EQ(smooth.samples.size(), sharp.samples.size());
+    EXPECT_EQ(smooth.rows_in_run, sharp.rows_in_run);
+    // Rows of `step` see the corner as a chord of up to step jump/4 off, for a time of step.
+    const double sees = step * step * jump / (8.0 * 2.0 * std::sqrt(2.0) * tau);
+    double rounded = 0.0;
+    for (std::size_t row = 0; row < bounce.rows.size(); ++row) {
+      EXPECT_NEAR(smooth.samples[3 * row], sharp.samples[3 * row], 1e-9);
+      const double by = smooth.samples[3 * row + 1] - sharp.samples[3 * row + 1];
+      EXPECT_NEAR(by, jump * Rounding(bounce.rows[row] - hit.time, tau), 1.1 * sees) << step;
+      EXPECT_EQ(smooth.samples[3 * row + 2], sharp.samples[3 * row + 2]);  // a rate
+      rounded = std::max(rounded, by);
+    }
+    EXPECT_GT(rounded, 0.01);
+  }
+}
+
+TEST(PoseFilter, NoFilterIsTheRunItself) {
+  OneBounce bounce(0.004);
+  const Trajectory plain = Simulate(bounce.q);
+  const auto effects = LowPass(0.0);
+  const std::array directions = {SensitivityDirection::EffectParameter(0, 0)};
+  bounce.q.effects = effects;
+  bounce.q.directions = directions;
+  const Trajectory run = Simulate(bounce.q);
+  EXPECT_EQ(run.samples, plain.samples);
+  for (const double slope : run.sensitivities) EXPECT_EQ(slope, 0.0);
+}
+
+TEST(PoseFilter, ItsDerivativeByTauIsThatOfTheClosedForm) {
+  OneBounce bounce(0.0002);
+  const double tau = 0.008, h = 1e-6;
+  const auto effects = LowPass(tau);
+  const std::array directions = {SensitivityDirection::EffectParameter(0, 0)};
+  bounce.q.effects = effects;
+  bounce.q.directions = directions;
+  const Trajectory run = Simulate(bounce.q);
+  const Event& hit = run.events.front();
+  double largest = 0.0;
+  for (std::size_t row = 0; row < bounce.rows.size(); ++row) {
+    const double t = bounce.rows[row] - hit.time;
+    const double expected =
+        (hit.vy_after - hit.vy) * (Rounding(t, tau + h) - Rounding(t, tau - h)) / (2.0 * h);
+    EXPECT_NEAR(run.sensitivities[3 * row + 1], expected, 2e-4);
+    largest = std::max(largest, std::abs(expected));
+  }
+  EXPECT_GT(largest, 1.0);
+}
+
+// As filters do that are run to and fro over evenly sampled columns.
+TEST(PoseFilter, TakesNoiseDownByTheShareOfItsBand) {
+  RandomStream random(5, 0);
+  const double step = 0.002, tau = 0.01;
+  std::vector<double> times, noise;
+  for (int i = 0; i < 20000; ++i) {
+    times.push_back(step * i);
+    noise.push_back(random.Normal());
+  }
+  double square = 0.0;
+  for (const double value : ThroughFilter({tau, 0}, times, noise)) square += value * value;
+  // The integral of 1/(1 + (2 pi f tau)^4)^2 over f is 3/(8 sqrt 2 tau) of a density `step`.
+  const double expected = 3.0 * step / (8.0 * std::sqrt(2.0) * tau);
+  EXPECT_NEAR(square / static_cast<double>(noise.size()) / expected, 1.0, 0.05);
+}
+
+}  // namespace
+}  // namespace hoplab
