@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "datasets/smoothness.h"
 
 namespace hoplab {
 namespace {
@@ -243,9 +244,11 @@ class Inspector {
   void InspectSigma(const ChannelSpec& channel) {
     if (!channel.sigma || IsContact(channel.id)) return;
     std::vector<double> noises;
+    std::vector<SampledColumn> columns;
     for (const Trial& trial : dataset_.trials) {
       const std::vector<double>* values = trial.trace.Find(channel.id);
       if (values == nullptr) continue;
+      columns.push_back({trial.trace.time_s, *values});
       const double noise = HighFrequencyNoise(trial.trace.time_s, *values);
       const std::vector<double> finite = Finite(*values);
       // Rounding alone, as in a constant or simulated trace, says nothing of the sensor.
@@ -253,7 +256,7 @@ class Inspector {
       if (noise > kRounding * size) noises.push_back(noise);
     }
     const double noise = Quantile(noises, 0.5);
-    if (std::isnan(noise)) return;
+    if (std::isnan(noise) || IsSmoothed(columns)) return;
     const double ratio = *channel.sigma / noise;
     if (ratio > 1 / kSigmaFactor && ratio < kSigmaFactor) return;
     Warn(channel.origin.place, std::string(ChannelName(channel.id)) +

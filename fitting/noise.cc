@@ -56,10 +56,11 @@ double ScaleOf(std::vector<double> variances) {
 }  // namespace
 
 double EstimateNoise(std::span<const SampledColumn> columns) {
+  const std::size_t apart = IsSmoothed(columns) ? ApartIn(columns) : 1;
   std::vector<double> variances;
   for (const SampledColumn& column : columns) {
     std::vector<double> t, v;
-    for (std::size_t i = 0; i < column.values.size(); ++i) {
+    for (std::size_t i = 0; i < column.values.size(); i += apart) {
       if (std::isnan(column.values[i])) continue;
       t.push_back(column.times[i]);
       v.push_back(column.values[i]);

@@ -200,6 +200,16 @@ FitProblem MakeProblem(const Dataset& dataset, const ProblemOptions& options) {
   return problem;
 }
 
+std::vector<std::vector<double>> SamplesOf(const FitProblem& problem, std::size_t channel) {
+  std::vector<std::vector<double>> samples;
+  for (const TrialProblem& t : problem.trials) {
+    std::vector<double>& column = samples.emplace_back();
+    for (std::size_t cell = channel; cell < t.data.size(); cell += problem.channels.size())
+      column.push_back(t.data[cell]);
+  }
+  return samples;
+}
+
 Eigen::VectorXd InitialShared(const FitProblem& problem) {
   Eigen::VectorXd values(problem.shared_count());
   for (int i = 0; i < problem.shared_count(); ++i) {

@@ -157,6 +157,9 @@ ProblemOptions WithLegsAlike(ProblemOptions options);
 /// to be there.
 FitProblem MakeProblem(const Dataset& dataset, const ProblemOptions& options);
 
+/// The samples of a channel, by its place, trial by trial; NaN = missing.
+std::vector<std::vector<double>> SamplesOf(const FitProblem& problem, std::size_t channel);
+
 /// Values of the shared parameters at which a search starts: nominal, but off their bounds.
 Eigen::VectorXd InitialShared(const FitProblem& problem);
 

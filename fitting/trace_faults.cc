@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kRounding = 1e-6;  // of a column's range: less is of no interest
 constexpr double kStated = 5.0;     // stated standard deviations, likewise
+constexpr double kLeastNoise_m = 1e-5;
+constexpr std::size_t kLeftOver = 10;  // samples: fewer before a catch are no hop
 
 // Bodies are slow. A hopper's leg is swung ahead at once, and a motor turns as quickly as noise.
 bool IsOfBody(Channel c) {
@@ -30,19 +32,55 @@ double MedianStep(const std::vector<double>& times) {
   return *middle;
 }
 
+Samples SamplesOf(const Trial& trial, const std::vector<double>& values) {
+  Samples s;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (std::isnan(values[row])) continue;
+    s.t.push_back(trial.trace.time_s[row]);
+    s.y.push_back(values[row]);
+    s.row.push_back(row);
+  }
+  if (s.size() > 1) s.step = MedianStep(trial.trace.time_s);
+  return s;
+}
+
+// Hands that hold the body before its flight, and catch it. A clock's motors do not wait for it.
+void FindHands(const Trial& trial, std::size_t place, const ChannelSpec& channel,
+               std::vector<TraceFault>& faults) {
+  const std::vector<double>* values = trial.trace.Find(Channel::kBodyY);
+  const bool waits = !trial.controller || !trial.controller->motors ||
+                     trial.controller->motors->kind == MotorControl::kHeld;
+  if (!values || !waits) return;
+  const Samples s = SamplesOf(trial, *values);
+  if (s.size() < 2) return;
+  const double noise = HighFrequencyNoise(s.t, s.y);
+  if (std::isnan(noise)) return;
+  const double sigma = std::max({noise, channel.sigma.value_or(0.0), kLeastNoise_m});
+  const double g = trial.mechanism.gravity_m_per_s2;
+  const bool in_flight = !trial.initial || trial.initial->mode == StartMode::kFlight;
+  TraceFault fault{TraceFault::Kind::kBeforeRelease, place, Channel::kBodyY, {}, 0.0};
+  const auto add = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) fault.rows.push_back(s.row[i]);
+    faults.push_back(fault);
+  };
+  if (const auto release = in_flight ? FindRelease(s, sigma, g) : std::nullopt) {
+    fault.release = *release;
+    add(0, release->first);
+    fault.rows.clear();
+  }
+  fault.kind = TraceFault::Kind::kAfterCatch;
+  const double lands_m = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
+  const auto caught =
+      std::isfinite(lands_m) ? FindCatch(s, sigma, g, lands_m) : std::optional<std::size_t>();
+  if (caught && *caught > kLeftOver) add(*caught, s.size());
+}
+
 void FindIn(const Trial& trial, std::size_t place, const ChannelSpec& channel,
             std::vector<TraceFault>& faults) {
   const std::vector<double>* values = trial.trace.Find(channel.id);
   if (!values) return;
-  Samples s;
-  for (std::size_t row = 0; row < values->size(); ++row) {
-    if (std::isnan((*values)[row])) continue;
-    s.t.push_back(trial.trace.time_s[row]);
-    s.y.push_back((*values)[row]);
-    s.row.push_back(row);
-  }
+  const Samples s = SamplesOf(trial, *values);
   if (s.size() < 2) return;
-  s.step = MedianStep(trial.trace.time_s);
   const std::vector<bool> again = RepeatedSamples(s);
   TraceFault held{TraceFault::Kind::kHeld, place, channel.id, {}, 0.0};
   double from = s.y[0];
@@ -75,6 +113,10 @@ std::string_view NameOf(TraceFault::Kind kind) {
       return "held";
     case TraceFault::Kind::kJump:
       return "jump";
+    case TraceFault::Kind::kBeforeRelease:
+      return "before_release";
+    case TraceFault::Kind::kAfterCatch:
+      return "after_catch";
   }
   return "";
 }
@@ -85,12 +127,44 @@ std::vector<TraceFault> FindTraceFaults(const Dataset& dataset) {
     if (!IsOfBody(channel.id)) continue;
     for (std::size_t k = 0; k < dataset.trials.size(); ++k)
       FindIn(dataset.trials[k], k, channel, faults);
+    for (std::size_t k = 0; channel.id == Channel::kBodyY && k < dataset.trials.size(); ++k)
+      FindHands(dataset.trials[k], k, channel, faults);
   }
   return faults;
 }
 
+namespace {
+
+void Erase(std::size_t first, std::size_t last, Trace& trace) {
+  const auto erase = [&](std::vector<double>& values) {
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(first),
+                 values.begin() + static_cast<std::ptrdiff_t>(last));
+  };
+  erase(trace.time_s);
+  for (TraceColumn& column : trace.columns) erase(column.values);
+}
+
+// What is stated is how the body was let go, or how it was held.
+void MoveStart(const Release& release, Trial& trial) {
+  if (!trial.initial) return;
+  const double since = trial.trace.time_s.front() - release.time_s;
+  const double g = trial.mechanism.gravity_m_per_s2;
+  StateSpec& start = *trial.initial;
+  start.x_m += start.vx_m_per_s * since;
+  start.y_m += start.vy_m_per_s * since - 0.5 * g * since * since;
+  start.vy_m_per_s -= g * since;
+  if (trial.initial_sigma)
+    trial.initial_sigma->vy_m_per_s =
+        std::hypot(trial.initial_sigma->vy_m_per_s, g * release.doubt_s);
+}
+
+}  // namespace
+
 Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults) {
   for (const TraceFault& fault : faults) {
+    if (fault.kind == TraceFault::Kind::kBeforeRelease ||
+        fault.kind == TraceFault::Kind::kAfterCatch)
+      continue;
     for (TraceColumn& column : dataset.trials[fault.trial].trace.columns) {
       if (column.name != ChannelName(fault.channel)) continue;
       if (fault.kind == TraceFault::Kind::kJump)
@@ -98,6 +172,15 @@ Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults) {
                   column.values.end(), kNaN);
       for (const std::size_t row : fault.rows) column.values[row] = kNaN;
     }
+  }
+  // Rows are counted as they were recorded: the end goes first.
+  for (auto fault = faults.rbegin(); fault != faults.rend(); ++fault) {
+    Trial& trial = dataset.trials[fault->trial];
+    if (fault->kind == TraceFault::Kind::kAfterCatch)
+      Erase(fault->rows.front(), trial.trace.time_s.size(), trial.trace);
+    if (fault->kind != TraceFault::Kind::kBeforeRelease) continue;
+    Erase(0, fault->rows.back() + 1, trial.trace);
+    MoveStart(fault->release, trial);
   }
   return dataset;
 }
@@ -132,6 +215,13 @@ class Telling {
         return samples + (one ? "repeats" : "repeat") +
                " the one before to the last digit, as where a sensor holds its value" +
                Fate(one ? "it is" : "they are");
+      case TraceFault::Kind::kBeforeRelease:
+        return "the body is held until " + Rounded(first_.release.time_s) + " s of " + trial_.file +
+               Others() + ", and then falls free; what is before" + NotCompared(" is");
+      case TraceFault::Kind::kAfterCatch:
+        return "the body rests in the air at the end of " + trial_.file + Others() +
+               ": it was caught, at " + Rounded(trial_.trace.time_s[first_.rows[0]]) +
+               " s; what follows" + NotCompared(" is");
       case TraceFault::Kind::kJump:
         break;
     }
@@ -145,13 +235,17 @@ class Telling {
   std::string Many() const {
     return trials_ > 1 ? " in " + std::to_string(trials_) + " trials" : "";
   }
+  std::string Others() const {
+    return trials_ > 1 ? " (likewise in " + std::to_string(trials_ - 1) + " more)" : "";
+  }
   std::string Where() const {
     return trial_.file + " at " + Rounded(trial_.trace.time_s[first_.rows[0]]) + " s";
   }
   std::string Size() const { return Rounded(largest_) + " " + ChannelUnit(first_.channel); }
-  std::string Fate(const std::string& what) const {
-    return "; " + what + (kept_ ? " compared all the same" : " not compared");
+  std::string NotCompared(const std::string& what) const {
+    return what + (kept_ ? " compared all the same" : " not compared");
   }
+  std::string Fate(const std::string& what) const { return "; " + NotCompared(what); }
   std::string Reason() const {
     constexpr double kTurn = 2.0 * kPi;
     const bool angle = std::string_view(ChannelUnit(first_.channel)) == "rad";

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "datasets/dataset.h"
+#include "fitting/handled_ends.h"
 
 namespace hoplab {
 
@@ -12,15 +13,18 @@ struct TraceFault {
   enum class Kind {
     kStray,  // samples far off the motion on both of their sides, which is one smooth motion
     kHeld,   // repeats of the sample before, where the noise makes equal samples impossible
-    kJump    // from these rows on the motion goes on smoothly, but from another place
+    kJump,   // from these rows on the motion goes on smoothly, but from another place
+    kBeforeRelease,  // the body is held, and then let go: the rows before (FindRelease)
+    kAfterCatch      // it is caught in the air: the rows from there on (FindCatch)
   };
   Kind kind = Kind::kStray;
   std::size_t trial = 0;
   Channel channel = Channel::kBodyX;
   std::vector<std::size_t> rows;  // of the trace, ascending
   double largest = 0.0;           // the largest distance [the channel's unit]
+  Release release = {};           // of kBeforeRelease
 };
-/// "stray", "held" or "jump".
+/// "stray", "held", "jump", "before_release" or "after_catch".
 std::string_view NameOf(TraceFault::Kind kind);
 
 /// All of them, by what is recorded alone: no law is asked. The motion beside a sample is a
@@ -35,7 +39,8 @@ std::string_view NameOf(TraceFault::Kind kind);
 std::vector<TraceFault> FindTraceFaults(const Dataset& dataset);
 
 /// The dataset with stray and held samples missing, and of a channel that jumps all that follows:
-/// nobody knows where the body is from there on.
+/// nobody knows where the body is from there on. A trial begins after the release and ends before
+/// the catch; a start that is stated is that of the release, moved on to the first row.
 Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults);
 
 /// A sentence for each channel and kind, for a reader: how many samples of which trials, and

@@ -16,16 +16,10 @@ constexpr double kNoiseExcess = 1.25;
 double EstimatedNoise(const FitProblem& problem, std::size_t channel) {
   if (problem.channels[channel].channel > Channel::kBodyVy)
     return std::numeric_limits<double>::quiet_NaN();
-  const std::size_t width = problem.channels.size();
-  std::vector<std::vector<double>> values;
-  values.reserve(problem.trials.size());
+  const std::vector<std::vector<double>> samples = SamplesOf(problem, channel);
   std::vector<SampledColumn> columns;
-  for (const TrialProblem& t : problem.trials) {
-    std::vector<double>& column = values.emplace_back();
-    for (std::size_t row = 0; row < t.row_times.size(); ++row)
-      column.push_back(t.data[row * width + channel]);
-    columns.push_back({t.row_times, column});
-  }
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    columns.push_back({problem.trials[i].row_times, samples[i]});
   return EstimateNoise(columns);
 }
 

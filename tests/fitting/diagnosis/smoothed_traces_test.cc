@@ -11,6 +11,7 @@
 
 #include "base/random.h"
 #include "datasets/read_dataset.h"
+#include "datasets/smoothness.h"
 #include "fitting/diagnosis/diagnosis.h"
 
 namespace hoplab {

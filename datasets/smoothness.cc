@@ -1,0 +1,81 @@
+#include "datasets/smoothness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "base/nan.h"
+
+namespace hoplab {
+namespace {
+
+constexpr std::size_t kWindow = 12;   // samples
+constexpr std::size_t kWindows = 12;  // fewer tell nothing
+constexpr double kNotWhite = 0.0;     // white noise has -0.55 +- 0.1
+
+struct Window {
+  double square, correlation;
+};
+
+// Of every `stride`-th sample, whatever their times: a gap makes a window loud, and it is left out.
+void AddWindows(const SampledColumn& column, std::size_t stride, std::vector<Window>& windows) {
+  const std::size_t length = kWindow * stride;
+  for (std::size_t begin = 0; begin + length <= column.values.size(); begin += length) {
+    double square = 0.0, product = 0.0, before = 0.0;
+    for (std::size_t i = 3; i < kWindow; ++i) {
+      const auto y = [&](std::size_t back) { return column.values[begin + (i - back) * stride]; };
+      const double third = y(0) - 3.0 * y(1) + 3.0 * y(2) - y(3);
+      square += third * third;
+      product += third * before;
+      before = third;
+    }
+    if (square > 0.0) windows.push_back({square, product / square});  // NaN: a sample is missing
+  }
+}
+
+double MedianOfQuietest(std::vector<Window>& windows) {
+  if (windows.size() < kWindows) return kNaN;
+  const auto middle = windows.begin() + static_cast<std::ptrdiff_t>(windows.size() / 2);
+  std::nth_element(windows.begin(), middle, windows.end(),
+                   [](const Window& a, const Window& b) { return a.square < b.square; });
+  const auto quarter = windows.begin() + static_cast<std::ptrdiff_t>(windows.size() / 4);
+  std::nth_element(windows.begin(), quarter, middle,
+                   [](const Window& a, const Window& b) { return a.correlation < b.correlation; });
+  return quarter->correlation;
+}
+
+double StepOf(std::span<const SampledColumn> columns) {
+  double step = 0.0;
+  for (const SampledColumn& c : columns)
+    if (c.times.size() > 1)
+      step = std::max(step,
+                      (c.times.back() - c.times.front()) / static_cast<double>(c.times.size() - 1));
+  return step;
+}
+
+}  // namespace
+
+double SmoothnessOfNoise(std::span<const SampledColumn> columns) {
+  const double step = StepOf(columns);
+  double smoothness = kNaN;
+  std::vector<Window> windows;
+  for (std::size_t stride = 1; stride == 1 || static_cast<double>(stride) * step <= kApart_s;
+       stride *= 2) {
+    windows.clear();
+    for (const SampledColumn& column : columns) AddWindows(column, stride, windows);
+    if (windows.empty()) break;
+    smoothness = std::fmax(smoothness, MedianOfQuietest(windows));
+  }
+  return smoothness;
+}
+
+bool IsSmoothed(std::span<const SampledColumn> columns) {
+  return SmoothnessOfNoise(columns) > kNotWhite;
+}
+
+std::size_t ApartIn(std::span<const SampledColumn> columns) {
+  const double step = StepOf(columns);
+  return step > 0.0 ? std::max<std::size_t>(static_cast<std::size_t>(kApart_s / step), 1) : 1;
+}
+
+}  // namespace hoplab

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace hoplab {
+
+/// One column with its times, s.
+struct SampledColumn {
+  std::span<const double> times;
+  std::span<const double> values;  // NaN = missing
+};
+
+/// How alike the third differences of neighbouring samples are, where the motion is at its
+/// quietest: the median over short windows of their correlation, at that distance of samples, up to
+/// kApart_s, at which it is largest. Of white noise - 0.55; of noise that went through a filter it
+/// is positive, since a filter leaves no difference between neighbours. NaN where there are too few
+/// samples.
+double SmoothnessOfNoise(std::span<const SampledColumn> columns);
+/// Whether it is positive.
+bool IsSmoothed(std::span<const SampledColumn> columns);
+
+/// Samples that are compared lie at most so far apart: a stance lasts longer [s].
+inline constexpr double kApart_s = 0.01;
+/// How many samples make that.
+std::size_t ApartIn(std::span<const SampledColumn> columns);
+
+}  // namespace hoplab

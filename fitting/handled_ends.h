@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "fitting/stray_samples.h"
+
+namespace hoplab {
+
+/// Where a body that was held is let go.
+struct Release {
+  std::size_t first = 0;                       // the first sample after it
+  double time_s = 0.0, doubt_s = 0.0;          // when it was, and one standard deviation of that
+  double height_m = 0.0, speed_m_per_s = 0.0;  // there
+};
+/// The heights that a record begins with, if a hand holds the body or moves it evenly and then lets
+/// it fall: a line, and from one instant on the parabola of -g beside it, 30 mm deep. It must
+/// miss by no more than noise, and both a fall from the first sample on and any other parabola by
+/// far more: a body that falls against friction does not begin to fall late. A body that stands
+/// does not fall free. `gravity` [m/s^2], positive.
+std::optional<Release> FindRelease(const Samples& heights, double sigma, double gravity);
+
+/// The first sample of those at the end of a record at which the body is no longer free, if it
+/// rests in the air there for a tenth of a second: somebody caught it. `lands_m`: above this
+/// height nothing carries it.
+std::optional<std::size_t> FindCatch(const Samples& heights, double sigma, double gravity,
+                                     double lands_m);
+
+}  // namespace hoplab

@@ -1,0 +1,168 @@
+// Hands before a flight and after it, on paths in closed form: free fall, falls against friction,
+// stances.
+#include "fitting/handled_ends.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "base/random.h"
+#include "datasets/read_dataset.h"
+#include "fitting/problem.h"
+
+namespace hoplab {
+namespace {
+
+constexpr double kG = 9.81;
+
+Samples Sampled(const std::function<double(double)>& height, double until, double rate,
+                double sigma, RandomStream random) {
+  Samples s;
+  s.step = 1.0 / rate;
+  for (std::size_t i = 0; static_cast<double>(i) * s.step <= until; ++i) {
+    s.t.push_back(0.3 + static_cast<double>(i) * s.step);
+    s.y.push_back(height(static_cast<double>(i) * s.step) + sigma * random.Normal());
+    s.row.push_back(i);
+  }
+  return s;
+}
+
+double Falling(double since, double acceleration) {
+  return since > 0.0 ? -0.5 * acceleration * since * since : 0.0;
+}
+
+struct Sampling {
+  double rate, sigma;
+};
+constexpr Sampling kSamplings[] = {{500, 0.0005}, {500, 0.002},  {250, 0.0003},
+                                   {120, 0.001},  {1000, 0.001}, {60, 0.0005}};
+
+TEST(FindRelease, FindsWhenABodyThatIsHeldIsLetGo) {
+  int found = 0, within = 0, all = 0;
+  for (const Sampling& sampling : kSamplings) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      RandomStream random(seed, static_cast<std::uint64_t>(sampling.rate));
+      const double release = random.Uniform(0.1, 0.6), moves = random.Uniform(-0.03, 0.03);
+      const Samples s =
+          Sampled([&](double t) { return 0.3 + moves * t + Falling(t - release, kG); },
+                  release + 0.15, sampling.rate, sampling.sigma, random);
+      const auto seen = FindRelease(s, sampling.sigma, kG);
+      ++all;
+      if (!seen) continue;
+      ++found;
+      within += std::abs(seen->time_s - 0.3 - release) < 2.0 * seen->doubt_s ? 1 : 0;
+      EXPECT_LT(seen->doubt_s, 0.01);
+      EXPECT_NEAR(seen->time_s - 0.3, release, 0.02);
+      EXPECT_NEAR(seen->height_m, 0.3 + moves * release, 5.0 * sampling.sigma);
+      EXPECT_NEAR(seen->speed_m_per_s, moves, 0.15);
+      ASSERT_LT(seen->first, s.size());
+      EXPECT_GE(s.t[seen->first], seen->time_s);
+      EXPECT_LT(s.t[seen->first - 1], seen->time_s);
+    }
+  }
+  EXPECT_EQ(all, 240);
+  EXPECT_GE(found, 230);
+  EXPECT_NEAR(static_cast<double>(within) / found, 0.95, 0.05);
+}
+
+// Falls from the first sample on, thrown up or down, against a counterweight, against air, into a
+// stance: whatever the rate and the noise.
+TEST(FindRelease, HonestFlightsHaveNone) {
+  int all = 0;
+  for (const Sampling& sampling : kSamplings) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      RandomStream random(seed, 7 + static_cast<std::uint64_t>(sampling.rate));
+      const double speed = random.Uniform(-0.8, 1.2), share = random.Uniform(0.5, 1.0);
+      const double drag = random.Uniform(0.0, 3.0), stance = random.Uniform(0.03, 0.12);
+      const double lands = random.Uniform(0.01, 0.2);
+      const auto path = [&](double t) {
+        const double a = share * kG, limit = a / std::max(drag, 1e-3);
+        const double fall =
+            (speed + limit) * (1.0 - std::exp(-std::max(drag, 1e-3) * t)) / std::max(drag, 1e-3) -
+            limit * t;
+        if (fall > -lands) return 0.3 + fall;
+        return 0.3 - lands + 0.5 * stance * std::sin(2.0 * (fall + lands) / stance);
+      };
+      const Samples s = Sampled(path, 0.6, sampling.rate, sampling.sigma, random);
+      EXPECT_FALSE(FindRelease(s, sampling.sigma, kG).has_value())
+          << sampling.rate << " Hz, seed " << seed;
+      ++all;
+    }
+  }
+  EXPECT_EQ(all, 600);
+}
+
+// A hop, and a hand that takes the body somewhere in its second flight and holds it.
+TEST(FindCatch, FindsTheHandAndNoApex) {
+  constexpr double kLands = 0.2;
+  int found = 0, late = 0;
+  for (const Sampling& sampling : kSamplings) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      RandomStream random(seed, 11 + static_cast<std::uint64_t>(sampling.rate));
+      const double up = random.Uniform(1.2, 1.6), flight = 2.0 * up / kG;
+      const double at = random.Uniform(0.3, 0.9) * flight, soft = random.Uniform(0.005, 0.04);
+      const auto free = [&](double t) { return kLands + up * t - 0.5 * kG * t * t; };
+      const auto caught = [&](double t) {
+        if (t < at) return free(t);
+        return free(at) + (up - kG * at) * soft * (1.0 - std::exp(-(t - at) / soft));
+      };
+      // A stance of 0.1 s before.
+      const auto hop = [&](const std::function<double(double)>& path) {
+        return [path](double t) {
+          return t < 0.1 ? kLands - 0.03 * std::sin(31.4 * t) : path(t - 0.1);
+        };
+      };
+      const Samples s = Sampled(hop(caught), 0.1 + at + 0.5, sampling.rate, sampling.sigma, random);
+      const auto first = FindCatch(s, sampling.sigma, kG, kLands);
+      if (first) {
+        ++found;
+        late += s.t[*first] - 0.3 > 0.1 + at ? 1 : 0;
+      }
+      const Samples cut = Sampled(hop(free), 0.1 + random.Uniform(0.2, 0.8) * flight, sampling.rate,
+                                  sampling.sigma, random);
+      EXPECT_FALSE(FindCatch(cut, sampling.sigma, kG, kLands).has_value())
+          << sampling.rate << " Hz, seed " << seed;
+    }
+  }
+  EXPECT_GE(found, 225);
+  EXPECT_EQ(late, 0);
+}
+
+// The same drops with a hand before them, the same fit.
+TEST(HeldBody, IsFittedAsIfItsLogBeganAtTheRelease) {
+  const Dataset plain = ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/rig-drops");
+  Dataset held = plain;
+  RandomStream random(3, 1);
+  for (Trial& trial : held.trials) {
+    const std::size_t rows = 40 + static_cast<std::size_t>(random.Uniform(0.0, 100.0));
+    const double step = trial.trace.time_s[1] - trial.trace.time_s[0];
+    for (TraceColumn& column : trial.trace.columns) {
+      std::vector<double> values;
+      for (std::size_t i = 0; i < rows; ++i)
+        values.push_back(column.values[0] + 5e-4 * random.Normal());
+      column.values.insert(column.values.begin(), values.begin(), values.end());
+    }
+    trial.trace.time_s.clear();
+    for (std::size_t i = 0; i < trial.trace.columns[0].values.size(); ++i)
+      trial.trace.time_s.push_back(step * static_cast<double>(i));
+  }
+  const FitProblem problem = MakeProblem(held, {});
+  ASSERT_EQ(problem.trace_faults.size(), held.trials.size());
+  for (std::size_t i = 0; i < held.trials.size(); ++i) {
+    const TraceFault& fault = problem.trace_faults[i];
+    EXPECT_EQ(fault.kind, TraceFault::Kind::kBeforeRelease);
+    EXPECT_NEAR(static_cast<double>(problem.trials[i].row_times.size()),
+                static_cast<double>(plain.trials[i].trace.time_s.size()), 3.0);
+    // What is stated is moved on to the first row.
+    const double since = problem.trials[i].begin_s - fault.release.time_s;
+    EXPECT_NEAR(problem.trials[i].start[3], held.trials[i].initial->vy_m_per_s - kG * since, 1e-12);
+  }
+  EXPECT_EQ(problem.notes.front().substr(0, 22), "the body is held until");
+  ProblemOptions keep;
+  keep.keep_stray = true;
+  EXPECT_EQ(MakeProblem(held, keep).trials[0].row_times.size(), held.trials[0].trace.time_s.size());
+}
+
+}  // namespace
+}  // namespace hoplab
