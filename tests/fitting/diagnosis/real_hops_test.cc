@@ -38,9 +38,11 @@ TEST(RealHops, TableTennisBallsFeelTheDragOfABall) {
   EXPECT_LT(cd, 0.7);
   for (std::size_t c = 0; c < d->before.test.rmse.size(); ++c)
     EXPECT_LT(d->extension->after.test.rmse[c], d->before.test.rmse[c]) << c;
-  // Each ball spins and is tracked in its own way: half of the misfit has no name here.
+  // Each ball spins and is tracked in its own way: a third of the misfit has no name here. The
+  // friction of a bounce takes a half to the rest, in one trial where the spin is forward.
   EXPECT_EQ(d->verdict, Verdict::kUnexplained);
-  EXPECT_LT(d->extension->explained, 0.6);
+  EXPECT_GT(d->extension->explained, 0.5);
+  EXPECT_LT(d->extension->explained, 0.75);
 }
 
 TEST(RealHops, TheLaminateHopperPushesAndIsNotAllExplained) {
