@@ -15,7 +15,7 @@ struct SampledColumn {
 /// quietest: the median over short windows of their correlation, at that distance of samples, up to
 /// kApart_s, at which it is largest. Of white noise - 0.55; of noise that went through a filter it
 /// is positive, since a filter leaves no difference between neighbours. NaN where there are too few
-/// samples.
+/// samples, or fewer than a hundred a second.
 double SmoothnessOfNoise(std::span<const SampledColumn> columns);
 /// Whether it is positive.
 bool IsSmoothed(std::span<const SampledColumn> columns);

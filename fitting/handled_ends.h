@@ -12,6 +12,7 @@ struct Release {
   std::size_t first = 0;                       // the first sample after it
   double time_s = 0.0, doubt_s = 0.0;          // when it was, and one standard deviation of that
   double height_m = 0.0, speed_m_per_s = 0.0;  // there
+  double rise_m = 0.0;                         // how far it was lifted since the first sample
 };
 /// The heights that a record begins with, if a hand holds the body or moves it evenly and then lets
 /// it fall: a line, and from one instant on the parabola of -g beside it, 30 mm deep. It must
@@ -21,8 +22,8 @@ struct Release {
 std::optional<Release> FindRelease(const Samples& heights, double sigma, double gravity);
 
 /// The first sample of those at the end of a record at which the body is no longer free, if it
-/// rests in the air there for a tenth of a second: somebody caught it. `lands_m`: above this
-/// height nothing carries it.
+/// rests in the air there for a tenth of a second, a centimetre above `lands_m`, and has been below
+/// that before: somebody caught it. `lands_m`: above this height no leg carries it.
 std::optional<std::size_t> FindCatch(const Samples& heights, double sigma, double gravity,
                                      double lands_m);
 

@@ -55,8 +55,10 @@ double ScaleOf(std::vector<double> variances) {
 
 }  // namespace
 
-double EstimateNoise(std::span<const SampledColumn> columns) {
-  const std::size_t apart = IsSmoothed(columns) ? ApartIn(columns) : 1;
+namespace {
+
+// Of every `apart`-th sample; NaN when there are too few.
+double NoiseOf(std::span<const SampledColumn> columns, std::size_t apart) {
   std::vector<double> variances;
   for (const SampledColumn& column : columns) {
     std::vector<double> t, v;
@@ -73,6 +75,15 @@ double EstimateNoise(std::span<const SampledColumn> columns) {
     if (t.size() >= kLeastWindow) variances.push_back(WindowVariance(t, v));
   }
   return ScaleOf(std::move(variances));
+}
+
+}  // namespace
+
+double EstimateNoise(std::span<const SampledColumn> columns) {
+  std::size_t apart = IsSmoothed(columns) ? ApartIn(columns) : 1;
+  double noise = NoiseOf(columns, apart);
+  for (; std::isnan(noise) && apart > 1; noise = NoiseOf(columns, apart)) apart /= 2;
+  return noise;
 }
 
 }  // namespace hoplab

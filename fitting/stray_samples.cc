@@ -268,6 +268,12 @@ class Column {
 
 }  // namespace
 
+Samples Samples::From(std::size_t first) const {
+  std::vector<bool> left_out(size(), false);
+  std::fill_n(left_out.begin(), first, true);
+  return Without(left_out);
+}
+
 Samples Samples::Without(const std::vector<bool>& left_out) const {
   Samples rest;
   rest.step = step;

@@ -12,6 +12,8 @@ struct Samples {
   double step = 0.0;             // median time from row to row [s]
   std::size_t size() const { return t.size(); }
   Samples Without(const std::vector<bool>& left_out) const;
+  /// Without the first ones.
+  Samples From(std::size_t first) const;
 };
 
 /// Which samples repeat the one before to the last digit where chance cannot have made it so: the

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <string_view>
 
 #include "base/nan.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr double kRounding = 1e-6;  // of a column's range: less is of no interest
 constexpr double kStated = 5.0;     // stated standard deviations, likewise
 constexpr double kLeastNoise_m = 1e-5;
+constexpr double kMoved_m = 0.003;     // below it a hand has held still
 constexpr std::size_t kLeftOver = 10;  // samples: fewer before a catch are no hop
 
 // Bodies are slow. A hopper's leg is swung ahead at once, and a motor turns as quickly as noise.
@@ -51,28 +53,31 @@ void FindHands(const Trial& trial, std::size_t place, const ChannelSpec& channel
   const bool waits = !trial.controller || !trial.controller->motors ||
                      trial.controller->motors->kind == MotorControl::kHeld;
   if (!values || !waits) return;
-  const Samples s = SamplesOf(trial, *values);
+  Samples s = SamplesOf(trial, *values);
   if (s.size() < 2) return;
+  s.step = MedianStep(s.t);  // it may have been sampled more coarsely than others
   const double noise = HighFrequencyNoise(s.t, s.y);
   if (std::isnan(noise)) return;
   const double sigma = std::max({noise, channel.sigma.value_or(0.0), kLeastNoise_m});
   const double g = trial.mechanism.gravity_m_per_s2;
   const bool in_flight = !trial.initial || trial.initial->mode == StartMode::kFlight;
-  TraceFault fault{TraceFault::Kind::kBeforeRelease, place, Channel::kBodyY, {}, 0.0};
-  const auto add = [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) fault.rows.push_back(s.row[i]);
-    faults.push_back(fault);
-  };
+  std::size_t begins = 0;
   if (const auto release = in_flight ? FindRelease(s, sigma, g) : std::nullopt) {
-    fault.release = *release;
-    add(0, release->first);
-    fault.rows.clear();
+    begins = release->first;
+    if (begins + kLeftOver > s.size()) return;
+    TraceFault held{TraceFault::Kind::kBeforeRelease, place, Channel::kBodyY, {}, 0.0, *release};
+    for (std::size_t row = 0; row < s.row[begins]; ++row) held.rows.push_back(row);
+    faults.push_back(held);
   }
-  fault.kind = TraceFault::Kind::kAfterCatch;
-  const double lands_m = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
-  const auto caught =
-      std::isfinite(lands_m) ? FindCatch(s, sigma, g, lands_m) : std::optional<std::size_t>();
-  if (caught && *caught > kLeftOver) add(*caught, s.size());
+  // A leg carries it at most where it stands upright.
+  const double lands_m = TouchdownHeight(trial.mechanism, 0.0);
+  if (!std::isfinite(lands_m)) return;
+  const auto caught = FindCatch(s.From(begins), sigma, g, lands_m);
+  if (!caught || *caught < kLeftOver) return;
+  TraceFault after{TraceFault::Kind::kAfterCatch, place, Channel::kBodyY, {}, 0.0};
+  for (std::size_t row = s.row[begins + *caught]; row < values->size(); ++row)
+    after.rows.push_back(row);
+  faults.push_back(after);
 }
 
 void FindIn(const Trial& trial, std::size_t place, const ChannelSpec& channel,
@@ -144,15 +149,31 @@ void Erase(std::size_t first, std::size_t last, Trace& trace) {
   for (TraceColumn& column : trace.columns) erase(column.values);
 }
 
-// What is stated is how the body was let go, or how it was held.
-void MoveStart(const Release& release, Trial& trial) {
+// How far a hand has moved the body along the ground, beyond its noise.
+double MovedBefore(const Release& release, const Trial& trial) {
+  const std::vector<double>* x = trial.trace.Find(Channel::kBodyX);
+  if (!x) return 0.0;
+  std::vector<double> held;
+  for (std::size_t i = 0; i < x->size() && trial.trace.time_s[i] < release.time_s; ++i)
+    if (std::isfinite((*x)[i])) held.push_back((*x)[i]);
+  constexpr std::ptrdiff_t kMean = 5;
+  if (std::ssize(held) < 2 * kMean) return 0.0;
+  const double moved = (std::accumulate(held.end() - kMean, held.end(), 0.0) -
+                        std::accumulate(held.begin(), held.begin() + kMean, 0.0)) /
+                       static_cast<double>(kMean);
+  return std::abs(moved) > kMoved_m ? moved : 0.0;
+}
+
+// What is stated is how the body was held at first: it is where the hand has brought it, and has
+// fallen since.
+void MoveStart(const Release& release, double since, double moved_m, Trial& trial) {
   if (!trial.initial) return;
-  const double since = trial.trace.time_s.front() - release.time_s;
   const double g = trial.mechanism.gravity_m_per_s2;
   StateSpec& start = *trial.initial;
-  start.x_m += start.vx_m_per_s * since;
-  start.y_m += start.vy_m_per_s * since - 0.5 * g * since * since;
+  start.x_m += moved_m + start.vx_m_per_s * since;
+  start.y_m += release.rise_m + start.vy_m_per_s * since - 0.5 * g * since * since;
   start.vy_m_per_s -= g * since;
+  if (start.pitch_rad) *start.pitch_rad += start.pitch_rate_rad_per_s.value_or(0.0) * since;
   if (trial.initial_sigma)
     trial.initial_sigma->vy_m_per_s =
         std::hypot(trial.initial_sigma->vy_m_per_s, g * release.doubt_s);
@@ -179,8 +200,9 @@ Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults) {
     if (fault->kind == TraceFault::Kind::kAfterCatch)
       Erase(fault->rows.front(), trial.trace.time_s.size(), trial.trace);
     if (fault->kind != TraceFault::Kind::kBeforeRelease) continue;
+    const double moved_m = MovedBefore(fault->release, trial);
     Erase(0, fault->rows.back() + 1, trial.trace);
-    MoveStart(fault->release, trial);
+    MoveStart(fault->release, trial.trace.time_s.front() - fault->release.time_s, moved_m, trial);
   }
   return dataset;
 }

@@ -7,13 +7,14 @@
 namespace hoplab {
 namespace {
 
-// Beyond this many time constants its weights are below 1e-13 of the first: where one more row
-// comes in as tau grows, differences of a hundred-thousandth of tau do not see it.
+using Complex = std::complex<double>;
+using Eigen::Index;
+
+// Beyond this many time constants a weight is below 1e-13 of the first.
 constexpr double kReach = 30.0 * std::numbers::sqrt2;
-constexpr double kUnseen = 0.05;       // of a step: the row beside has a weight of 1e-6
-constexpr double kBeside = 1e-6;       // of a step, below which two rows are one
+constexpr double kUnseen = 0.05;  // of a step: the row beside has a weight of 1e-6
+constexpr double kBeside = 0.5;  // of a step, within which a row takes the place of one of the grid
 constexpr double kWidestGrid = 0.004;  // s
-constexpr double kEven = 1e-9;         // of a step
 constexpr double kPathBase = 0.004;    // s, between the rows that say how the path goes on
 
 // The mean distance of two rows, or less.
@@ -23,28 +24,63 @@ double GridStep(std::span<const double> rows) {
   return mean / std::ceil(mean / kWidestGrid);
 }
 
-// M105 as a mean: exp(-u) (cos u + sin u), u = |distance|/(sqrt(2) tau).
-FilterShare ShareOf(double distance, double tau) {
-  const double u = std::abs(distance) / (std::numbers::sqrt2 * tau);
-  const double decay = std::exp(-u), sine = std::sin(u);
-  return {decay * (std::cos(u) + sine), 2.0 * u / tau * decay * sine};
-}
+// M105 as a mean over rows s: weights Re (1 - i) exp(-(1 - i) u) = exp(-u) (cos u + sin u),
+// u = |t - s|/(sqrt(2) tau). Their derivative by tau is 2/tau Im u exp(-(1 - i) u).
+constexpr Complex kTurn(1.0, -1.0);
+
+// The sums over the rows on one side of a row, its own with them, of several columns at once. From
+// row to row they shrink by one factor.
+class OneSide {
+ public:
+  OneSide(double tau, Index columns)
+      : unit_(std::numbers::sqrt2 * tau),
+        sum_(Eigen::ArrayXcd::Zero(columns)),
+        moment_(Eigen::ArrayXcd::Zero(columns)) {}
+  // A row that is `distance` away from where the sums stand.
+  template <class Values>
+  void AddAt(double distance, double weight, const Values& values) {
+    const double u = distance / unit_;
+    const Complex decay = weight * std::exp(-kTurn * u);
+    sum_ += decay * values;
+    moment_ += u * decay * values;
+  }
+  void Advance(double distance) {
+    const double u = distance / unit_;
+    const Complex decay = std::exp(-kTurn * u);
+    moment_ = decay * (moment_ + u * sum_);
+    sum_ *= decay;
+  }
+  Eigen::ArrayXd Sum() const { return sum_.real() + sum_.imag(); }
+  Eigen::ArrayXd Moment() const { return moment_.imag(); }
+
+ private:
+  double unit_;
+  Eigen::ArrayXcd sum_, moment_;
+};
 
 }  // namespace
 
 std::vector<double> ThroughFilter(const PoseFilter& filter, std::span<const double> times,
                                   std::span<const double> values) {
-  std::vector<double> filtered;
-  for (const double time : times) {
-    double sum = 0.0, weights = 0.0;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      if (std::abs(time - times[i]) > kReach * filter.tau) continue;
-      const double weight = ShareOf(time - times[i], filter.tau).value;
-      sum += weight * values[i];
-      weights += weight;
-    }
-    filtered.push_back(sum / weights);
+  const auto n = static_cast<Index>(times.size());
+  Eigen::ArrayXXd sums = Eigen::ArrayXXd::Zero(n, 2);  // of the values, of the weights
+  const auto at = [&](Index i) { return times[static_cast<std::size_t>(i)]; };
+  const auto row = [&](Index i) {
+    return Eigen::Array2d(values[static_cast<std::size_t>(i)], 1.0);
+  };
+  OneSide before(filter.tau, 2), after(filter.tau, 2);
+  for (Index i = 0; i < n; ++i) {
+    if (i > 0) before.Advance(at(i) - at(i - 1));
+    before.AddAt(0.0, 1.0, row(i));
+    sums.row(i) += before.Sum().transpose() - row(i).transpose();
   }
+  for (Index i = n - 1; i >= 0; --i) {
+    if (i < n - 1) after.Advance(at(i + 1) - at(i));
+    after.AddAt(0.0, 1.0, row(i));
+    sums.row(i) += after.Sum().transpose();
+  }
+  std::vector<double> filtered;
+  for (Index i = 0; i < n; ++i) filtered.push_back(sums(i, 0) / sums(i, 1));
   return filtered;
 }
 
@@ -82,15 +118,12 @@ FilterRows::FilterRows(const SimulationRequest& request, const PoseFilter& filte
     if (times_.back() < time - kBeside * step_) times_.push_back(time);
   }
   own_until(rows.back());
-  for (int k = 0; k * step_ <= kReach * filter.tau; ++k)
-    shares_.push_back(ShareOf(k * step_, filter.tau));
-}
-
-FilterShare FilterRows::ShareAt(double distance) const {
-  const double steps = std::abs(distance) / step_, even = std::round(steps);
-  const auto place = static_cast<std::size_t>(even);
-  return std::abs(steps - even) < kEven && place < shares_.size() ? shares_[place]
-                                                                  : ShareOf(distance, filter_.tau);
+  for (std::size_t c = 0; c < request.channels.size(); ++c)
+    if (IsFiltered(request.channels[c])) filtered_.push_back(c);
+  for (std::size_t k = 0; k < request.directions.size() && !by_tau_; ++k) {
+    const SensitivityDirection& d = request.directions[k];
+    if (d.of == SensitivityDirection::Of::kEffect && d.index == filter.effect) by_tau_ = k;
+  }
 }
 
 FilterRows::Path FilterRows::PathFrom(std::size_t end, std::size_t other_end) const {
@@ -105,101 +138,111 @@ FilterRows::Path FilterRows::PathFrom(std::size_t end, std::size_t other_end) co
   return {end, middle, far};
 }
 
-void FilterRows::AddBeyond(const Path& path, double time, double sign,
-                           std::vector<Weight>& weights) const {
+// What every row of the run says: 1, and of each filtered channel the sample and its derivatives.
+Eigen::ArrayXXd FilterRows::ColumnsOf(const Trajectory& run, std::size_t rows) const {
+  const std::size_t channels = request_.channels.size(), width = request_.directions.size();
+  Eigen::ArrayXXd columns(static_cast<Index>(filtered_.size() * (1 + width) + 1),
+                          static_cast<Index>(rows));
+  for (std::size_t row = 0; row < rows; ++row) {
+    double* to = columns.col(static_cast<Index>(row)).data();
+    *to++ = 1.0;
+    for (const std::size_t c : filtered_) {
+      const std::size_t cell = row * channels + c;
+      *to++ = run.samples[cell];
+      to = std::copy_n(run.sensitivities.data() + cell * width, width, to);
+    }
+  }
+  return columns;
+}
+
+// The sums at each of the first `rows`, on one side: `first` is the row they begin with.
+template <class Take>
+void FilterRows::Pass(const Eigen::ArrayXXd& columns, bool forward, const Take& take) const {
+  const auto rows = static_cast<std::size_t>(columns.cols());
+  const auto column = [&](std::size_t row) { return columns.col(static_cast<Index>(row)); };
+  const std::size_t first = forward ? 0 : rows - 1, last = forward ? rows - 1 : 0;
+  OneSide side(filter_.tau, columns.rows());
+  // Beyond the first row the path goes on.
+  const Path path = PathFrom(first, last);
   const double a = times_[path.end], b = times_[path.middle], c = times_[path.far];
-  Weight at[] = {{path.end}, {path.middle}, {path.far}};
-  for (int k = 1;; ++k) {
-    const double t = a + sign * k * step_;
-    if (std::abs(t - time) > kReach * filter_.tau) break;
-    const FilterShare share = ShareAt(time - t);
-    double lagrange[] = {1.0, 0.0, 0.0};
-    if (path.far != path.end) {
-      lagrange[0] = (t - b) * (t - c) / ((a - b) * (a - c));
-      lagrange[1] = (t - a) * (t - c) / ((b - a) * (b - c));
-      lagrange[2] = (t - a) * (t - b) / ((c - a) * (c - b));
+  for (int k = 1; k * step_ <= kReach * filter_.tau; ++k) {
+    const double t = forward ? a - k * step_ : a + k * step_;
+    if (path.far == path.end) {
+      side.AddAt(k * step_, 2.0 * step_, column(path.end));
+      continue;
     }
-    for (int i = 0; i < 3; ++i) {
-      at[i].value += 2.0 * step_ * lagrange[i] * share.value;
-      at[i].by_tau += 2.0 * step_ * lagrange[i] * share.by_tau;
-    }
+    side.AddAt(k * step_, 2.0 * step_ * (t - b) * (t - c) / ((a - b) * (a - c)), column(path.end));
+    side.AddAt(k * step_, 2.0 * step_ * (t - a) * (t - c) / ((b - a) * (b - c)),
+               column(path.middle));
+    side.AddAt(k * step_, 2.0 * step_ * (t - a) * (t - b) / ((c - a) * (c - b)), column(path.far));
   }
-  weights.insert(weights.end(), std::begin(at), std::end(at));
-}
-
-void FilterRows::WeightsAt(double time, std::size_t read, std::vector<Weight>& weights) const {
-  weights.clear();
-  const double reach = kReach * filter_.tau;
-  const auto end = times_.begin() + static_cast<std::ptrdiff_t>(read);
-  const auto begin = std::lower_bound(times_.begin(), end, time - reach);
-  for (auto at = begin; at != end && *at <= time + reach; ++at) {
-    const auto row = static_cast<std::size_t>(at - times_.begin());
-    const double before = row > 0 ? times_[row - 1] : *at - step_;
-    const double after = row + 1 < read ? times_[row + 1] : *at + step_;
-    const FilterShare share = ShareAt(time - *at);
-    weights.push_back({row, share.value * (after - before), share.by_tau * (after - before)});
-  }
-  if (time - reach < times_.front()) AddBeyond(PathFrom(0, read - 1), time, -1.0, weights);
-  if (time + reach > times_[read - 1]) AddBeyond(PathFrom(read - 1, 0), time, 1.0, weights);
-  double sum = 0.0, sum_by_tau = 0.0;
-  for (const Weight& w : weights) {
-    sum += w.value;
-    sum_by_tau += w.by_tau;
-  }
-  for (Weight& w : weights) {
-    w.value /= sum;
-    w.by_tau = w.by_tau / sum - w.value * sum_by_tau / sum;
+  for (std::size_t count = 0; count < rows; ++count) {
+    const std::size_t row = forward ? count : rows - 1 - count;
+    if (count > 0) side.Advance(std::abs(times_[row] - times_[forward ? row - 1 : row + 1]));
+    side.AddAt(0.0, Share(row, rows), column(row));
+    take(row, side);
   }
 }
 
-// The first rows of a filtered channel that the run tells.
+// The stretch of time that a row stands for, twice.
+double FilterRows::Share(std::size_t row, std::size_t rows) const {
+  const double before = row > 0 ? times_[row - 1] : times_[row] - step_;
+  const double after = row + 1 < rows ? times_[row + 1] : times_[row] + step_;
+  return after - before;
+}
+
+// The first rows of which the run tells every filtered channel.
 std::size_t FilterRows::RowsReached(const Trajectory& run) const {
-  const auto channel = std::find_if(request_.channels.begin(), request_.channels.end(), IsFiltered);
-  if (channel == request_.channels.end()) return 0;
-  auto cell = static_cast<std::size_t>(channel - request_.channels.begin());
-  std::size_t rows = 0;
-  for (; rows < times_.size() && !std::isnan(run.samples[cell]); ++rows)
-    cell += request_.channels.size();
+  std::size_t rows = filtered_.empty() ? 0 : times_.size();
+  for (const std::size_t c : filtered_)
+    for (std::size_t row = 0; row < rows; ++row)
+      if (std::isnan(run.samples[row * request_.channels.size() + c])) rows = row;
   return rows;
 }
 
-void FilterRows::Filter(Trajectory& run) const {
-  const std::size_t columns = request_.channels.size(), width = request_.directions.size();
-  std::vector<double> samples(own_.size() * columns);
-  std::vector<double> slopes(samples.size() * width);
-  const auto is_tau = [&](const SensitivityDirection& d) {
-    return d.of == SensitivityDirection::Of::kEffect && d.index == filter_.effect;
-  };
-  std::optional<std::size_t> by_tau;
-  for (std::size_t k = 0; k < width && !by_tau; ++k)
-    if (is_tau(request_.directions[k])) by_tau = k;
-  const auto slopes_of = [&](std::size_t cell) { return run.sensitivities.data() + cell * width; };
-  const std::size_t read = RowsReached(run);
-  std::vector<Weight> weights;
-  for (std::size_t i = 0; i < own_.size(); ++i) {
-    const bool reached = own_[i] < read;
-    if (reached) WeightsAt(times_[own_[i]], read, weights);
-    for (std::size_t c = 0; c < columns; ++c) {
-      const std::size_t from = own_[i] * columns + c, to = i * columns + c;
-      double* const slope = slopes.data() + to * width;
-      if (!reached || !IsFiltered(request_.channels[c])) {
-        samples[to] = run.samples[from];
-        std::copy_n(slopes_of(from), width, slope);
-        continue;
-      }
-      for (const Weight& w : weights) {
-        const std::size_t cell = w.row * columns + c;
-        samples[to] += w.value * run.samples[cell];
-        for (std::size_t k = 0; k < width; ++k) slope[k] += w.value * slopes_of(cell)[k];
-        if (by_tau) slope[*by_tau] += w.by_tau * run.samples[cell];
-      }
+void FilterRows::WriteFiltered(Trajectory& run) const {
+  const std::size_t rows = RowsReached(run), width = request_.directions.size();
+  if (rows == 0) return;
+  const Eigen::ArrayXXd columns = ColumnsOf(run, rows);
+  Eigen::ArrayXXd sums = -columns, moments = Eigen::ArrayXXd::Zero(columns.rows(), columns.cols());
+  for (std::size_t row = 0; row < rows; ++row)
+    sums.col(static_cast<Index>(row)) *= Share(row, rows);
+  for (const bool forward : {true, false})
+    Pass(columns, forward, [&](std::size_t row, const OneSide& side) {
+      sums.col(static_cast<Index>(row)) += side.Sum();
+      moments.col(static_cast<Index>(row)) += side.Moment();
+    });
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto sum = sums.col(static_cast<Index>(row));
+    const auto moment = moments.col(static_cast<Index>(row));
+    for (std::size_t k = 0; k < filtered_.size(); ++k) {
+      const std::size_t cell = row * request_.channels.size() + filtered_[k];
+      const auto at = static_cast<Index>(1 + k * (1 + width));
+      run.samples[cell] = sum[at] / sum[0];
+      for (std::size_t i = 0; i < width; ++i)
+        run.sensitivities[cell * width + i] = sum[at + 1 + static_cast<Index>(i)] / sum[0];
+      if (by_tau_)
+        run.sensitivities[cell * width + *by_tau_] +=
+            2.0 / filter_.tau * (moment[at] - run.samples[cell] * moment[0]) / sum[0];
     }
   }
+}
+
+void FilterRows::Filter(Trajectory& run) const {
+  WriteFiltered(run);
+  const std::size_t columns = request_.channels.size(), width = request_.directions.size();
+  for (std::size_t i = 0; i < own_.size(); ++i) {
+    std::copy_n(run.samples.begin() + static_cast<std::ptrdiff_t>(own_[i] * columns), columns,
+                run.samples.begin() + static_cast<std::ptrdiff_t>(i * columns));
+    std::copy_n(run.sensitivities.begin() + static_cast<std::ptrdiff_t>(own_[i] * columns * width),
+                columns * width,
+                run.sensitivities.begin() + static_cast<std::ptrdiff_t>(i * columns * width));
+  }
+  run.samples.resize(own_.size() * columns);
+  run.sensitivities.resize(own_.size() * columns * width);
   const auto in_run = static_cast<std::size_t>(run.rows_in_run);
   run.rows_in_run =
       static_cast<int>(std::lower_bound(own_.begin(), own_.end(), in_run) - own_.begin());
-  run.samples = std::move(samples);
-  run.sensitivities = std::move(slopes);
 }
 
 }  // namespace hoplab

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <complex>
 #include <optional>
 #include <span>
 #include <utility>
@@ -29,12 +31,6 @@ std::optional<PoseFilter> PoseFilterOf(const SimulationRequest& request);
 std::vector<double> ThroughFilter(const PoseFilter& filter, std::span<const double> times,
                                   std::span<const double> values);
 
-/// What a sample some way off adds to a filtered one, and its derivative by tau, up to a factor
-/// common to all.
-struct FilterShare {
-  double value, by_tau;
-};
-
 /// Beyond the last row a run goes on this long where its pose is filtered [s].
 inline constexpr double kFilterMargin = 0.1;
 
@@ -51,27 +47,25 @@ class FilterRows {
   void Filter(Trajectory& run) const;
 
  private:
-  // A row and its weight in a filtered value, with its derivative by tau.
-  struct Weight {
-    std::size_t row;
-    double value = 0.0, by_tau = 0.0;
-  };
   // The rows that say how the path goes on beyond `end`; all alike: it stays where it is.
   struct Path {
     std::size_t end, middle, far;
   };
-  FilterShare ShareAt(double distance) const;
-  std::size_t RowsReached(const Trajectory& run) const;
   Path PathFrom(std::size_t end, std::size_t other_end) const;
-  void AddBeyond(const Path& path, double time, double sign, std::vector<Weight>& weights) const;
-  void WeightsAt(double time, std::size_t read, std::vector<Weight>& weights) const;
+  double Share(std::size_t row, std::size_t rows) const;
+  std::size_t RowsReached(const Trajectory& run) const;
+  Eigen::ArrayXXd ColumnsOf(const Trajectory& run, std::size_t rows) const;
+  template <class Take>
+  void Pass(const Eigen::ArrayXXd& columns, bool forward, const Take& take) const;
+  void WriteFiltered(Trajectory& run) const;
 
   const SimulationRequest& request_;
   PoseFilter filter_;
   double step_;
-  std::vector<FilterShare> shares_;  // of rows so many steps away
   std::vector<double> times_;
-  std::vector<std::size_t> own_;  // the request's among `times_`
+  std::vector<std::size_t> own_;       // the request's among `times_`
+  std::vector<std::size_t> filtered_;  // which of its channels are
+  std::optional<std::size_t> by_tau_;  // which of its directions is tau
 };
 
 }  // namespace hoplab

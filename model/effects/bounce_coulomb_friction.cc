@@ -29,7 +29,7 @@ struct BounceCoulombFriction {
   static void ChangeBounceSpeed(const T* p, const Bounce<T>& bounce, T& vx) {
     const T push = p[0] * (bounce.leaving_vy - bounce.arriving.y);
     const T most = kRollingShare * bounce.arriving.x;
-    const bool rolls = std::abs(Value(push)) > std::abs(Value(most));
+    const bool rolls = std::abs(Value(push)) >= std::abs(Value(most));
     if (rolls)
       vx -= Value(p[0]) < 0.0 ? T(-most) : most;
     else

@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "base/random.h"
 #include "datasets/read_dataset.h"
 #include "fitting/problem.h"
+#include "fitting/trace_faults.h"
 
 namespace hoplab {
 namespace {
@@ -127,6 +129,64 @@ TEST(FindCatch, FindsTheHandAndNoApex) {
   }
   EXPECT_GE(found, 225);
   EXPECT_EQ(late, 0);
+}
+
+Dataset OneTrial(const MechanismSpec& mechanism, const Samples& heights) {
+  Dataset dataset;
+  dataset.mechanism = mechanism;
+  dataset.channels = {{Channel::kBodyY, 0.0005, {}}};
+  Trial trial;
+  trial.file = "one.csv";
+  trial.mechanism = mechanism;
+  trial.touchdown_angle_rad = 0.5;
+  trial.trace.time_s = heights.t;
+  trial.trace.columns = {{"body_y_m", heights.y}};
+  dataset.trials = {trial};
+  return dataset;
+}
+
+// Rest that is none in the air: on the ground with a marker that is 10 mm high, on an upright leg;
+// and a body that is let go and caught without a stance.
+TEST(FindTraceFaults, RestOnTheGroundIsNoCatchAndAShortFallLeavesItsRows) {
+  MechanismSpec ball;
+  ball.type = MechanismKind::kBall;
+  ball.gravity_m_per_s2 = kG;
+  ball.ball.radius_m = 0.02;
+  const auto bouncing = [](double t) {
+    double speed = 1.4, begin = 0.0;
+    while (speed > 0.02 && t > begin + 2.0 * speed / kG) {
+      begin += 2.0 * speed / kG;
+      speed *= 0.7;
+    }
+    const double since = std::min(t - begin, 2.0 * speed / kG);
+    return 0.03 + speed * since - 0.5 * kG * since * since;
+  };
+  const Samples rests = Sampled(bouncing, 3.0, 250, 0.0005, RandomStream(1, 1));
+  EXPECT_TRUE(FindTraceFaults(OneTrial(ball, rests)).empty());
+
+  MechanismSpec leg;
+  leg.gravity_m_per_s2 = kG;
+  leg.c_leg.rest_radius_m = 0.09;
+  const auto stands = [](double t) {
+    const double since = t - 0.159;
+    return since < 0.0 ? 0.3 - 0.5 * kG * t * t
+                       : 0.176 - 0.039 * std::exp(-8.0 * since) * std::sin(40.0 * since);
+  };
+  EXPECT_TRUE(FindTraceFaults(OneTrial(leg, Sampled(stands, 1.0, 500, 0.0005, RandomStream(2, 1))))
+                  .empty());
+
+  const auto caught = [](double t) {
+    return 0.4 - 0.5 * kG * std::pow(std::clamp(t - 0.5, 0.0, 0.12), 2);
+  };
+  for (const double rate : {500.0, 1000.0, 2000.0}) {
+    const Dataset short_fall = OneTrial(leg, Sampled(caught, 1.2, rate, 0.001, RandomStream(3, 1)));
+    const std::vector<TraceFault> faults = FindTraceFaults(short_fall);
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].kind, TraceFault::Kind::kBeforeRelease);
+    const Dataset rest = WithoutFaults(short_fall, faults);
+    EXPECT_NEAR(rest.trials[0].trace.time_s.front(), 0.8, 0.01);
+    EXPECT_EQ(rest.trials[0].trace.time_s.size(), rest.trials[0].trace.columns[0].values.size());
+  }
 }
 
 // The same drops with a hand before them, the same fit.

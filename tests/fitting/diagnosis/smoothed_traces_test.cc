@@ -123,6 +123,23 @@ TEST(SmoothedTraces, WhiteNoiseIsNone) {
   EXPECT_GT(most, -0.6);
 }
 
+// Few samples a second: the third differences are those of the motion.
+TEST(SmoothedTraces, VideoOfAHopIsNone) {
+  for (const double rate : {25.0, 30.0, 60.0, 120.0}) {
+    RandomStream random(4, static_cast<std::uint64_t>(rate));
+    std::vector<double> times, heights;
+    for (int i = 0; i < static_cast<int>(10.0 * rate); ++i) {
+      times.push_back(i / rate);
+      const double since = std::fmod(times.back(), 0.4);
+      const double path = since < 0.3 ? 0.5 * 9.81 * since * (0.3 - since)
+                                      : -0.047 * std::sin(std::numbers::pi * (since - 0.3) / 0.1);
+      heights.push_back(path + 0.001 * random.Normal());
+    }
+    const SampledColumn column{times, heights};
+    EXPECT_FALSE(IsSmoothed(std::span(&column, 1))) << rate << " Hz";
+  }
+}
+
 // A filter of 12 Hz rounds the corners of every stance. Named with it are the causes that the rig
 // has, and its modulus is right.
 TEST(SmoothedTraces, OfARigAreDiagnosedThroughTheirFilter) {
