@@ -17,10 +17,7 @@ constexpr double kDefaultRate = 500.0;  // Hz
 std::vector<ChannelSpec> ChannelsOf(const Scenario& scenario, const GenerateOptions& options) {
   std::vector<ChannelSpec> channels;
   if (scenario.dataset) channels = scenario.dataset->channels;
-  if (channels.empty()) {
-    channels.push_back({Channel::kBodyX, 0.001});
-    channels.push_back({Channel::kBodyY, 0.001});
-  }
+  if (channels.empty()) channels = {{Channel::kBodyX, 0.001}, {Channel::kBodyY, 0.001}};
   for (ChannelSpec& c : channels) {
     if (options.noise) c.sigma = *options.noise;
     if (!c.sigma)
@@ -271,15 +268,14 @@ std::vector<TraceColumn> NoisyColumns(const Recording& r, const Trajectory& run,
   std::vector<TraceColumn> columns;
   for (std::size_t c = 0; c < r.channels.size(); ++c) {
     RandomStream random = r.Stream(trial, c);
-    std::vector<double> noise(rows, 0.0);
+    std::vector<double> values(rows, 0.0);
     if (!IsContact(r.channels[c].id))
-      for (double& value : noise) value = *r.channels[c].sigma * random.Normal();
+      for (double& value : values) value = *r.channels[c].sigma * random.Normal();
     if (filter && IsFiltered(r.channels[c].id))
-      noise = ThroughFilter(*filter, std::span(r.times).first(rows), noise);
-    TraceColumn column{ChannelName(r.channels[c].id), {}};
+      values = ThroughFilter(*filter, std::span(r.times).first(rows), values);
     for (std::size_t row = 0; row < rows; ++row)
-      column.values.push_back(run.samples[row * r.wanted.size() + c] + noise[row]);
-    columns.push_back(std::move(column));
+      values[row] += run.samples[row * r.wanted.size() + c];
+    columns.push_back({ChannelName(r.channels[c].id), std::move(values)});
   }
   return columns;
 }
