@@ -124,8 +124,6 @@ std::optional<Release> FindRelease(const Samples& s, double sigma, double gravit
   Release found;
   found.time_s = s.t[first] + at;
   found.doubt_s = bend > 0.0 ? h * std::hypot(sigma * std::sqrt(2.0 / bend), kWithinStep) : h;
-  found.height_m = late.at + late.rate * at;
-  found.speed_m_per_s = late.rate;
   found.rise_m = late.rate * (found.time_s - s.t.front());
   while (found.first < s.size() && s.t[found.first] < found.time_s) ++found.first;
   return found;

@@ -9,10 +9,9 @@ namespace hoplab {
 
 /// Where a body that was held is let go.
 struct Release {
-  std::size_t first = 0;                       // the first sample after it
-  double time_s = 0.0, doubt_s = 0.0;          // when it was, and one standard deviation of that
-  double height_m = 0.0, speed_m_per_s = 0.0;  // there
-  double rise_m = 0.0;                         // how far it was lifted since the first sample
+  std::size_t first = 0;               // the first sample after it
+  double time_s = 0.0, doubt_s = 0.0;  // when it was, and one standard deviation of that
+  double rise_m = 0.0;                 // how far it was lifted since the first sample
 };
 /// The heights that a record begins with, if a hand holds the body or moves it evenly and then lets
 /// it fall: a line, and from one instant on the parabola of -g beside it, 30 mm deep. It must

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 #include <optional>
 #include <span>
 #include <utility>

@@ -10,6 +10,7 @@
 
 #include "base/random.h"
 #include "datasets/read_dataset.h"
+#include "fitting/fit_dataset.h"
 #include "fitting/problem.h"
 #include "fitting/trace_faults.h"
 
@@ -56,8 +57,7 @@ TEST(FindRelease, FindsWhenABodyThatIsHeldIsLetGo) {
       within += std::abs(seen->time_s - 0.3 - release) < 2.0 * seen->doubt_s ? 1 : 0;
       EXPECT_LT(seen->doubt_s, 0.01);
       EXPECT_NEAR(seen->time_s - 0.3, release, 0.02);
-      EXPECT_NEAR(seen->height_m, 0.3 + moves * release, 5.0 * sampling.sigma);
-      EXPECT_NEAR(seen->speed_m_per_s, moves, 0.15);
+      EXPECT_NEAR(seen->rise_m, moves * release, 5.0 * sampling.sigma);
       ASSERT_LT(seen->first, s.size());
       EXPECT_GE(s.t[seen->first], seen->time_s);
       EXPECT_LT(s.t[seen->first - 1], seen->time_s);
@@ -189,6 +189,32 @@ TEST(FindTraceFaults, RestOnTheGroundIsNoCatchAndAShortFallLeavesItsRows) {
   }
 }
 
+// All columns end where the hand shows, and all that follows is told.
+TEST(CaughtBody, EndsItsTrial) {
+  MechanismSpec leg;
+  leg.gravity_m_per_s2 = kG;
+  leg.c_leg.rest_radius_m = 0.09;
+  const auto path = [](double t) {
+    if (t < 0.1) return 0.18 - 0.04 * std::sin(31.4 * t);
+    const double since = std::min(t - 0.1, 0.1);  // caught on its way up
+    return 0.18 + 1.3 * since - 0.5 * kG * since * since;
+  };
+  const Dataset recorded = OneTrial(leg, Sampled(path, 0.6, 500, 0.0005, RandomStream(5, 1)));
+  const std::vector<TraceFault> faults = FindTraceFaults(recorded);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, TraceFault::Kind::kAfterCatch);
+  const Trial rest = WithoutFaults(recorded, faults).trials[0];
+  const std::size_t rows = recorded.trials[0].trace.time_s.size();
+  EXPECT_EQ(rest.trace.time_s.size(), faults[0].rows.front());
+  EXPECT_EQ(rest.trace.columns[0].values.size(), faults[0].rows.front());
+  EXPECT_EQ(faults[0].rows.size(), rows - faults[0].rows.front());
+  EXPECT_LT(rest.trace.time_s.back(), 0.3 + 0.2);
+  EXPECT_GT(rest.trace.time_s.back(), 0.3 + 0.1);
+  const std::vector<std::string> told = FaultSentences(recorded, faults, false);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].substr(0, 30), "the body rests in the air at t");
+}
+
 // The same drops with a hand before them, the same fit.
 TEST(HeldBody, IsFittedAsIfItsLogBeganAtTheRelease) {
   const Dataset plain = ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/rig-drops");
@@ -219,6 +245,10 @@ TEST(HeldBody, IsFittedAsIfItsLogBeganAtTheRelease) {
     EXPECT_NEAR(problem.trials[i].start[3], held.trials[i].initial->vy_m_per_s - kG * since, 1e-12);
   }
   EXPECT_EQ(problem.notes.front().substr(0, 22), "the body is held until");
+  const auto modulus = [](const Dataset& dataset) {
+    return FitDataset(dataset, {}, {}).result.shared[0];
+  };
+  EXPECT_NEAR(modulus(held) / modulus(plain), 1.0, 2e-3);
   ProblemOptions keep;
   keep.keep_stray = true;
   EXPECT_EQ(MakeProblem(held, keep).trials[0].row_times.size(), held.trials[0].trace.time_s.size());
