@@ -81,14 +81,22 @@ class Watch : public ceres::IterationCallback {
     else
       beyond_ = TriedBeyond();
     if (met_bound_ || !beyond_.empty()) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    converged_ = summary.step_is_successful && IsAtMinimum(summary.cost);
+    if (converged_) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     return IsHopeless() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
-  /// The search ended since a value that was free came to a bound.
+  /// The search ended at a minimum.
+  bool converged() const { return converged_; }
+  /// It ended since a value that was free came to a bound.
   bool met_bound() const { return met_bound_; }
   /// It ended since a step was not taken that led beyond the bounds of these free values.
   const Places& beyond() const { return beyond_; }
 
  private:
+  // Ceres asks what the next step has gained, and then drops it; here it is not taken.
+  bool IsAtMinimum(double cost) const {
+    return evaluations_.PredictedGain(settings_.held) <= request_.function_tolerance * cost;
+  }
   bool MeetsBound() const {
     if (request_.hold_shared) return false;
     const Places out = PushedOut(request_, evaluations_);
@@ -120,7 +128,7 @@ class Watch : public ceres::IterationCallback {
   const SolveRequest& request_;
   const TrialEvaluations& evaluations_;
   const RunSettings& settings_;
-  bool met_bound_ = false;
+  bool converged_ = false, met_bound_ = false;
   Places beyond_;
 };
 
@@ -275,7 +283,9 @@ Run RunCeres(const SolveRequest& request, const RunSettings& settings,
   Run run{.beyond = watch.beyond()};
   SolveResult& result = run.result;
   const bool stopped = watch.met_bound() || !run.beyond.empty();
-  result.status = stopped ? SolveStatus::kIterationLimit : StatusOf(summary);
+  result.status = watch.converged() ? SolveStatus::kConverged
+                  : stopped         ? SolveStatus::kIterationLimit
+                                    : StatusOf(summary);
   result.cost = summary.final_cost;  // what is held fixed counts in it
   result.iterations = static_cast<int>(summary.iterations.size()) - 1;  // the first only looks
   if (result.status == SolveStatus::kFailed) result.message = summary.message;

@@ -1,7 +1,9 @@
 #include "fitting/trial_evaluations.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include "base/check.h"
 #include "base/parallel.h"
@@ -19,7 +21,9 @@ TrialEvaluations::TrialEvaluations(const SolveRequest& request)
   HOPLAB_CHECK(request.shared.size() == problem_.shared_count());
   for (const TrialProblem& trial : trials_) {
     evaluators_.emplace_back(problem_, trial);
-    reduced_.emplace_back(evaluators_.back().residual_count(), evaluators_.back().column_count());
+    for (Point& point : points_)
+      point.reduced.emplace_back(evaluators_.back().residual_count(),
+                                 evaluators_.back().column_count());
     own_begin_.push_back(own_begin_.back() + trial.own_count());
   }
   own_ = Eigen::VectorXd::Zero(own_begin_.back());
@@ -27,45 +31,46 @@ TrialEvaluations::TrialEvaluations(const SolveRequest& request)
     shared_[i] = request.shared[i] / problem_.shared[static_cast<std::size_t>(i)].scale;
 }
 
-// A line search and the step it ends in ask for one point under two names.
 void TrialEvaluations::PrepareForEvaluation(bool jacobians, bool /*new_point*/) {
-  if (differentiated_.Is(shared_, own_)) {
-    at_ = &differentiated_;
-    return;
-  }
-  Point& point = jacobians ? differentiated_ : plain_;
+  const int place = points_[kept_].Is(shared_, own_) ? kept_ : 1 - kept_;
+  Point& point = points_[place];
   at_ = &point;
-  if (point.Is(shared_, own_)) return;
-  Run(jacobians, point);
-  for (int i = 0; i < static_cast<int>(trials_.size()); ++i) {
-    if (!evaluations_[static_cast<std::size_t>(i)].complete) ++rejected_[ReasonOf(i)];
+  if (!point.Is(shared_, own_)) {
+    Run(point);
+    for (int i = 0; i < static_cast<int>(trials_.size()); ++i) {
+      if (!evaluations_[static_cast<std::size_t>(i)].complete) ++rejected_[ReasonOf(i)];
+    }
   }
+  if (jacobians) kept_ = place;
 }
 
-void TrialEvaluations::Run(bool jacobians, Point& point) {
+void TrialEvaluations::Run(Point& point) {
   const std::size_t n = trials_.size();
   point.shared = shared_;
   point.own = own_;
   point.evaluated.assign(n, 0);
-  point.norms.assign(n, 0.0);
   const Eigen::VectorXd shared = SharedValues();
   ParallelFor(static_cast<int>(n), request_.jobs, [&](int trial) {
     const auto i = static_cast<std::size_t>(trial);
     TrialEvaluation& e = evaluations_[i];
     const OwnValues own = OwnValuesOf(trial);
-    EvaluationRequest request{shared,          own, jacobians, request_.loss, /*fly_on=*/true,
+    EvaluationRequest request{shared,
+                              own,
+                              /*want_jacobian=*/true,
+                              request_.loss,
+                              /*fly_on=*/true,
                               /*whiten=*/false};
-    if (jacobians && HoldsManyShared(trial))
+    if (HoldsManyShared(trial))
       request.only = ColumnRange{problem_.shared_count(), trials_[i].own_count()};
     evaluators_[i].Evaluate(request, e);
     if (!e.evaluated) return;
     if (request.only) PutAfterShared(e.jacobian);
-    point.evaluated[i] = 1;
-    point.norms[i] = e.residuals.norm();
-    if (jacobians) reduced_[i].Reduce(e, ColumnScales(trials_[i]));
+    point.reduced[i].Reduce(e, ColumnScales(trials_[i]));
+    point.evaluated[i] = point.reduced[i].residuals().allFinite();
   });
   point.cost = 0.0;
-  for (const double norm : point.norms) point.cost += 0.5 * norm * norm;
+  for (std::size_t i = 0; i < n; ++i)
+    if (point.evaluated[i]) point.cost += 0.5 * point.reduced[i].residuals().squaredNorm();
   point.complete = std::all_of(evaluations_.begin(), evaluations_.end(),
                                [](const TrialEvaluation& e) { return e.complete; });
 }
@@ -92,7 +97,7 @@ Eigen::VectorXd TrialEvaluations::SharedValues(const Eigen::VectorXd& over_scale
 }
 
 void TrialEvaluations::TakeTried(const std::vector<int>& places) {
-  for (const int k : places) shared_[k] = plain_.shared[k];
+  for (const int k : places) shared_[k] = Tried().shared[k];
 }
 
 OwnValues TrialEvaluations::OwnValuesOf(int trial) const {
@@ -115,22 +120,59 @@ void TrialEvaluations::MoveTo(const Eigen::VectorXd& shared, const std::vector<O
 
 double TrialEvaluations::Gradient(int shared) const {
   double sum = 0.0;
+  const Point& kept = points_[kept_];
   for (std::size_t i = 0; i < trials_.size(); ++i) {
-    if (differentiated_.evaluated[i])
-      sum += reduced_[i].jacobian().col(shared).dot(reduced_[i].residuals());
+    if (kept.evaluated[i])
+      sum += kept.reduced[i].jacobian().col(shared).dot(kept.reduced[i].residuals());
   }
   return sum;
 }
 
-void TrialEvaluations::Copy(int trial, double* residuals, double* by_shared, double* by_own) const {
-  const auto i = static_cast<std::size_t>(trial);
-  const ReducedTrial& reduced = reduced_[i];
-  const int rows = reduced.rows();
-  if (at_ == &plain_) {
-    std::fill(residuals, residuals + rows, 0.0);
-    residuals[0] = plain_.norms[i];
-    return;
+// A trial's own values are eliminated one trial after the other (the Schur complement), so that the
+// work grows with their number and no faster.
+double TrialEvaluations::PredictedGain(const std::vector<int>& held) const {
+  constexpr double kDamping =
+      1e-12;  // of the diagonal: a direction that does nothing gains nothing
+  const auto damped = [](Eigen::MatrixXd a) {
+    a.diagonal() *= 1.0 + kDamping;
+    a.diagonal().array() += std::numeric_limits<double>::min();
+    return a;
+  };
+  const Point& kept = points_[kept_];
+  std::vector<int> shared;
+  for (int k = 0; k < problem_.shared_count(); ++k)
+    if (std::find(held.begin(), held.end(), k) == held.end()) shared.push_back(k);
+  const auto n = static_cast<Eigen::Index>(shared.size());
+  Eigen::MatrixXd of_shared = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(n);
+  double gain = 0.0;
+  for (std::size_t i = 0; i < trials_.size(); ++i) {
+    if (!kept.evaluated[i]) continue;
+    const Eigen::MatrixXd& jacobian = kept.reduced[i].jacobian();
+    const Eigen::VectorXd& r = kept.reduced[i].residuals();
+    const Eigen::MatrixXd by_shared = jacobian(Eigen::all, shared);
+    of_shared += by_shared.transpose() * by_shared;
+    slope += by_shared.transpose() * r;
+    std::vector<int> own;
+    for (int k = 0; k < trials_[i].own_count(); ++k)
+      if (!request_.hold_initial_states && trials_[i].own[static_cast<std::size_t>(k)].free)
+        own.push_back(problem_.shared_count() + k);
+    if (own.empty()) continue;
+    const Eigen::MatrixXd by_own = jacobian(Eigen::all, own);
+    const Eigen::LDLT<Eigen::MatrixXd> solver(damped(by_own.transpose() * by_own));
+    const Eigen::VectorXd own_slope = by_own.transpose() * r;
+    const Eigen::MatrixXd mixed = by_own.transpose() * by_shared;
+    gain += 0.5 * own_slope.dot(solver.solve(own_slope));
+    slope -= mixed.transpose() * solver.solve(own_slope);
+    of_shared -= mixed.transpose() * solver.solve(mixed);
   }
+  if (n > 0) gain += 0.5 * slope.dot(Eigen::LDLT<Eigen::MatrixXd>(damped(of_shared)).solve(slope));
+  return gain;
+}
+
+void TrialEvaluations::Copy(int trial, double* residuals, double* by_shared, double* by_own) const {
+  const ReducedTrial& reduced = at_->reduced[static_cast<std::size_t>(trial)];
+  const int rows = reduced.rows();
   std::copy(reduced.residuals().data(), reduced.residuals().data() + rows, residuals);
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Eigen::Index shared = shared_.size(), own = reduced.jacobian().cols() - shared;

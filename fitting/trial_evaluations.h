@@ -14,8 +14,11 @@ namespace hoplab {
 
 /// Every trial of a search, simulated at one point of its unknowns: in parallel, before Ceres asks
 /// its residual blocks one by one, so that sums are formed in one order whatever the number of
-/// threads. The last point with derivatives is kept beside the last one without: neither is
-/// simulated again when a search comes back to it. The request must outlive it.
+/// threads. A point is always simulated with its derivatives: they steer the steps of the
+/// integrator, so that a run without them ends elsewhere by some of its tolerance, and near a
+/// minimum that is more than what a step gains. Of two points the results are kept: the last one
+/// whose derivatives were asked for, and the last one beside it. Neither is simulated again when a
+/// search comes back to it. The request must outlive it.
 class TrialEvaluations : public ceres::EvaluationCallback {
  public:
   explicit TrialEvaluations(const SolveRequest& request);
@@ -32,8 +35,8 @@ class TrialEvaluations : public ceres::EvaluationCallback {
   OwnValues OwnValuesOf(int trial) const;
   void MoveTo(const Eigen::VectorXd& shared, const std::vector<OwnValues>& own);
 
-  /// The shared values of the last point that was simulated without derivatives.
-  Eigen::VectorXd TriedShared() const { return SharedValues(plain_.shared); }
+  /// The shared values of the last point beside the one whose derivatives were asked for.
+  Eigen::VectorXd TriedShared() const { return SharedValues(Tried().shared); }
   /// Moves shared values to where they were there.
   void TakeTried(const std::vector<int>& places);
 
@@ -44,11 +47,15 @@ class TrialEvaluations : public ceres::EvaluationCallback {
   bool IsComplete() const { return at_->complete; }
   double Cost() const { return at_->cost; }
   /// Half the derivative of the sum of squares with respect to a shared unknown, at the last point
-  /// with derivatives.
+  /// whose derivatives were asked for.
   double Gradient(int shared) const;
-  int RowCount(int trial) const { return reduced_[static_cast<std::size_t>(trial)].rows(); }
-  /// A trial's residuals, as few as ReducedTrial makes them, and at a point with derivatives those
-  /// with respect to shared and own unknowns (row by row; null: not wanted).
+  /// What a Gauss-Newton step from there gains of half the sum of squares, as the model linear in
+  /// the unknowns has it: r' J (J' J)^-1 J' r / 2, over those that are free. Bounds of a trial's
+  /// own values are not looked at.
+  double PredictedGain(const std::vector<int>& held) const;
+  int RowCount(int trial) const { return at_->reduced[static_cast<std::size_t>(trial)].rows(); }
+  /// A trial's residuals, as few as ReducedTrial makes them, and their derivatives with respect to
+  /// shared and own unknowns (row by row; null: not wanted).
   void Copy(int trial, double* residuals, double* by_shared, double* by_own) const;
   /// Why a trial has no residuals, or ended before its data.
   std::string ReasonOf(int trial) const;
@@ -61,7 +68,7 @@ class TrialEvaluations : public ceres::EvaluationCallback {
   struct Point {
     Eigen::VectorXd shared, own;
     std::vector<char> evaluated;
-    std::vector<double> norms;  // of each trial's residuals
+    std::vector<ReducedTrial> reduced;
     bool complete = false;
     double cost = 0.0;
 
@@ -70,7 +77,8 @@ class TrialEvaluations : public ceres::EvaluationCallback {
              shared == other_shared && own == other_own;
     }
   };
-  void Run(bool jacobians, Point& point);
+  const Point& Tried() const { return points_[1 - kept_]; }
+  void Run(Point& point);
   bool HoldsManyShared(int trial) const;
   void PutAfterShared(RowMajorMatrix& own) const;
   Eigen::VectorXd SharedValues(const Eigen::VectorXd& over_scale) const;
@@ -81,14 +89,14 @@ class TrialEvaluations : public ceres::EvaluationCallback {
   const std::vector<TrialProblem>& trials_;
   std::vector<TrialEvaluator> evaluators_;
   std::vector<TrialEvaluation> evaluations_;  // of the last point simulated
-  std::vector<ReducedTrial> reduced_;         // of the last one with derivatives
   Eigen::VectorXd shared_;
   /// Of all trials in one piece: Ceres takes the blocks of a group in the order of their addresses,
   /// and sums must be formed in one order.
   Eigen::VectorXd own_;
   std::vector<int> own_begin_ = {0};  // one a trial, and the end
-  Point plain_, differentiated_;
-  const Point* at_ = &plain_;
+  Point points_[2];
+  int kept_ = 0;  // of the two: where derivatives were last asked for
+  const Point* at_ = points_;
   std::map<std::string, int> rejected_;
 };
 

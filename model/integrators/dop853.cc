@@ -12,6 +12,9 @@ namespace hoplab {
 namespace {
 
 constexpr int kMaxAttempts = 60;
+// Shorter steps than this share of a second lead nowhere: a singularity of the equations, such as a
+// leg angle whose rate has no bound, holds the state, and each step ends on the other side of it.
+constexpr double kShortestStep = 1e-11;
 
 // Components are worked on in packs that the compiler keeps in registers. Those past the size of
 // the system are zero and stay so.
@@ -67,7 +70,7 @@ StepStatus Dop853::Step(double t_limit) {
     // A step that would leave a sliver takes the sliver along.
     const bool last = std::abs(h) * 1.01 >= std::abs(to_limit);
     if (last) h = to_limit;
-    if (std::abs(h) < 1e-14 * (1.0 + std::abs(t0_)) && !last) return StepStatus::kFailed;
+    if (std::abs(h) < kShortestStep * (1.0 + std::abs(t0_)) && !last) return StepStatus::kFailed;
     Stages(h);
     const double error = Error(h);
     if (!(error <= 1.0)) {  // also NaN

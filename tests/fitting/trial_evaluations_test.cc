@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
+
 #include "fitting/generate.h"
 #include "tests/support/fit_cases.h"
 #include "tests/support/robot_drops.h"
@@ -25,12 +27,12 @@ struct EvaluatedTrial {
   }
 };
 
-// The oracle of costs: one trial after the other.
+// The oracle of costs: one trial after the other, with derivatives, which steer the steps.
 double CostOf(const EvaluatedTrial& c, const Eigen::VectorXd& shared) {
   double cost = 0.0;
   for (const TrialProblem& trial : c.trials) {
     TrialEvaluation e;
-    TrialEvaluator(c.problem, trial).Evaluate({shared, trial.start}, e);
+    TrialEvaluator(c.problem, trial).Evaluate({shared, trial.start, true}, e);
     cost += 0.5 * e.residuals.squaredNorm();
   }
   return cost;
@@ -58,17 +60,77 @@ TEST(TrialEvaluations, GradientIsTheSlopeOfTheCost) {
   }
 }
 
-TEST(TrialEvaluations, BothKindsOfPointHaveTheSameSumOfSquares) {
+// A search compares the cost of a point it tries with that of the point it is at: at one point both
+// are one number, to the last bit.
+TEST(TrialEvaluations, CostDoesNotDependOnWhetherDerivativesAreAskedFor) {
   const EvaluatedTrial c;
-  TrialEvaluations plain(c.request), differentiated(c.request);
-  plain.PrepareForEvaluation(false, true);
-  differentiated.PrepareForEvaluation(true, true);
+  TrialEvaluations tried(c.request), taken(c.request);
+  tried.PrepareForEvaluation(false, true);
+  taken.PrepareForEvaluation(true, true);
+  EXPECT_EQ(tried.Cost(), taken.Cost());
   for (int i = 0; i < 2; ++i) {
-    Eigen::VectorXd a(plain.RowCount(i)), b(differentiated.RowCount(i));
-    plain.Copy(i, a.data(), nullptr, nullptr);
-    differentiated.Copy(i, b.data(), nullptr, nullptr);
-    EXPECT_NEAR(a.squaredNorm() / b.squaredNorm(), 1.0, 1e-8);  // two runs of the integrator
+    Eigen::VectorXd a(tried.RowCount(i)), b(taken.RowCount(i));
+    tried.Copy(i, a.data(), nullptr, nullptr);
+    taken.Copy(i, b.data(), nullptr, nullptr);
+    EXPECT_EQ(a, b);
   }
+}
+
+// The oracle: the part of all residuals in the space of all columns, by one QR factorisation.
+double GainOf(TrialEvaluations& at, const EvaluatedTrial& c, const std::vector<int>& shared) {
+  const int n = c.problem.shared_count();
+  std::vector<Eigen::MatrixXd> by_shared, by_own;
+  std::vector<Eigen::VectorXd> residuals;
+  Eigen::Index rows = 0, columns = static_cast<Eigen::Index>(shared.size());
+  for (std::size_t i = 0; i < c.trials.size(); ++i) {
+    const int own = c.trials[i].own_count(), count = at.RowCount(static_cast<int>(i));
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    RowMajor s(count, n), o(count, own);
+    Eigen::VectorXd r(count);
+    at.Copy(static_cast<int>(i), r.data(), s.data(), o.data());
+    by_shared.emplace_back(s(Eigen::all, shared));
+    by_own.emplace_back(o);
+    residuals.push_back(r);
+    rows += count;
+    columns += own;
+  }
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows, columns);
+  Eigen::VectorXd r(rows);
+  Eigen::Index row = 0, column = static_cast<Eigen::Index>(shared.size());
+  for (std::size_t i = 0; i < by_own.size(); ++i) {
+    jacobian.block(row, 0, by_shared[i].rows(), by_shared[i].cols()) = by_shared[i];
+    jacobian.block(row, column, by_own[i].rows(), by_own[i].cols()) = by_own[i];
+    r.segment(row, residuals[i].size()) = residuals[i];
+    row += residuals[i].size();
+    column += by_own[i].cols();
+  }
+  const Eigen::VectorXd along = jacobian * jacobian.householderQr().solve(r);
+  return 0.5 * along.squaredNorm();
+}
+
+TEST(TrialEvaluations, PredictedGainIsThatOfAllColumnsAtOnce) {
+  const EvaluatedTrial c;
+  TrialEvaluations at(c.request);
+  at.PrepareForEvaluation(true, true);
+  const double both = at.PredictedGain({}), damping = at.PredictedGain({0});
+  EXPECT_GT(both, damping);
+  EXPECT_NEAR(both / GainOf(at, c, {0, 1}), 1.0, 1e-7);
+  EXPECT_NEAR(damping / GainOf(at, c, {1}), 1.0, 1e-7);
+  EXPECT_NEAR(at.PredictedGain({0, 1}) / GainOf(at, c, {}), 1.0, 1e-7);
+}
+
+TEST(TrialEvaluations, PredictedGainIsThatOfAStepNearTheMinimumAndNothingThere) {
+  EvaluatedTrial c;
+  const SolveResult best = Solve(c.request);
+  c.request.shared = best.shared;
+  c.request.shared[0] *= 1.0 + 1e-6;
+  c.request.initial_states = best.initial_states;
+  TrialEvaluations at(c.request);
+  at.PrepareForEvaluation(true, true);
+  EXPECT_NEAR(at.PredictedGain({}) / (at.Cost() - best.cost), 1.0, 1e-3);
+  at.MoveTo(best.shared, best.initial_states);
+  at.PrepareForEvaluation(true, true);
+  EXPECT_LT(at.PredictedGain({}), 1e-11 * best.cost);
 }
 
 TEST(TrialEvaluations, ComingBackToAPointKeepsItsDerivatives) {

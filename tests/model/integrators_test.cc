@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "model/integrators/dop853.h"
 #include "tests/support/matrix_near.h"
 #include "tests/support/requests.h"
 
@@ -30,6 +31,19 @@ std::vector<double> Times(const Trajectory& run) {
   std::vector<double> times;
   for (const Event& e : run.events) times.push_back(e.time);
   return times;
+}
+
+// y' = -1/y ends at y = 0 after 1/2: from both sides the state is thrown at it, and a solver that
+// goes on takes any number of steps across it.
+TEST(Dop853, EndsWhereTheRateHasNoBound) {
+  const double unit = 1.0, begin = 1.0;
+  const auto rate = [](const void*, double, const double* y, double* dy) { dy[0] = -1.0 / y[0]; };
+  Dop853 stepper({}, {rate, nullptr, 1, 1, &unit});
+  stepper.Start(0.0, &begin, 1e-3);
+  int steps = 0;
+  while (steps < 1000 && stepper.Step(1.0) == StepStatus::kOk) ++steps;
+  EXPECT_LT(steps, 300);
+  EXPECT_NEAR(stepper.t1(), 0.5, 1e-9);
 }
 
 struct Solvers : ::testing::TestWithParam<Law> {};
