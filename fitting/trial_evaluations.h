@@ -14,7 +14,7 @@ namespace hoplab {
 
 /// Every trial of a search, simulated at one point of its unknowns: in parallel, before Ceres asks
 /// its residual blocks one by one, so that sums are formed in one order whatever the number of
-/// threads. A point is always simulated with its derivatives: they steer the steps of the
+/// threads. A point is always simulated with its derivatives: these may steer the steps of the
 /// integrator, so that a run without them ends elsewhere by some of its tolerance, and near a
 /// minimum that is more than what a step gains. Of two points the results are kept: the last one
 /// whose derivatives were asked for, and the last one beside it. Neither is simulated again when a
