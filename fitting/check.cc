@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datasets/copied_trials.h"
 #include "datasets/suspect_things.h"
 #include "fitting/apex_segments.h"
+#include "fitting/mixed_up_trials.h"
 #include "fitting/smoothed_traces.h"
 #include "fitting/turned_axes.h"
 
@@ -39,8 +41,10 @@ bool TouchesGround(const TrialProblem& trial, const Trajectory& trajectory) {
 
 std::vector<std::string> DataWarnings(const Dataset& dataset, const FitProblem& problem) {
   std::vector<std::string> warnings = SuspectThings(dataset);
+  for (const std::string& sentence : CopiedTrials(dataset)) warnings.push_back(sentence);
   if (!UnreadableTimes(dataset).empty()) return warnings;
-  for (const auto& sentences : {TurnedAxes(problem), SmoothedTraces(problem)})
+  for (const auto& sentences :
+       {TurnedAxes(problem), MixedUpTrials(problem), SmoothedTraces(problem)})
     for (const std::string& sentence : sentences)
       warnings.push_back(dataset.origin.place + ": " + sentence + ".");
   return warnings;

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "fitting/fit.h"
-#include "fitting/trial_evaluator.h"
+#include "fitting/missed_motion.h"
 
 namespace hoplab {
 namespace {
@@ -16,8 +15,6 @@ constexpr std::size_t kTrials = 6;  // are enough
 constexpr double kMissed = 0.2;     // rms, of the motion's own rms
 constexpr double kFollowed = 0.3;   // likewise, at most, with one turned
 constexpr double kBetter = 0.5;     // of what is missed as it stands
-constexpr double kFarOff = 1.0;     // what a sample is counted as at most, or without a simulation
-constexpr double kLeastMotion = 10.0;  // standard deviations of the noise
 
 // What may have been recorded otherwise.
 enum class Axis { kX, kPitch, kLegOrder, kLegAngles };
@@ -66,48 +63,12 @@ void Apply(Axis axis, const FitProblem& problem, TrialProblem& trial) {
   }
 }
 
-// The mean square of what a simulation at the nominal values misses of each channel's motion, over
-// that motion's own.
-double Missed(const FitProblem& problem, const TrialProblem& trial) {
-  Trajectory simulated;
-  TrialEvaluator(problem, trial)
-      .Simulate({InitialShared(problem), trial.start, false}, problem.integrator, simulated);
-  const std::size_t width = problem.channels.size();
-  const std::size_t rows = trial.row_times.size();
-  double missed = 0.0;
-  int channels = 0;
-  for (std::size_t c = 0; c < width; ++c) {
-    if (!IsPose(problem.channels[c].channel)) continue;
-    double count = 0.0, sum = 0.0, squares = 0.0;
-    for (std::size_t row = 0; row < rows; ++row) {
-      const double value = trial.data[row * width + c];
-      if (std::isnan(value)) continue;
-      count += 1.0;
-      sum += value;
-      squares += value * value;
-    }
-    if (count < 2.0) continue;
-    const double least = kLeastMotion * problem.channels[c].sigma;
-    const double motion = std::max(squares / count - sum * sum / (count * count), least * least);
-    double off = 0.0;
-    for (std::size_t row = 0; row < rows; ++row) {
-      const double value = trial.data[row * width + c];
-      if (std::isnan(value)) continue;
-      const double miss = simulated.samples[row * width + c] - value;
-      off += std::isfinite(miss) ? std::min(miss * miss / motion, kFarOff) : kFarOff;
-    }
-    missed += off / count;
-    ++channels;
-  }
-  return channels > 0 ? missed / channels : 0.0;
-}
-
 double MeanMissed(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                   const Turn* turn) {
   double sum = 0.0;
   for (TrialProblem trial : trials) {
     if (turn) Apply(turn->axis, problem, trial);
-    sum += Missed(problem, trial);
+    sum += MissedMotion(problem, trial);
   }
   return sum / static_cast<double>(trials.size());
 }
@@ -119,12 +80,6 @@ bool MeansSomething(Axis axis, const TrialProblem& trial) {
   const RobotParameters<double>& robot = *trial.parameters.robot;
   if (axis == Axis::kLegOrder) return robot.legs > 1;
   return axis == Axis::kPitch || robot.control != MotorControl::kClock;
-}
-
-std::string Percent(double missed) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.0f %%", 100.0 * std::sqrt(missed));
-  return text;
 }
 
 }  // namespace
@@ -147,8 +102,8 @@ std::vector<std::string> TurnedAxes(const FitProblem& problem) {
   }
   if (!best) return {};
   return {std::string("at the nominal values the simulation misses the body by ") +
-          Percent(as_it_stands) + " of its motion, and by " + Percent(least) + " with " +
-          best->what + " turned; " + best->rule};
+          MissedPercent(as_it_stands) + " of its motion, and by " + MissedPercent(least) +
+          " with " + best->what + " turned; " + best->rule};
 }
 
 }  // namespace hoplab

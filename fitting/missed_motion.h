@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "fitting/problem.h"
+
+namespace hoplab {
+
+/// The mean square of what a simulation at the nominal values misses of the body's motion, over
+/// that motion's own, the mean over the channels of its pose: 0 where it follows, 1 where it is
+/// nowhere near or ends.
+double MissedMotion(const FitProblem& problem, const TrialProblem& trial);
+
+/// Such a share as a text: its root in per cent.
+std::string MissedPercent(double missed);
+
+}  // namespace hoplab

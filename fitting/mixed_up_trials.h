@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fitting/problem.h"
+
+namespace hoplab {
+
+/// Sentences about pairs of trials whose touch-down angles, or these and their starts, seem to have
+/// been written to each other. Every trial is simulated at the nominal values for half a second,
+/// with what is stated of it, and with what is stated of another one. A pair is told where both are
+/// missed by an eighth of their motion or more as they stand, both by less with each other's, and
+/// the two together by half or less. A robot's legs are not looked at.
+std::vector<std::string> MixedUpTrials(const FitProblem& problem);
+
+}  // namespace hoplab
