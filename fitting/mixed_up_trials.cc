@@ -19,16 +19,34 @@ constexpr double kEach = 0.75;            // the same of one alone
 // What two trials may have of each other.
 enum class Mixed { kAngles, kAnglesAndStarts };
 
-// What is stated of `other`, with the samples of `trial`.
-TrialProblem WithStatedOf(TrialProblem trial, const TrialProblem& other, Mixed what) {
-  trial.parameters.theta_td = other.parameters.theta_td;
-  trial.touchdown_angles = other.touchdown_angles;
-  if (what == Mixed::kAnglesAndStarts) trial.start = other.start;
-  return trial;
+using Of = SensitivityDirection::Of;
+
+// Own values that both have along the same direction.
+void TakeOwn(Of of, const TrialProblem& other, TrialProblem& trial) {
+  for (int k = 0; k < trial.own_count(); ++k) {
+    const OwnParameter& mine = trial.own[static_cast<std::size_t>(k)];
+    if (mine.direction.of != of || mine.deviation_of >= 0) continue;
+    for (int j = 0; j < other.own_count(); ++j) {
+      const OwnParameter& theirs = other.own[static_cast<std::size_t>(j)];
+      if (theirs.deviation_of < 0 && theirs.name == mine.name) trial.start[k] = other.start[j];
+    }
+  }
 }
 
-bool CanHaveStatedOf(const TrialProblem& a, const TrialProblem& b) {
-  return a.own_count() == b.own_count() && a.start_mode == b.start_mode;
+// The first rows of `trial` with what is stated of `other`.
+TrialProblem WithStatedOf(const FitProblem& problem, TrialProblem trial, const TrialProblem& other,
+                          Mixed what) {
+  trial.parameters.theta_td = other.parameters.theta_td;
+  std::copy_n(other.touchdown_angles.begin(),
+              std::min(trial.touchdown_angles.size(), other.touchdown_angles.size()),
+              trial.touchdown_angles.begin());
+  TakeOwn(Of::kTouchdownAngle, other, trial);
+  if (what == Mixed::kAnglesAndStarts) TakeOwn(Of::kInitialState, other, trial);
+  return FirstPart(problem, trial, kLookedAt_s);
+}
+
+bool HaveOneAngle(const TrialProblem& a, const TrialProblem& b) {
+  return a.parameters.theta_td == b.parameters.theta_td && a.touchdown_angles == b.touchdown_angles;
 }
 
 struct Pair {
@@ -41,9 +59,10 @@ struct Pair {
 std::string SentenceOf(const Pair& pair, const std::vector<TrialProblem>& trials,
                        const std::vector<double>& as_stated) {
   const auto [i, j] = pair.trials;
-  const bool angles = pair.what == Mixed::kAngles;
-  return trials[i].file + " and " + trials[j].file + " seem to have each other's " +
-         (angles ? "touchdown_angle_deg" : "touchdown_angle_deg and initial, or file") +
+  std::string what = "touchdown_angle_deg";
+  if (pair.what == Mixed::kAnglesAndStarts)
+    what = (HaveOneAngle(trials[i], trials[j]) ? "" : what + " and ") + "initial, or file";
+  return trials[i].file + " and " + trials[j].file + " seem to have each other's " + what +
          ": at the nominal values the simulation misses " + MissedPercent(as_stated[i]) + " and " +
          MissedPercent(as_stated[j]) + " of their motion, and " + MissedPercent(pair.missed[0]) +
          " and " + MissedPercent(pair.missed[1]) + " with these exchanged";
@@ -56,19 +75,19 @@ std::vector<std::string> MixedUpTrials(const FitProblem& problem) {
   std::vector<TrialProblem> trials;
   std::vector<double> as_stated;
   for (const TrialProblem& trial : problem.trials) {
-    TrialProblem part = FirstPart(problem, trial, kLookedAt_s);
-    const double missed = MissedMotion(problem, part);
-    if (missed < kLeastMissed * kLeastMissed || trials.size() == kMostTrials) continue;
-    trials.push_back(std::move(part));
+    const double missed = MissedMotion(problem, FirstPart(problem, trial, kLookedAt_s));
+    if (missed < kLeastMissed * kLeastMissed) continue;
+    trials.push_back(trial);
     as_stated.push_back(missed);
+    if (trials.size() == kMostTrials) break;
   }
   std::vector<Pair> found;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     for (std::size_t j = i + 1; j < trials.size(); ++j) {
-      if (!CanHaveStatedOf(trials[i], trials[j])) continue;
+      if (trials[i].start_mode != trials[j].start_mode) continue;
       for (const Mixed what : {Mixed::kAngles, Mixed::kAnglesAndStarts}) {
         const auto exchanged = [&](std::size_t trial, std::size_t other) {
-          return MissedMotion(problem, WithStatedOf(trials[trial], trials[other], what));
+          return MissedMotion(problem, WithStatedOf(problem, trials[trial], trials[other], what));
         };
         const Pair pair{{i, j}, {exchanged(i, j), exchanged(j, i)}, what};
         const double sum = as_stated[i] + as_stated[j];

@@ -5,26 +5,25 @@
 namespace hoplab {
 
 ReducedTrial::ReducedTrial(int residuals, int columns)
-    : residuals_(std::min(residuals, columns + 1)),
-      jacobian_(residuals_.size(), columns),
-      qr_(residuals, columns) {}
+    : residuals_(std::min(residuals, columns + 1)), jacobian_(residuals_.size(), columns) {}
 
-void ReducedTrial::Reduce(const TrialEvaluation& evaluation, const Eigen::VectorXd& scale) {
+void ReducedTrial::Reduce(const TrialEvaluation& evaluation, const Eigen::VectorXd& scale,
+                          Workspace& whole) {
   const Eigen::Index columns = jacobian_.cols();
-  whole_ = evaluation.jacobian * scale.asDiagonal();
-  if (whole_.rows() <= columns + 1) {
+  whole.jacobian = evaluation.jacobian * scale.asDiagonal();
+  if (whole.jacobian.rows() <= columns + 1) {
     residuals_ = evaluation.residuals;
-    jacobian_ = whole_;
+    jacobian_ = whole.jacobian;
     return;
   }
-  qr_.compute(whole_);
-  whole_residuals_ = evaluation.residuals;
-  whole_residuals_.applyOnTheLeft(qr_.householderQ().adjoint());
-  residuals_.head(columns) = whole_residuals_.head(columns);
-  residuals_[columns] = whole_residuals_.tail(whole_residuals_.size() - columns).norm();
+  whole.qr.compute(whole.jacobian);
+  whole.residuals = evaluation.residuals;
+  whole.residuals.applyOnTheLeft(whole.qr.householderQ().adjoint());
+  residuals_.head(columns) = whole.residuals.head(columns);
+  residuals_[columns] = whole.residuals.tail(whole.residuals.size() - columns).norm();
   jacobian_.setZero();
   jacobian_.topRows(columns).triangularView<Eigen::Upper>() =
-      qr_.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+      whole.qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
 }
 
 }  // namespace hoplab

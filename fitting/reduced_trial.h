@@ -12,20 +12,26 @@ namespace hoplab {
 /// as few as the columns and one. (Golub & Van Loan, Matrix Computations, 5.3.)
 class ReducedTrial {
  public:
+  /// Where the whole is worked on, kept to spare its allocation.
+  struct Workspace {
+    Eigen::MatrixXd jacobian;
+    Eigen::VectorXd residuals;
+    Eigen::HouseholderQR<Eigen::MatrixXd> qr;
+  };
+
   /// `residuals` rows and `columns` columns of the whole.
   ReducedTrial(int residuals, int columns);
 
   /// Of a complete evaluation; column k of its Jacobian is taken times `scale[k]`.
-  void Reduce(const TrialEvaluation& evaluation, const Eigen::VectorXd& scale);
+  void Reduce(const TrialEvaluation& evaluation, const Eigen::VectorXd& scale, Workspace& whole);
 
   int rows() const { return static_cast<int>(residuals_.size()); }
   const Eigen::VectorXd& residuals() const { return residuals_; }
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }
 
  private:
-  Eigen::VectorXd residuals_, whole_residuals_;
-  Eigen::MatrixXd jacobian_, whole_;
-  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
+  Eigen::VectorXd residuals_;
+  Eigen::MatrixXd jacobian_;
 };
 
 }  // namespace hoplab

@@ -78,7 +78,7 @@ class Watch : public ceres::IterationCallback {
     costs_.push_back(costs_.empty() ? summary.cost : std::fmin(costs_.back(), summary.cost));
     if (summary.step_is_successful)
       met_bound_ = MeetsBound();
-    else
+    else if (summary.step_is_valid)  // else no point was tried
       beyond_ = TriedBeyond();
     if (met_bound_ || !beyond_.empty()) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     converged_ = summary.step_is_successful && IsAtMinimum(summary.cost);
@@ -174,7 +174,7 @@ void Take(const SolveRequest& request, TrialEvaluations& evaluations, SolveResul
 
 // Whether a search can begin where the evaluations are; where not, `result` says why.
 bool CanBegin(const SolveRequest& request, TrialEvaluations& evaluations, SolveResult& result) {
-  evaluations.PrepareForEvaluation(!std::isfinite(request.start_below), false);
+  evaluations.PrepareForEvaluation(true, false);
   result.status = SolveStatus::kNoStart;
   for (int i = 0; i < static_cast<int>(request.trials->size()); ++i) {
     if (evaluations.IsEvaluated(i)) continue;

@@ -1,9 +1,8 @@
 #include "fitting/trial_evaluations.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 
 #include "base/check.h"
 #include "base/parallel.h"
@@ -16,6 +15,7 @@ TrialEvaluations::TrialEvaluations(const SolveRequest& request)
       problem_(*request.problem),
       trials_(*request.trials),
       evaluations_(trials_.size()),
+      workspaces_(trials_.size()),
       shared_(problem_.shared_count()) {
   HOPLAB_CHECK(request.initial_states.size() == trials_.size());
   HOPLAB_CHECK(request.shared.size() == problem_.shared_count());
@@ -65,8 +65,10 @@ void TrialEvaluations::Run(Point& point) {
     evaluators_[i].Evaluate(request, e);
     if (!e.evaluated) return;
     if (request.only) PutAfterShared(e.jacobian);
-    point.reduced[i].Reduce(e, ColumnScales(trials_[i]));
-    point.evaluated[i] = point.reduced[i].residuals().allFinite();
+    point.reduced[i].Reduce(e, ColumnScales(trials_[i]), workspaces_[i]);
+    e.evaluated = point.reduced[i].residuals().allFinite();
+    e.complete = e.complete && e.evaluated;
+    point.evaluated[i] = e.evaluated;
   });
   point.cost = 0.0;
   for (std::size_t i = 0; i < n; ++i)
@@ -128,46 +130,52 @@ double TrialEvaluations::Gradient(int shared) const {
   return sum;
 }
 
-// A trial's own values are eliminated one trial after the other (the Schur complement), so that the
-// work grows with their number and no faster.
+// A trial's own values are eliminated one trial after the other, by an orthogonal transformation of
+// its rows, so that the work grows with the number of trials and no faster.
 double TrialEvaluations::PredictedGain(const std::vector<int>& held) const {
-  constexpr double kDamping =
-      1e-12;  // of the diagonal: a direction that does nothing gains nothing
-  const auto damped = [](Eigen::MatrixXd a) {
-    a.diagonal() *= 1.0 + kDamping;
-    a.diagonal().array() += std::numeric_limits<double>::min();
-    return a;
-  };
   const Point& kept = points_[kept_];
   std::vector<int> shared;
   for (int k = 0; k < problem_.shared_count(); ++k)
     if (std::find(held.begin(), held.end(), k) == held.end()) shared.push_back(k);
   const auto n = static_cast<Eigen::Index>(shared.size());
-  Eigen::MatrixXd of_shared = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd slope = Eigen::VectorXd::Zero(n);
+  Eigen::Index rows = 0;
+  for (const ReducedTrial& trial : kept.reduced) rows += trial.rows();
+  Eigen::MatrixXd rest(rows, n);
+  Eigen::VectorXd residuals(rows);
+  rows = 0;
   double gain = 0.0;
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     if (!kept.evaluated[i]) continue;
-    const Eigen::MatrixXd& jacobian = kept.reduced[i].jacobian();
-    const Eigen::VectorXd& r = kept.reduced[i].residuals();
-    const Eigen::MatrixXd by_shared = jacobian(Eigen::all, shared);
-    of_shared += by_shared.transpose() * by_shared;
-    slope += by_shared.transpose() * r;
-    std::vector<int> own;
-    for (int k = 0; k < trials_[i].own_count(); ++k)
-      if (!request_.hold_initial_states && trials_[i].own[static_cast<std::size_t>(k)].free)
-        own.push_back(problem_.shared_count() + k);
-    if (own.empty()) continue;
-    const Eigen::MatrixXd by_own = jacobian(Eigen::all, own);
-    const Eigen::LDLT<Eigen::MatrixXd> solver(damped(by_own.transpose() * by_own));
-    const Eigen::VectorXd own_slope = by_own.transpose() * r;
-    const Eigen::MatrixXd mixed = by_own.transpose() * by_shared;
-    gain += 0.5 * own_slope.dot(solver.solve(own_slope));
-    slope -= mixed.transpose() * solver.solve(own_slope);
-    of_shared -= mixed.transpose() * solver.solve(mixed);
+    const ReducedTrial& trial = kept.reduced[i];
+    Eigen::MatrixXd by_shared = trial.jacobian()(Eigen::all, shared);
+    Eigen::VectorXd r = trial.residuals();
+    const std::vector<int> own = FreeOwnColumns(trials_[i]);
+    const auto along = std::min<Eigen::Index>(static_cast<Eigen::Index>(own.size()), r.size());
+    if (along > 0) {
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(trial.jacobian()(Eigen::all, own));
+      by_shared.applyOnTheLeft(qr.householderQ().adjoint());
+      r.applyOnTheLeft(qr.householderQ().adjoint());
+      gain += 0.5 * r.head(along).squaredNorm();
+    }
+    const Eigen::Index left = r.size() - along;
+    rest.middleRows(rows, left) = by_shared.bottomRows(left);
+    residuals.segment(rows, left) = r.tail(left);
+    rows += left;
   }
-  if (n > 0) gain += 0.5 * slope.dot(Eigen::LDLT<Eigen::MatrixXd>(damped(of_shared)).solve(slope));
-  return gain;
+  if (n == 0 || rows == 0) return gain;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rest.topRows(rows));
+  Eigen::VectorXd r = residuals.head(rows);
+  r.applyOnTheLeft(qr.householderQ().adjoint());
+  return gain + 0.5 * r.head(std::min(n, rows)).squaredNorm();
+}
+
+// Those of a reduced trial's Jacobian.
+std::vector<int> TrialEvaluations::FreeOwnColumns(const TrialProblem& trial) const {
+  std::vector<int> columns;
+  for (int k = 0; k < trial.own_count(); ++k)
+    if (!request_.hold_initial_states && trial.own[static_cast<std::size_t>(k)].free)
+      columns.push_back(problem_.shared_count() + k);
+  return columns;
 }
 
 void TrialEvaluations::Copy(int trial, double* residuals, double* by_shared, double* by_own) const {
@@ -187,10 +195,11 @@ std::string TrialEvaluations::ReasonOf(int trial) const {
   const Trajectory& trajectory = evaluations_[i].trajectory;
   char at[48];
   std::snprintf(at, sizeof at, " at %.3f s", trajectory.end_time);
-  return trials_[i].file + ": " +
-         (hoplab::IsComplete(trajectory.outcome)
-              ? std::string("other contacts than the trace shows")
-              : std::string(SentenceOf(trajectory.outcome)) + at);
+  const std::string of = trials_[i].file + ": ";
+  if (!hoplab::IsComplete(trajectory.outcome))
+    return of + std::string(SentenceOf(trajectory.outcome)) + at;
+  return of + (evaluations_[i].evaluated ? "other contacts than the trace shows"
+                                         : "residuals or derivatives that are no numbers");
 }
 
 Eigen::VectorXd TrialEvaluations::ColumnScales(const TrialProblem& trial) const {

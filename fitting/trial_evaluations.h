@@ -50,8 +50,8 @@ class TrialEvaluations : public ceres::EvaluationCallback {
   /// whose derivatives were asked for.
   double Gradient(int shared) const;
   /// What a Gauss-Newton step from there gains of half the sum of squares, as the model linear in
-  /// the unknowns has it: r' J (J' J)^-1 J' r / 2, over those that are free. Bounds of a trial's
-  /// own values are not looked at.
+  /// the unknowns has it: r' J (J' J)^-1 J' r / 2, over those that are free. Where bounds of
+  /// own values or columns that say nothing stand in its way, it is more than a step can gain.
   double PredictedGain(const std::vector<int>& held) const;
   int RowCount(int trial) const { return at_->reduced[static_cast<std::size_t>(trial)].rows(); }
   /// A trial's residuals, as few as ReducedTrial makes them, and their derivatives with respect to
@@ -81,6 +81,7 @@ class TrialEvaluations : public ceres::EvaluationCallback {
   void Run(Point& point);
   bool HoldsManyShared(int trial) const;
   void PutAfterShared(RowMajorMatrix& own) const;
+  std::vector<int> FreeOwnColumns(const TrialProblem& trial) const;
   Eigen::VectorXd SharedValues(const Eigen::VectorXd& over_scale) const;
   Eigen::VectorXd ColumnScales(const TrialProblem& trial) const;
 
@@ -89,6 +90,7 @@ class TrialEvaluations : public ceres::EvaluationCallback {
   const std::vector<TrialProblem>& trials_;
   std::vector<TrialEvaluator> evaluators_;
   std::vector<TrialEvaluation> evaluations_;  // of the last point simulated
+  std::vector<ReducedTrial::Workspace> workspaces_;
   Eigen::VectorXd shared_;
   /// Of all trials in one piece: Ceres takes the blocks of a group in the order of their addresses,
   /// and sums must be formed in one order.

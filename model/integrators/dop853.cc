@@ -12,8 +12,9 @@ namespace hoplab {
 namespace {
 
 constexpr int kMaxAttempts = 60;
-// Shorter steps than this share of a second lead nowhere: a singularity of the equations, such as a
-// leg angle whose rate has no bound, holds the state, and each step ends on the other side of it.
+// Steps shorter than this, over 1 s and the time so far, lead nowhere: a singularity of the
+// equations, such as a leg angle whose rate has no bound, holds the state, and each step ends on
+// the other side of it.
 constexpr double kShortestStep = 1e-11;
 
 // Components are worked on in packs that the compiler keeps in registers. Those past the size of

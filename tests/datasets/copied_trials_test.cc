@@ -57,11 +57,19 @@ TEST(CopiedTrials, ACopyCountsTwice) {
   EXPECT_NE(said[0].find("counted twice"), std::string::npos);
 }
 
-TEST(CopiedTrials, AChannelThatStandsStillIsNoCopy) {
-  Dataset dataset = Three();
-  for (Trial& trial : dataset.trials)
+TEST(CopiedTrials, RestAndContactsAreNoCopy) {
+  Dataset rest = Three(), contact = Three();
+  for (Trial& trial : rest.trials) {
     for (double& value : trial.trace.columns[0].values) value = 0.3;
-  EXPECT_TRUE(CopiedTrials(dataset).empty());
+    trial.trace.columns[0].values[0] = std::numeric_limits<double>::quiet_NaN();
+  }
+  EXPECT_TRUE(CopiedTrials(rest).empty());
+  contact.channels[0].id = Channel::kContact;
+  for (Trial& trial : contact.trials) {
+    trial.trace.columns[0].name = "contact";
+    for (std::size_t k = 0; k < 40; ++k) trial.trace.columns[0].values[k] = k / 10 % 2;
+  }
+  EXPECT_TRUE(CopiedTrials(contact).empty());
 }
 
 }  // namespace

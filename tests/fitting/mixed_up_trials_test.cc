@@ -9,6 +9,7 @@
 
 #include "base/units.h"
 #include "datasets/read_dataset.h"
+#include "datasets/touchdowns.h"
 #include "fitting/problem.h"
 
 namespace hoplab {
@@ -56,6 +57,33 @@ TEST(MixedUpTrials, AnglesOfTwoTrialsAreTold) {
     }
   }
   EXPECT_GT(pairs, 15);
+}
+
+// Angles that are stated one a landing, and where they are uncertain are each trial's own values.
+TEST(MixedUpTrials, AnglesOfEachLandingAreTold) {
+  for (const bool uncertain : {false, true}) {
+    Dataset mixed = Shipped("rig-drops");
+    std::swap(mixed.trials[1].touchdown_angle_rad, mixed.trials[4].touchdown_angle_rad);
+    for (Trial& trial : mixed.trials) {
+      const double height = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
+      const auto landings = TouchdownTimes(trial.trace, [&](auto, auto) { return height; }).size();
+      trial.touchdown_angles_rad.assign(landings, trial.touchdown_angle_rad);
+      if (uncertain) trial.touchdown_angle_sigma_rad = DegToRad(1.0);
+    }
+    const std::vector<std::string> said = SaidOf(mixed);
+    ASSERT_EQ(said.size(), 1U) << uncertain;
+    EXPECT_TRUE(NamesBoth(said[0], mixed.trials[1], mixed.trials[4])) << said[0];
+  }
+}
+
+TEST(MixedUpTrials, OfOneAngleOnlyTheStartsAreTold) {
+  Dataset mixed = Shipped("rig-drops");
+  for (Trial& trial : mixed.trials) trial.touchdown_angle_rad = mixed.trials[3].touchdown_angle_rad;
+  mixed.trials = {mixed.trials[3], mixed.trials[4]};  // 4 deg apart
+  std::swap(mixed.trials[0].initial, mixed.trials[1].initial);
+  const std::vector<std::string> said = SaidOf(mixed);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said[0].find("each other's initial, or file:"), std::string::npos) << said[0];
 }
 
 TEST(MixedUpTrials, FilesOfTwoTrialsAreTold) {

@@ -35,8 +35,9 @@ void ExpectSameLeastSquares(const Whole& w, const ReducedTrial& reduced) {
 
 TEST(ReducedTrial, IsTheSameLeastSquaresProblemInFewRows) {
   const Whole w = Evaluation(400, 9);
+  ReducedTrial::Workspace workspace;
   ReducedTrial reduced(400, 9);
-  reduced.Reduce(w.evaluation, w.scale);
+  reduced.Reduce(w.evaluation, w.scale, workspace);
   EXPECT_EQ(reduced.rows(), 10);
   ExpectSameLeastSquares(w, reduced);
 }
@@ -44,8 +45,9 @@ TEST(ReducedTrial, IsTheSameLeastSquaresProblemInFewRows) {
 TEST(ReducedTrial, FewRowsStayAsTheyAre) {
   for (int rows : {1, 9, 10}) {
     const Whole w = Evaluation(rows, 9);
+    ReducedTrial::Workspace workspace;
     ReducedTrial reduced(rows, 9);
-    reduced.Reduce(w.evaluation, w.scale);
+    reduced.Reduce(w.evaluation, w.scale, workspace);
     EXPECT_EQ(reduced.rows(), rows);
     EXPECT_EQ(reduced.residuals(), w.evaluation.residuals);
     EXPECT_EQ(reduced.jacobian(), w.J);
@@ -56,8 +58,9 @@ TEST(ReducedTrial, AColumnOfZerosIsNoTrouble) {
   Whole w = Evaluation(50, 4);
   w.evaluation.jacobian.col(1).setZero();
   w.J.col(1).setZero();
+  ReducedTrial::Workspace workspace;
   ReducedTrial reduced(50, 4);
-  reduced.Reduce(w.evaluation, w.scale);
+  reduced.Reduce(w.evaluation, w.scale, workspace);
   ExpectSameLeastSquares(w, reduced);
 }
 
