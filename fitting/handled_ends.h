@@ -26,4 +26,10 @@ std::optional<Release> FindRelease(const Samples& heights, double sigma, double 
 std::optional<std::size_t> FindCatch(const Samples& heights, double sigma, double gravity,
                                      double lands_m);
 
+/// The sample at the top of the first flight of a record that begins in a stance: its first sample
+/// lies 15 mm and `doubt` below `lands_m`, where the leg lands. It rises above that later, and what
+/// is left from there on is no less than `fewest` samples.
+std::optional<std::size_t> FindTopAfterStance(const Samples& heights, double lands_m, double doubt,
+                                              std::size_t fewest);
+
 }  // namespace hoplab

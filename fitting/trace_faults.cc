@@ -69,6 +69,16 @@ void FindHands(const Trial& trial, std::size_t place, const ChannelSpec& channel
     for (std::size_t row = 0; row < s.row[begins]; ++row) held.rows.push_back(row);
     faults.push_back(held);
   }
+  if (const auto top =
+          begins == 0 && in_flight && trial.mechanism.type != MechanismKind::kRobot
+              ? FindTopAfterStance(s, TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad),
+                                   3.0 * sigma, kLeftOver)
+              : std::nullopt) {
+    begins = *top;
+    TraceFault stance{TraceFault::Kind::kBeforeFlight, place, Channel::kBodyY, {}, 0.0};
+    for (std::size_t row = 0; row < s.row[begins]; ++row) stance.rows.push_back(row);
+    faults.push_back(stance);
+  }
   // A leg carries it at most where it stands upright.
   const double lands_m = TouchdownHeight(trial.mechanism, 0.0);
   if (!std::isfinite(lands_m)) return;
@@ -122,6 +132,8 @@ std::string_view NameOf(TraceFault::Kind kind) {
       return "before_release";
     case TraceFault::Kind::kAfterCatch:
       return "after_catch";
+    case TraceFault::Kind::kBeforeFlight:
+      return "before_flight";
   }
   return "";
 }
@@ -184,7 +196,8 @@ void MoveStart(const Release& release, double since, double moved_m, Trial& tria
 Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults) {
   for (const TraceFault& fault : faults) {
     if (fault.kind == TraceFault::Kind::kBeforeRelease ||
-        fault.kind == TraceFault::Kind::kAfterCatch)
+        fault.kind == TraceFault::Kind::kAfterCatch ||
+        fault.kind == TraceFault::Kind::kBeforeFlight)
       continue;
     for (TraceColumn& column : dataset.trials[fault.trial].trace.columns) {
       if (column.name != ChannelName(fault.channel)) continue;
@@ -199,6 +212,11 @@ Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults) {
     Trial& trial = dataset.trials[fault->trial];
     if (fault->kind == TraceFault::Kind::kAfterCatch)
       Erase(fault->rows.front(), trial.trace.time_s.size(), trial.trace);
+    if (fault->kind == TraceFault::Kind::kBeforeFlight) {
+      Erase(0, fault->rows.back() + 1, trial.trace);
+      trial.initial.reset();
+      trial.initial_sigma.reset();
+    }
     if (fault->kind != TraceFault::Kind::kBeforeRelease) continue;
     const double moved_m = MovedBefore(fault->release, trial);
     Erase(0, fault->rows.back() + 1, trial.trace);
@@ -244,6 +262,10 @@ class Telling {
         return "the body rests in the air at the end of " + trial_.file + Others() +
                ": it was caught, at " + Rounded(trial_.trace.time_s[first_.rows[0]]) +
                " s; what follows" + NotCompared(" is");
+      case TraceFault::Kind::kBeforeFlight:
+        return trial_.file + Others() +
+               " begins in a stance; what is before the top of its first flight, at " +
+               Rounded(trial_.trace.time_s[first_.rows.back() + 1]) + " s," + NotCompared(" is");
       case TraceFault::Kind::kJump:
         break;
     }

@@ -254,5 +254,52 @@ TEST(HeldBody, IsFittedAsIfItsLogBeganAtTheRelease) {
   EXPECT_EQ(MakeProblem(held, keep).trials[0].row_times.size(), held.trials[0].trace.time_s.size());
 }
 
+// A log that is switched on while the leg stands: the first trials of the rig, from their lowest
+// point on.
+TEST(RecordFromAStance, BeginsAtTheTopOfItsFirstFlight) {
+  const Dataset plain = ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/rig-drops");
+  Dataset late = plain;
+  for (std::size_t i = 0; i < 2; ++i) {
+    Trace& trace = late.trials[i].trace;
+    const std::vector<double>& y = *trace.Find(Channel::kBodyY);
+    const auto landed = std::min_element(y.begin(), y.begin() + 150) - y.begin();
+    for (TraceColumn& column : trace.columns)
+      column.values.erase(column.values.begin(), column.values.begin() + landed);
+    trace.time_s.erase(trace.time_s.begin(), trace.time_s.begin() + landed);
+  }
+  const FitProblem problem = MakeProblem(late, {});
+  ASSERT_EQ(problem.trace_faults.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const TrialProblem& trial = problem.trials[i];
+    EXPECT_EQ(problem.trace_faults[i].kind, TraceFault::Kind::kBeforeFlight);
+    EXPECT_NEAR(trial.start[3], 0.0, 0.15);  // at the top, but for noise
+    EXPECT_TRUE(std::isinf(trial.own[1].prior_sigma));
+  }
+  EXPECT_NE(problem.notes.front().find("begins in a stance"), std::string::npos);
+  const auto modulus = [](const Dataset& dataset) {
+    return FitDataset(dataset, {}, {}).result.shared[0];
+  };
+  EXPECT_NEAR(modulus(late) / modulus(plain), 1.0, 1e-2);
+  ProblemOptions keep;
+  keep.keep_stray = true;
+  EXPECT_EQ(MakeProblem(late, keep).trials[0].row_times.size(), late.trials[0].trace.time_s.size());
+}
+
+TEST(FindTopAfterStance, SaysNothingOfFlightsAndOfWhatNeverFlies) {
+  Samples s;
+  for (int i = 0; i < 100; ++i) {
+    s.t.push_back(0.002 * i);
+    s.y.push_back(0.15 + 0.02 * std::sin(0.1 * i));
+    s.row.push_back(static_cast<std::size_t>(i));
+  }
+  EXPECT_FALSE(FindTopAfterStance(s, 0.18, 0.001, 10));  // stays on the ground
+  EXPECT_FALSE(
+      FindTopAfterStance(s, 0.16, 0.001, 10));  // 10 mm below: where it lands is not known so well
+  EXPECT_FALSE(FindTopAfterStance(s, 0.168, 0.001, 95));  // too little is left
+  const auto top = FindTopAfterStance(s, 0.168, 0.001, 10);
+  ASSERT_TRUE(top);
+  EXPECT_EQ(*top, 16U);
+}
+
 }  // namespace
 }  // namespace hoplab
