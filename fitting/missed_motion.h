@@ -6,6 +6,10 @@
 
 namespace hoplab {
 
+/// How much of a trial is looked at before anything is fitted: a hop or so. Later a motion goes
+/// apart at its own pace.
+inline constexpr double kFirstMotion_s = 0.5;
+
 /// The mean square of what a simulation at the nominal values misses of the body's motion, over
 /// that motion's own, the mean over the channels of its pose: 0 where it follows, 1 where it is
 /// nowhere near or ends.

@@ -10,7 +10,6 @@
 namespace hoplab {
 namespace {
 
-constexpr double kLookedAt_s = 0.5;       // a hop or so
 constexpr std::size_t kMostTrials = 40;   // pairs grow with the square
 constexpr double kLeastMissed = 0.125;    // rms, of a trial's own motion
 constexpr double kBetterExchanged = 0.5;  // rms of both, of what is missed as it stands
@@ -42,7 +41,7 @@ TrialProblem WithStatedOf(const FitProblem& problem, TrialProblem trial, const T
               trial.touchdown_angles.begin());
   TakeOwn(Of::kTouchdownAngle, other, trial);
   if (what == Mixed::kAnglesAndStarts) TakeOwn(Of::kInitialState, other, trial);
-  return FirstPart(problem, trial, kLookedAt_s);
+  return FirstPart(problem, trial, kFirstMotion_s);
 }
 
 bool HaveOneAngle(const TrialProblem& a, const TrialProblem& b) {
@@ -75,7 +74,7 @@ std::vector<std::string> MixedUpTrials(const FitProblem& problem) {
   std::vector<TrialProblem> trials;
   std::vector<double> as_stated;
   for (const TrialProblem& trial : problem.trials) {
-    const double missed = MissedMotion(problem, FirstPart(problem, trial, kLookedAt_s));
+    const double missed = MissedMotion(problem, FirstPart(problem, trial, kFirstMotion_s));
     if (missed < kLeastMissed * kLeastMissed) continue;
     trials.push_back(trial);
     as_stated.push_back(missed);

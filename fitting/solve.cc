@@ -9,6 +9,7 @@
 
 #include "fitting/deviation.h"
 #include "fitting/trial_evaluations.h"
+#include "fitting/values_on_bounds.h"
 
 namespace hoplab {
 namespace {
@@ -36,28 +37,6 @@ class TrialCost : public ceres::CostFunction {
   const TrialEvaluations& evaluations_;
   int index_;
 };
-
-bool IsOnLower(const SharedParameter& s, double value) { return value <= s.lower + 1e-9 * s.scale; }
-bool IsOnUpper(const SharedParameter& s, double value) { return value >= s.upper - 1e-9 * s.scale; }
-
-using Places = std::vector<int>;  // of shared values
-bool Contains(const Places& places, int k) {
-  return std::find(places.begin(), places.end(), k) != places.end();
-}
-
-// The shared values on a bound that the cost pushes outward, at the last point with derivatives.
-Places PushedOut(const SolveRequest& request, const TrialEvaluations& evaluations) {
-  Places out;
-  const Eigen::VectorXd values = evaluations.SharedValues();
-  for (int k = 0; k < request.problem->shared_count(); ++k) {
-    const SharedParameter& s = request.problem->shared[static_cast<std::size_t>(k)];
-    const bool lower = IsOnLower(s, values[k]), upper = IsOnUpper(s, values[k]);
-    if ((!lower && !upper) || Contains(request.held, k)) continue;
-    const double gradient = evaluations.Gradient(k);
-    if (lower ? gradient >= 0.0 : gradient <= 0.0) out.push_back(k);
-  }
-  return out;
-}
 
 // What a run of Ceres moves, and for how long.
 struct RunSettings {

@@ -46,9 +46,10 @@ Samples SamplesOf(const Trial& trial, const std::vector<double>& values) {
   return s;
 }
 
-// Hands that hold the body before its flight, and catch it. A clock's motors do not wait for it.
-void FindHands(const Trial& trial, std::size_t place, const ChannelSpec& channel,
-               std::vector<TraceFault>& faults) {
+// What is before a record's first flight and after its last one: hands that hold the body and catch
+// it, a stance. A clock's motors do not wait for a hand.
+void FindEnds(const Trial& trial, std::size_t place, const ChannelSpec& channel,
+              std::vector<TraceFault>& faults) {
   const std::vector<double>* values = trial.trace.Find(Channel::kBodyY);
   const bool waits = !trial.controller || !trial.controller->motors ||
                      trial.controller->motors->kind == MotorControl::kHeld;
@@ -145,7 +146,7 @@ std::vector<TraceFault> FindTraceFaults(const Dataset& dataset) {
     for (std::size_t k = 0; k < dataset.trials.size(); ++k)
       FindIn(dataset.trials[k], k, channel, faults);
     for (std::size_t k = 0; channel.id == Channel::kBodyY && k < dataset.trials.size(); ++k)
-      FindHands(dataset.trials[k], k, channel, faults);
+      FindEnds(dataset.trials[k], k, channel, faults);
   }
   return faults;
 }

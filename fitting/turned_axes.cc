@@ -10,7 +10,6 @@
 namespace hoplab {
 namespace {
 
-constexpr double kHorizon_s = 0.5;  // later a robot's motion goes apart at its own pace
 constexpr std::size_t kTrials = 6;  // are enough
 constexpr double kMissed = 0.2;     // rms, of the motion's own rms
 constexpr double kFollowed = 0.3;   // likewise, at most, with one turned
@@ -87,7 +86,7 @@ bool MeansSomething(Axis axis, const TrialProblem& trial) {
 std::vector<std::string> TurnedAxes(const FitProblem& problem) {
   std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
   if (trials.size() > kTrials) trials.resize(kTrials);
-  for (TrialProblem& trial : trials) trial = FirstPart(problem, trial, kHorizon_s);
+  for (TrialProblem& trial : trials) trial = FirstPart(problem, trial, kFirstMotion_s);
   if (trials.empty()) return {};
   const double as_it_stands = MeanMissed(problem, trials, nullptr);
   if (as_it_stands < kMissed * kMissed) return {};

@@ -293,8 +293,8 @@ TEST(FindTopAfterStance, SaysNothingOfFlightsAndOfWhatNeverFlies) {
     s.row.push_back(static_cast<std::size_t>(i));
   }
   EXPECT_FALSE(FindTopAfterStance(s, 0.18, 0.001, 10));  // stays on the ground
-  EXPECT_FALSE(
-      FindTopAfterStance(s, 0.16, 0.001, 10));  // 10 mm below: where it lands is not known so well
+  // 10 mm below: where it lands is not known so well.
+  EXPECT_FALSE(FindTopAfterStance(s, 0.16, 0.001, 10));
   EXPECT_FALSE(FindTopAfterStance(s, 0.168, 0.001, 95));  // too little is left
   const auto top = FindTopAfterStance(s, 0.168, 0.001, 10);
   ASSERT_TRUE(top);

@@ -33,9 +33,11 @@ TEST(MixedUpTrials, NothingIsSaidOfRecordsThatAreRight) {
 TEST(MixedUpTrials, NothingIsSaidOfAWrongModulusOrMass) {
   for (const char* name : {"rig-drops", "rig-controlled", "rig-drops-undamped"}) {
     for (const double factor : {0.25, 0.5, 2.0, 4.0}) {
-      Dataset rig = Shipped(name);
-      for (Trial& trial : rig.trials) trial.mechanism.c_leg.E_Pa *= factor;
-      EXPECT_TRUE(SaidOf(rig).empty()) << name << ' ' << factor;
+      Dataset stiff = Shipped(name), heavy = stiff;
+      for (Trial& trial : stiff.trials) trial.mechanism.c_leg.E_Pa *= factor;
+      for (Trial& trial : heavy.trials) trial.mechanism.body_mass_kg *= factor;
+      EXPECT_TRUE(SaidOf(stiff).empty()) << name << ' ' << factor;
+      EXPECT_TRUE(SaidOf(heavy).empty()) << name << ' ' << factor;
     }
   }
 }
