@@ -106,6 +106,10 @@ constexpr bool IsRobotChannel(Channel c) {
 }
 /// Whether what tracks the body tells it: where it is, how it moves, its pitch.
 constexpr bool IsPose(Channel c) { return c <= Channel::kBodyVy || c == Channel::kBodyPitch; }
+/// Of a robot's leg.
+constexpr bool IsAngleOfLeg(Channel c) {
+  return c >= Channel::kLegAngle1 && c <= Channel::kLegAngle4;
+}
 /// The channel of a leg from that of leg 1.
 constexpr Channel OfLeg(Channel first, int leg) {
   return static_cast<Channel>(static_cast<int>(first) + leg);

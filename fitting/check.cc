@@ -40,7 +40,9 @@ bool TouchesGround(const TrialProblem& trial, const Trajectory& trajectory) {
 }  // namespace
 
 std::vector<std::string> DataWarnings(const Dataset& dataset, const FitProblem& problem) {
-  std::vector<std::string> warnings = SuspectThings(dataset);
+  const Dataset compared =
+      problem.keeps_stray ? dataset : WithoutFaults(dataset, problem.trace_faults);
+  std::vector<std::string> warnings = SuspectThings(compared);
   for (const std::string& sentence : CopiedTrials(dataset)) warnings.push_back(sentence);
   if (!UnreadableTimes(dataset).empty()) return warnings;
   for (const auto& sentences :

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "fitting/apex_segments.h"
+#include "fitting/following_start.h"
 #include "fitting/growing_horizon.h"
 #include "fitting/threshold.h"
 #include "model/mechanism_traits.h"
@@ -202,7 +203,9 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
     return GrowHorizon(request);
   };
   if (grows) {
-    result = grow(shared);
+    result = grow(TraitsOf(problem.law).lands_leg_by_leg
+                      ? FollowingStart(problem, trials, shared, options.jobs)
+                      : shared);
   } else {
     SolveRequest request = RequestFor(problem, trials, options, start_number, "all rows");
     request.shared = options.strategy == FitStrategy::kRaw

@@ -13,18 +13,25 @@ namespace {
 constexpr double kFarOff = 1.0;  // what a sample is counted as at most, or without a simulation
 constexpr double kLeastMotion = 10.0;  // standard deviations of the noise
 
+bool ShowsMotion(Channel c) { return IsPose(c) || IsAngleOfLeg(c); }
+
 }  // namespace
 
 double MissedMotion(const FitProblem& problem, const TrialProblem& trial) {
+  return MissedMotion(problem, trial, InitialShared(problem));
+}
+
+double MissedMotion(const FitProblem& problem, const TrialProblem& trial,
+                    const Eigen::VectorXd& shared) {
   Trajectory simulated;
   TrialEvaluator(problem, trial)
-      .Simulate({InitialShared(problem), trial.start, false}, problem.integrator, simulated);
+      .Simulate({shared, trial.start, false}, problem.integrator, simulated);
   const std::size_t width = problem.channels.size();
   const std::size_t rows = trial.row_times.size();
   double missed = 0.0;
   int channels = 0;
   for (std::size_t c = 0; c < width; ++c) {
-    if (!IsPose(problem.channels[c].channel)) continue;
+    if (!ShowsMotion(problem.channels[c].channel)) continue;
     double count = 0.0, sum = 0.0, squares = 0.0;
     for (std::size_t row = 0; row < rows; ++row) {
       const double value = trial.data[row * width + c];

@@ -239,6 +239,11 @@ void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string
                       "is of a leg this robot does not have",
                       "Legs are counted from the hindmost, 1."});
   }
+  if (robot_legs.count > 0 && effect.info.least_legs > robot_legs.count) {
+    throw InputError({place, "effect " + std::string(effect.info.name),
+                      "means nothing on a robot of " + std::to_string(robot_legs.count) + " leg",
+                      "Leave it out; `hoplab effects` says what there is."});
+  }
   if (robot_legs.straight && effect.info.arcs_only) {
     throw InputError({place, "effect " + std::string(effect.info.name),
                       "is of half circles, and this robot's legs are straight",

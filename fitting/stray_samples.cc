@@ -85,8 +85,9 @@ class Column {
       for (std::size_t count = 1; count <= kLongest; ++count)
         for (std::size_t first = 1; first + count < s_.size(); ++first)
           found |= AreStray(first, count);
-      if (!found) return;
+      if (!found) break;
     }
+    SetOutermost();
   }
 
   // Where the motion comes back by what it went, it was elsewhere for a while: stray.
@@ -214,6 +215,26 @@ class Column {
       if (s_.t[count] - s_.t[count - 1] > kGap * s_.step)
         SetIfFar(0, count - 1, After(count - 1, kBeside));
     }
+  }
+  // The outermost ones, where the motion beside them does not lead there and no blow could: at most
+  // it turns the fastest motion about within the one step.
+  void SetOutermost() {
+    const std::size_t n = s_.size();
+    if (n < 2 * kBeside + 1) return;
+    double fastest = 0.0;
+    for (std::size_t i = 1; i + kJumpSide + 1 < n; i += kJumpSide)
+      if (!stray_[i] && !stray_[i + kJumpSide])
+        fastest = std::max(
+            fastest, std::abs(s_.y[i + kJumpSide] - s_.y[i]) / (s_.t[i + kJumpSide] - s_.t[i]));
+    SetIfOutside(0, After(0, kBeside), 2.0 * fastest * (s_.t[1] - s_.t[0]));
+    SetIfOutside(n - 1, Before(n - 1, kBeside), 2.0 * fastest * (s_.t[n - 1] - s_.t[n - 2]));
+  }
+  void SetIfOutside(std::size_t i, std::vector<std::size_t> at, double blow) {
+    if (stray_[i] || at.size() < kBeside) return;
+    std::sort(at.begin(), at.end());
+    const LocalMotion motion(s_, at);  // all of them: one that is left out may follow the blow
+    const double off = std::abs(s_.y[i] - motion.At(s_.t[i]));
+    if (IsFar(i, off - blow, motion)) SetStray(i, i, off);
   }
   // The sample beside the outermost one, where the motion leads on to that one: a blow goes on.
   void SetAtEnds() {

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kLeastChance = 1e-3;
 constexpr double kNothingExplained = 0.005;  // of the misfit, by the best attempt
+constexpr double kLoneChannel = 0.9;         // of the misfit, in one channel alone
 constexpr int kMostWords = 30;               // of a first sentence
 constexpr std::size_t kMostNamed = 3;        // in it, fewer where it gets too long
 
@@ -119,8 +120,22 @@ std::string CausesSentence(const Diagnosis& d, std::size_t most) {
   return text + "; " + HeldOutClause(d) + ".";
 }
 
+// ", 97 % of it in leg_angle_1" where the simulation follows all other channels.
+std::string LoneChannelClause(const Diagnosis& d) {
+  const std::vector<ChannelProblem>& channels = d.problem.channels;
+  if (channels.size() < 2) return "";
+  std::vector<double> shares(channels.size(), 0.0);
+  for (const MisfitCell& cell : d.localisation.cells)
+    if (cell.channel >= 0) shares[static_cast<std::size_t>(cell.channel)] += cell.share;
+  const auto most = std::max_element(shares.begin(), shares.end());
+  if (*most < kLoneChannel) return "";
+  const Channel channel = channels[static_cast<std::size_t>(most - shares.begin())].channel;
+  return ", " + ShareText(*most) + " of it in " + WithoutUnit(std::string(NameOf(channel)));
+}
+
 std::string UnexplainedSentence(const Diagnosis& d, std::size_t most) {
-  const std::string missing = "Something is missing that the catalogue does not hold";
+  const std::string missing =
+      "Something is missing that the catalogue does not hold" + LoneChannelClause(d);
   if (!d.extension) return missing + ".";
   const ExtensionReport& e = *d.extension;
   if (e.explained < kNothingExplained && !e.at_bound)

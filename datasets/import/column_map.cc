@@ -186,18 +186,20 @@ ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entrie
     has_time = has_time || entry.target.IsTime();
   }
   // Time first, then the height: guessed units of the others are told by them.
-  const auto rank = [](const auto& s) {
-    return s.first.target.IsTime() ? 0 : s.first.target == Channel::kBodyY ? 1 : 2;
+  const auto rank = [](const MappedColumn& mapped) {
+    return mapped.target.IsTime() ? 0 : mapped.target == Channel::kBodyY ? 1 : 2;
   };
   std::stable_sort(said.begin(), said.end(),
-                   [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+                   [&](const auto& a, const auto& b) { return rank(a.first) < rank(b.first); });
   if (!has_time) said.insert(said.begin(), {GuessTime(table), ""});
   for (auto& [mapped, unit] : said) {
     FindUnitOf(table, unit, &map, &mapped);
     map.columns.push_back(mapped);
   }
   if (entries.empty()) {
-    const Guesses guesses = GuessChannels(table, map, type);
+    Guesses guesses = GuessChannels(table, map, type);
+    std::stable_sort(guesses.columns.begin(), guesses.columns.end(),
+                     [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
     map.warnings.insert(map.warnings.end(), guesses.notes.begin(), guesses.notes.end());
     for (MappedColumn guess : guesses.columns) {
       if (guess.unit.name.empty()) FindUnitOf(table, "", &map, &guess);

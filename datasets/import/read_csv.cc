@@ -6,6 +6,7 @@
 
 #include "base/input_error.h"
 #include "base/text.h"
+#include "datasets/import/clock_text.h"
 #include "datasets/import/table.h"
 #include "datasets/import/text_rows.h"
 #include "datasets/text_file.h"
@@ -38,9 +39,13 @@ char DelimiterOf(const std::vector<TextLine>& lines) {
   return ' ';
 }
 
+// Of seconds, or of a clock.
+bool IsNumber(std::string_view cell) {
+  return ParseDouble(cell).has_value() || ParseClockText(cell).has_value();
+}
+
 std::size_t CountNumbers(const Cells& cells) {
-  return static_cast<std::size_t>(std::count_if(
-      cells.begin(), cells.end(), [](auto cell) { return ParseDouble(cell).has_value(); }));
+  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), IsNumber));
 }
 
 // Whether a row is one of samples: its first cell or most of them are numbers.
@@ -48,7 +53,7 @@ bool IsData(const Cells& cells) {
   const std::size_t numbers = CountNumbers(cells);
   const auto missing = static_cast<std::size_t>(
       std::count_if(cells.begin(), cells.end(), [](auto cell) { return IsMissing(cell); }));
-  return numbers > 0 && (ParseDouble(cells[0]) || 2 * (numbers + missing) > cells.size());
+  return numbers > 0 && (IsNumber(cells[0]) || 2 * (numbers + missing) > cells.size());
 }
 
 bool HasDecimalComma(const std::vector<TextLine>& lines, char delimiter) {
@@ -70,10 +75,25 @@ struct Titles {
   Cells names, units;
 };
 
+// Titles in the last line before the samples that is a comment: "# t,x,y".
+Titles TitlesInComment(std::string_view text, std::size_t number, char delimiter,
+                       std::size_t width) {
+  const std::vector<TextLine> all = SplitLines(text);
+  for (std::size_t i = number - 1; i-- > 0;) {
+    std::string_view line = Trim(all[i].text);
+    if (line.empty()) continue;
+    if (!IsComment(line)) break;
+    line = Trim(line.substr(std::min(line.find_first_not_of("#%/"), line.size())));
+    const Cells cells = SplitCells(line, delimiter);
+    if (cells.size() != width || CountNumbers(cells) > 0) break;
+    return {cells, {}};
+  }
+  return {};
+}
+
 Titles FindTitles(const std::vector<TextLine>& lines, std::size_t first, char delimiter,
                   std::size_t width) {
   Titles titles;
-  if (first == 0) return titles;
   if (width == 1) {
     titles.names = {Trim(lines[first - 1].text)};
     return titles;
@@ -134,6 +154,7 @@ class CsvReader {
     MakeColumns(first);
     for (std::size_t i = first; i < lines_.size(); ++i)
       AddRow(lines_[i], SplitCells(lines_[i].text, delimiter_), &table_);
+    TurnClocksToSeconds(&table_);
     return std::move(table_);
   }
 
@@ -165,7 +186,9 @@ class CsvReader {
   void MakeColumns(std::size_t first) {
     Titles titles;
     try {
-      titles = FindTitles(lines_, first, delimiter_, width_);
+      titles = first > 0
+                   ? FindTitles(lines_, first, delimiter_, width_)
+                   : TitlesInComment(table_.texts.back(), lines_[0].number, delimiter_, width_);
     } catch (const InputError& error) {
       throw InputError({table_.file + ":" + std::to_string(lines_[first - 1].number),
                         error.parts().value, error.parts().rule, error.parts().remedy});

@@ -40,7 +40,7 @@ class StageByStage {
     std::optional<Diagnosis> last;
     for (Parts parts(whole_); parts.IsLeft();) {
       Diagnosis longer = OfFirst(parts.until(), last);
-      if (longer.interrupted) return longer;
+      if (longer.interrupted) return CutShort(std::move(last), std::move(longer));
       if (const std::string why = WhyNoVerdict(longer, parts); !why.empty()) {
         if (options_.stage) options_.stage("no verdict of that: " + why);
         parts.Fails();
@@ -65,14 +65,21 @@ class StageByStage {
       whole.notes.push_back("nothing is seen in the first stances, so no more than " +
                             std::to_string(late.max_effects) +
                             " causes together are told of the whole trials");
+    if (whole.interrupted) return CutShort(std::move(last), std::move(whole));
     const bool keeps_last = !whole.refusal.empty() || IsLessSure(whole, last);
-    if (last && NamesSomething(*last) && keeps_last && !whole.interrupted)
+    if (last && NamesSomething(*last) && keeps_last)
       return WithWholeTrials(std::move(*last), whole_, options_);
     return whole;
   }
 
  private:
   bool Stopped() const { return options_.fit.IsStopped(); }
+  // A verdict stays where somebody waits for no longer parts.
+  static Diagnosis CutShort(std::optional<Diagnosis> last, Diagnosis interrupted) {
+    if (!last) return interrupted;
+    last->notes.emplace_back("stopped: what longer parts of the trials say was not looked at");
+    return std::move(*last);
+  }
   // A model's own errors grow from landing to landing, too, and make names less sure again.
   static bool IsLessSure(const Diagnosis& longer, const std::optional<Diagnosis>& shorter) {
     return shorter && NamesSomething(*shorter) && Sureness(longer) < Sureness(*shorter);

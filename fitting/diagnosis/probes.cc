@@ -172,6 +172,19 @@ struct ReadingBump {
   }
 };
 
+/// Reading of one angle: an offset, or a share of it.
+template <Channel kAngle, bool kShare>
+struct AngleReading {
+  static constexpr std::array kParameters = {
+      EffectParameter{"reading", "rad or -", 0, -kFar, kFar, 0.001}};
+  static constexpr EffectInfo kInfo =
+      InfoOfProbe("probe_reading", EffectKind::kObservation, kParameters);
+  template <class T>
+  static void ChangeObservation(const T* p, Observation<T>& seen) {
+    if (seen.Has(kAngle)) seen[kAngle] += kShare ? p[0] * seen[kAngle] : p[0];
+  }
+};
+
 struct ReadingTime {
   static constexpr std::array kParameters = {EffectParameter{"time", "s/s", 0, -0.1, 0.1, 0.001}};
   static constexpr EffectInfo kInfo =
@@ -256,6 +269,21 @@ void AddLegs(Builder& b) {
   b.Group("contact height", "", "m", {}, {Probe<GuardHeight>()});
 }
 
+template <Channel kAngle>
+void AddAngleReading(Builder& b, const char* name) {
+  b.Group(std::string("reading of ") + name, "", "rad or rad/rad", {},
+          {Probe<AngleReading<kAngle, false>>(), Probe<AngleReading<kAngle, true>>()});
+}
+
+void AddRobot(Builder& b) {
+  b.Group("ground force along x", "", "N", {}, {Probe<BodyPush<true, false>>()});
+  AddAngleReading<Channel::kBodyPitch>(b, "body_pitch");
+  AddAngleReading<Channel::kLegAngle1>(b, "leg_angle_1");
+  AddAngleReading<Channel::kLegAngle2>(b, "leg_angle_2");
+  AddAngleReading<Channel::kLegAngle3>(b, "leg_angle_3");
+  AddAngleReading<Channel::kLegAngle4>(b, "leg_angle_4");
+}
+
 }  // namespace
 
 ProbeBasis ProbesOf(Law law) {
@@ -264,7 +292,7 @@ ProbeBasis ProbesOf(Law law) {
     b.Group("restitution", "impact speed [m/s]", "-", Values(kSpeed),
             BounceBumps(std::make_index_sequence<kSpeed.size()>()));
   } else if (law == Law::kRobot) {
-    b.Group("ground force along x", "", "N", {}, {Probe<BodyPush<true, false>>()});
+    AddRobot(b);
   } else {
     AddLegs(b);
   }

@@ -45,7 +45,7 @@ bool AppliesTo(const Effect& effect, Law law, LegMass mass, InputSet inputs, Rob
   if (info.needs_inputs != 0 && (info.needs_inputs & inputs) == 0) return false;
   if (mass == LegMass::kAtToe && info.massless_leg_only) return false;
   if (MechanismOf(law) == MechanismKind::kRobot)
-    return info.for_robot && info.robot_leg <= robot_legs.count &&
+    return info.for_robot && std::max(info.robot_leg, info.least_legs) <= robot_legs.count &&
            !(info.arcs_only && robot_legs.straight);
   if (!(MechanismOf(law) == MechanismKind::kBall ? info.for_ball : info.for_legs)) return false;
   if (MechanismOf(law) != MechanismKind::kBall && !InfoOf(law).takes_terms &&

@@ -49,6 +49,7 @@ struct EffectInfo {
   std::span<const Law> only_laws = {};  // of those mechanisms' laws; empty: all of them
   InputSet needs_inputs = 0;  // means nothing unless one of these drives the run; 0: always does
   bool for_robot = false;     // applies to a robot, too
+  int least_legs = 1;         // that it must have
   bool arcs_only = false;     // of a robot whose legs are half circles
   int robot_leg = 0;  // it is of this leg of a robot alone, 1 the hindmost; 0: of no one leg
 };

@@ -116,7 +116,7 @@ std::string_view SentenceOf(Outcome outcome) {
     case Outcome::kStepLimit:
       return "needs more solver steps than allowed: a stiff leg, try the integrator cvodes";
     case Outcome::kIntegrationFailed:
-      return "the solver could not go on: the state left the domain of the leg law";
+      return "could not go on: the state left the domain of the leg law";
   }
   return "";
 }

@@ -53,6 +53,10 @@ constexpr Fault kFaults[] = {
      }},
     {"torque_bias_%",
      [](Parameters<double>& p, std::size_t leg) { p.robot->torque_bias[leg] = 0.3; }},
+    {"hip_spacing",
+     [](Parameters<double>& p, std::size_t) {
+       for (double& x : p.robot->hip_x) x *= 1.03;
+     }},
 };
 
 // The robots of datasets/: legs of 10 g, half an arc of each fast to its motor.

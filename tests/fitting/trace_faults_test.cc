@@ -128,6 +128,22 @@ TEST(TraceFaults, ABlowJustBeforeTheEndIsNotStray) {
     }
 }
 
+// Where the six samples beside it are no smooth motion, by chance, nothing is told.
+TEST(TraceFaults, TheFirstAndTheLastSampleMayBeStray) {
+  int all = 0, found = 0;
+  for (const auto& height : {Path().height, std::function<double(double)>(Bouncing)})
+    for (const double off : {0.04, -0.04})
+      for (std::uint64_t seed = 1; seed <= 25; ++seed, ++all) {
+        Dataset dataset = Recorded({height, kSigma, 250, 0.002, seed});
+        Heights(dataset).front() += off;
+        Heights(dataset).back() += off;
+        const Rows rows = RowsOf(FindTraceFaults(dataset), Kind::kStray);
+        if (rows == Rows{0, 249}) ++found;
+        for (const std::size_t row : rows) EXPECT_TRUE(row == 0 || row == 249) << row;
+      }
+  EXPECT_GE(found, 95 * all / 100);
+}
+
 // What a tracker shows for a moment after it had lost the body.
 TEST(TraceFaults, ARemnantBehindAGapIsFound) {
   Dataset dataset = Recorded({});

@@ -6,6 +6,7 @@
 
 #include <functional>
 
+#include "base/units.h"
 #include "datasets/read_dataset.h"
 #include "fitting/problem.h"
 
@@ -30,7 +31,7 @@ void Negate(Trial& trial, const std::string& name) {
 }
 void ExpectSaid(const std::vector<std::string>& said, const std::string& what) {
   ASSERT_EQ(said.size(), 1U) << what;
-  EXPECT_NE(said[0].find("with " + what + " turned"), std::string::npos) << said[0];
+  EXPECT_NE(said[0].find("with " + what + "; "), std::string::npos) << said[0];
 }
 
 TEST(TurnedAxes, NothingIsSaidOfRecordsThatAreRight) {
@@ -56,7 +57,7 @@ TEST(TurnedAxes, ARobotsPitchIsSeen) {
                trial.initial->pitch_rad = -*trial.initial->pitch_rad;
                trial.initial->pitch_rate_rad_per_s = -*trial.initial->pitch_rate_rad_per_s;
              }),
-             "the sign of the pitch");
+             "the sign of the pitch turned");
 }
 
 TEST(TurnedAxes, ARobotsWayIsSeen) {
@@ -65,7 +66,7 @@ TEST(TurnedAxes, ARobotsWayIsSeen) {
                trial.initial->x_m = -trial.initial->x_m;
                trial.initial->vx_m_per_s = -trial.initial->vx_m_per_s;
              }),
-             "the sign of x");
+             "the sign of x turned");
 }
 
 TEST(TurnedAxes, TheOrderOfItsLegsIsSeen) {
@@ -74,7 +75,7 @@ TEST(TurnedAxes, TheOrderOfItsLegsIsSeen) {
                          trial.controller->motors->angles_rad[1]);
                std::swap(trial.trace.columns[3].name, trial.trace.columns[4].name);
              }),
-             "the order of the legs");
+             "the order of the legs turned");
 }
 
 TEST(TurnedAxes, TheSignsOfItsLegsAnglesAreSeen) {
@@ -83,7 +84,38 @@ TEST(TurnedAxes, TheSignsOfItsLegsAnglesAreSeen) {
                Negate(trial, "leg_angle_1_rad");
                Negate(trial, "leg_angle_2_rad");
              }),
-             "the signs of the legs' angles");
+             "the signs of the legs' angles turned");
+}
+
+// Columns that are written otherwise than what is stated beside them.
+struct Column {
+  const char* said;
+  std::function<void(Trial&)> turn;
+};
+
+TEST(TurnedAxes, ARobotsColumnsAreSeen) {
+  const auto scale = [](const char* name, double factor) {
+    return [=](Trial& trial) {
+      for (TraceColumn& column : trial.trace.columns)
+        if (column.name.starts_with(name))
+          for (double& value : column.values) value *= factor;
+    };
+  };
+  const auto both = [&](Trial& trial) {
+    scale("body_pitch", RadToDeg(1.0))(trial);
+    *trial.initial->pitch_rad *= RadToDeg(1.0);
+    *trial.initial->pitch_rate_rad_per_s *= RadToDeg(1.0);
+  };
+  const Column columns[] = {
+      {"the sign of x turned, but not that of its start", scale("body_x", -1.0)},
+      {"the sign of the pitch turned, but not that of its start", scale("body_pitch", -1.0)},
+      {"the pitch and its start taken for degrees", both},
+      {"the pitch taken for degrees, but not its start", scale("body_pitch", RadToDeg(1.0))},
+      {"the columns of the legs' angles exchanged",
+       [](Trial& trial) { std::swap(trial.trace.columns[3].name, trial.trace.columns[4].name); }},
+      {"the signs of the columns of the legs' angles turned", scale("leg_angle", -1.0)},
+      {"the columns of the legs' angles taken for degrees", scale("leg_angle", RadToDeg(1.0))}};
+  for (const Column& column : columns) ExpectSaid(SaidOfRobotWith(column.turn), column.said);
 }
 
 TEST(TurnedAxes, AHoppersWayIsSeen) {
@@ -93,7 +125,7 @@ TEST(TurnedAxes, AHoppersWayIsSeen) {
     trial.initial->x_m = -trial.initial->x_m;
     trial.initial->vx_m_per_s = -trial.initial->vx_m_per_s;
   }
-  ExpectSaid(SaidOf(rig), "the sign of x");
+  ExpectSaid(SaidOf(rig), "the sign of x turned");
 }
 
 }  // namespace

@@ -128,6 +128,21 @@ TEST(Diagnose, AnInterruptedStageIsNoVerdict) {
   EXPECT_FALSE(d.carried_on);
 }
 
+TEST(Diagnose, KeepsTheVerdictOfTheFirstStancesWhereLongerPartsAreNotWaitedFor) {
+  std::atomic<bool> stop = false;
+  DiagnosisOptions options;
+  options.fit.jobs = 2;
+  options.fit.stop = &stop;
+  options.candidates.only = {"sensor_scale_x"};
+  options.stage = [&](std::string_view stage) { stop = stop || stage.starts_with("up to there"); };
+  const Diagnosis d = Diagnose(testing::RobotPronks(0.008, 0.8), options);
+  ASSERT_TRUE(stop);
+  EXPECT_FALSE(d.interrupted);
+  EXPECT_EQ(d.verdict, Verdict::kUnexplained);
+  ASSERT_FALSE(d.notes.empty());
+  EXPECT_EQ(d.notes.back(), "stopped: what longer parts of the trials say was not looked at");
+}
+
 // The fit alone says how far it goes.
 TEST(FitDataset, FitsAsMuchOfARobotsTrialsAsItFollows) {
   FitOptions options;

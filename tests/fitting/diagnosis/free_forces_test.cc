@@ -144,7 +144,7 @@ TEST(FreeForces, RepeatWithTheSameSeed) {
 }
 
 TEST(Probes, EveryProbeIsInOneGroupOfItsHypothesis) {
-  for (Law law : {Law::kThesis, Law::kConsistent, Law::kLargeDeflection, Law::kBall}) {
+  for (Law law : {Law::kThesis, Law::kConsistent, Law::kLargeDeflection, Law::kBall, Law::kRobot}) {
     const ProbeBasis basis = ProbesOf(law);
     int next = 0;
     for (std::size_t g = 0; g < basis.groups.size(); ++g) {

@@ -46,6 +46,7 @@ const Fault kFaults[] = {
     {"x read 3 % too large", "sensor_scale_x", "gain", 0.03},
     {"y read 1 % too large", "sensor_scale_y", "gain", 0.01},
     {"a clock 0.5 % fast", "clock_scale", "gamma_t", 0.005},
+    {"hips 3 % further apart", "hip_spacing", "gain", 0.03},
     {"a camera that hangs 20 mrad askew", "camera_roll", "roll", 0.02},
 };
 
