@@ -203,9 +203,16 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
     return GrowHorizon(request);
   };
   if (grows) {
-    result = grow(TraitsOf(problem.law).lands_leg_by_leg
-                      ? FollowingStart(problem, trials, shared, options.jobs)
-                      : shared);
+    const Eigen::VectorXd from = TraitsOf(problem.law).lands_leg_by_leg
+                                     ? FollowingStart(problem, trials, shared, options.jobs)
+                                     : shared;
+    result = grow(from);
+    const bool led_on = IsUsable(result.status) && result.complete;
+    if (from != shared && !led_on && !options.IsStopped()) {
+      SolveResult stated = grow(shared);
+      if (IsUsable(stated.status) && (stated.complete || !IsUsable(result.status)))
+        result = std::move(stated);
+    }
   } else {
     SolveRequest request = RequestFor(problem, trials, options, start_number, "all rows");
     request.shared = options.strategy == FitStrategy::kRaw

@@ -11,7 +11,8 @@ namespace hoplab {
 namespace {
 
 constexpr double kFarOff = 1.0;  // what a sample is counted as at most, or without a simulation
-constexpr double kLeastMotion = 10.0;  // standard deviations of the noise
+constexpr double kLeastMotion = 10.0;    // standard deviations of the noise
+constexpr double kLeastTurn_rad = 0.02;  // of a leg that is held
 
 bool ShowsMotion(Channel c) { return IsPose(c) || IsAngleOfLeg(c); }
 
@@ -41,7 +42,9 @@ double MissedMotion(const FitProblem& problem, const TrialProblem& trial,
       squares += value * value;
     }
     if (count < 2.0) continue;
-    const double least = kLeastMotion * problem.channels[c].sigma;
+    const bool of_leg = IsAngleOfLeg(problem.channels[c].channel);
+    const double least =
+        std::max(kLeastMotion * problem.channels[c].sigma, of_leg ? kLeastTurn_rad : 0.0);
     const double motion = std::max(squares / count - sum * sum / (count * count), least * least);
     double off = 0.0;
     for (std::size_t row = 0; row < rows; ++row) {

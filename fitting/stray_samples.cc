@@ -64,8 +64,8 @@ class LocalMotion {
 
 class Column {
  public:
-  Column(const Samples& samples, double sigma, double least)
-      : s_(samples), sigma_(sigma), least_(least), stray_(s_.size(), false) {}
+  Column(const Samples& samples, double sigma, double least, double blow)
+      : s_(samples), sigma_(sigma), least_(least), blow_(blow), stray_(s_.size(), false) {}
 
   // Whether the samples are so close that few of them are off the motion before.
   bool IsSmooth() const {
@@ -216,8 +216,7 @@ class Column {
         SetIfFar(0, count - 1, After(count - 1, kBeside));
     }
   }
-  // The outermost ones, where the motion beside them does not lead there and no blow could: at most
-  // it turns the fastest motion about within the one step.
+  // The outermost ones, where the motion beside them does not lead there and no blow could.
   void SetOutermost() {
     const std::size_t n = s_.size();
     if (n < 2 * kBeside + 1) return;
@@ -226,15 +225,16 @@ class Column {
       if (!stray_[i] && !stray_[i + kJumpSide])
         fastest = std::max(
             fastest, std::abs(s_.y[i + kJumpSide] - s_.y[i]) / (s_.t[i + kJumpSide] - s_.t[i]));
-    SetIfOutside(0, After(0, kBeside), 2.0 * fastest * (s_.t[1] - s_.t[0]));
-    SetIfOutside(n - 1, Before(n - 1, kBeside), 2.0 * fastest * (s_.t[n - 1] - s_.t[n - 2]));
+    SetIfOutside(0, After(0, kBeside), fastest);
+    SetIfOutside(n - 1, Before(n - 1, kBeside), fastest);
   }
-  void SetIfOutside(std::size_t i, std::vector<std::size_t> at, double blow) {
+  void SetIfOutside(std::size_t i, std::vector<std::size_t> at, double fastest) {
     if (stray_[i] || at.size() < kBeside) return;
+    const double thrown = blow_ * fastest * std::abs(s_.t[i] - s_.t[at.front()]);
     std::sort(at.begin(), at.end());
     const LocalMotion motion(s_, at);  // all of them: one that is left out may follow the blow
     const double off = std::abs(s_.y[i] - motion.At(s_.t[i]));
-    if (IsFar(i, off - blow, motion)) SetStray(i, i, off);
+    if (IsFar(i, off - thrown, motion)) SetStray(i, i, off);
   }
   // The sample beside the outermost one, where the motion leads on to that one: a blow goes on.
   void SetAtEnds() {
@@ -282,7 +282,7 @@ class Column {
   }
 
   const Samples& s_;
-  double sigma_, least_;
+  double sigma_, least_, blow_;
   std::vector<bool> stray_, begins_, ends_;
   OffMotion found_;  // but for the stray rows
 };
@@ -307,8 +307,8 @@ Samples Samples::Without(const std::vector<bool>& left_out) const {
   return rest;
 }
 
-OffMotion FindOffMotion(const Samples& samples, double sigma, double least) {
-  Column column(samples, sigma, least);
+OffMotion FindOffMotion(const Samples& samples, double sigma, double least, double blow) {
+  Column column(samples, sigma, least, blow);
   if (!column.IsSmooth()) return {};
   column.FindStray();
   column.FindJumps();

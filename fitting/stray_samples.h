@@ -28,6 +28,7 @@ struct OffMotion {
 };
 /// `sigma`: standard deviation of the noise; `least`: distances below it are of no interest. The
 /// rules are those of FindTraceFaults.
-OffMotion FindOffMotion(const Samples& samples, double sigma, double least);
+/// `blow`: what a blow may change the speed by within one step, over the fastest that is seen.
+OffMotion FindOffMotion(const Samples& samples, double sigma, double least, double blow);
 
 }  // namespace hoplab

@@ -26,6 +26,11 @@ bool IsOfBody(Channel c) {
   return c == Channel::kBodyX || c == Channel::kBodyY || c == Channel::kBodyPitch;
 }
 
+// A leg at most turns the fastest motion about. A ball may come down faster than it is ever seen.
+double BlowOf(const Trial& trial) {
+  return trial.mechanism.type == MechanismKind::kBall ? 4.5 : 2.0;
+}
+
 double MedianStep(const std::vector<double>& times) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
@@ -112,7 +117,7 @@ void FindIn(const Trial& trial, std::size_t place, const ChannelSpec& channel,
   if (!(sigma > 0.0)) return;
   const auto [low, high] = std::minmax_element(rest.y.begin(), rest.y.end());
   const double least = std::max(kRounding * (*high - *low), kStated * channel.sigma.value_or(0.0));
-  const OffMotion off = FindOffMotion(rest, sigma, least);
+  const OffMotion off = FindOffMotion(rest, sigma, least, BlowOf(trial));
   if (!off.stray.empty())
     faults.push_back({TraceFault::Kind::kStray, place, channel.id, off.stray, off.largest_stray});
   if (!off.jumps.empty())

@@ -34,10 +34,10 @@ std::string_view NameOf(TraceFault::Kind kind);
 /// the first and last of several 4 off the motion on their own side; a jump is 10. At most ten
 /// stray samples follow one another, more only between a jump and one back. The first and the last
 /// sample must lie as far off the motion beside them, and farther than a blow within that step can
-/// throw the body: what turns its fastest motion about. Up to three between a gap and an end of the
-/// trace are held against the motion before the gap. The noise is that of HighFrequencyNoise; where
-/// it cannot be told, or where a twelfth of the samples is off the motion before them, as in a
-/// trace that is sampled coarsely, nothing is found.
+/// throw the body: what turns the fastest motion that is seen about, of a ball 4.5 times that
+/// speed. Up to three between a gap and an end of the trace are held against the motion before the
+/// gap. The noise is that of HighFrequencyNoise; where it cannot be told, or where a twelfth of the
+/// samples is off the motion before them, as in a trace that is sampled coarsely, nothing is found.
 std::vector<TraceFault> FindTraceFaults(const Dataset& dataset);
 
 /// The dataset with stray and held samples missing, and of a channel that jumps all that follows:

@@ -15,6 +15,7 @@ constexpr std::size_t kTrials = 6;  // are enough
 constexpr double kMissed = 0.2;     // rms, of the motion's own rms
 constexpr double kFollowed = 0.3;   // likewise, at most, with one turned
 constexpr double kBetter = 0.5;     // of what is missed as it stands
+constexpr double kLargestUsual_rad = 1.6;
 
 // What may have been recorded otherwise.
 enum class Axis {
@@ -117,10 +118,26 @@ double MeanMissed(const FitProblem& problem, const std::vector<TrialProblem>& tr
   return sum / static_cast<double>(trials.size());
 }
 
+// Whether what a turn would take for degrees has values that are none of radians.
+bool LooksLikeDegrees(Axis axis, const FitProblem& problem,
+                      const std::vector<TrialProblem>& trials) {
+  const std::size_t width = problem.channels.size();
+  for (std::size_t c = 0; c < width; ++c) {
+    if (FactorOf(axis, problem.channels[c].channel) == 1.0) continue;
+    for (const TrialProblem& trial : trials)
+      for (std::size_t i = c; i < trial.data.size(); i += width)
+        if (std::abs(trial.data[i]) > kLargestUsual_rad) return true;
+  }
+  return false;
+}
+
 // A clock turns one way only, so that no sign of its angles turns it.
-bool MeansSomething(Axis axis, const TrialProblem& trial) {
+bool MeansSomething(Axis axis, const FitProblem& problem, const std::vector<TrialProblem>& trials) {
+  const TrialProblem& trial = trials.front();
   if (axis == Axis::kX) return true;
   if (!trial.parameters.robot) return false;
+  if (axis == Axis::kPitchDegrees || axis == Axis::kLegDegrees)
+    return LooksLikeDegrees(axis, problem, trials);
   const RobotParameters<double>& robot = *trial.parameters.robot;
   if (axis == Axis::kLegOrder || axis == Axis::kLegColumns) return robot.legs > 1;
   return axis != Axis::kLegAngles || robot.control != MotorControl::kClock;
@@ -138,9 +155,11 @@ std::vector<std::string> TurnedAxes(const FitProblem& problem) {
   const Turn* best = nullptr;
   double least = std::min(kBetter * kBetter * as_it_stands, kFollowed * kFollowed);
   for (const Turn& turn : kTurns) {
-    if (!MeansSomething(turn.axis, trials.front())) continue;
+    if (!MeansSomething(turn.axis, problem, trials)) continue;
     const double missed = MeanMissed(problem, trials, &turn);
-    if (missed >= least) continue;
+    // Of a start near zero no sign tells: the column alone must be clearly better.
+    const bool same_axis = best && best->axis == turn.axis;
+    if (missed >= (same_axis ? kBetter * kBetter : 1.0) * least) continue;
     least = missed;
     best = &turn;
   }

@@ -21,9 +21,9 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
   const Dataset dataset = ReadDataset(settings.problem.dataset);
   const RunFolder folder(RunFolderOptionsOf(settings), dataset.name, "diagnose");
 
-  const InterruptGuard interrupt;
+  const InterruptGuard guard;
   Progress progress(console, settings.quiet);
-  options.fit.stop = interrupt.flag();
+  options.fit.stop = guard.flag();
   ShowProgress(options, progress, console);
   const DiagnosisRun run = RunDiagnosis(dataset, options);
   std::optional<Discovery> discovery;
@@ -51,8 +51,9 @@ ExitCode RunDiagnose(const DiagnoseSettings& settings, Console& console) {
     console.out << Styled("  run folder   ", Emphasis::kFaint, console.out_colours) << kept << '\n';
   }
   if (!run.Failure().empty()) console.err << "hoplab diagnose: " << run.Failure() << '\n';
-  if (run.diagnosis.interrupted) console.err << "kept: " << (keep ? kept : "nothing") << '\n';
-  return ExitCodeOf(run.diagnosis.interrupted, run.Failure());
+  const bool interrupted = run.diagnosis.interrupted || run.diagnosis.cut_short;
+  if (interrupted) console.err << "kept: " << (keep ? kept : "nothing") << '\n';
+  return ExitCodeOf(interrupted, run.Failure());
 }
 
 void AddDiagnose(CLI::App& sub, Invocation& invocation) {

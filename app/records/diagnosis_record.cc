@@ -246,7 +246,7 @@ Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument
   record["trace_faults"] = TraceFaultsRecord(d.problem, dataset);
   record["warnings"] = d.warnings;
   record["notes"] = d.notes;
-  record["interrupted"] = d.interrupted;
+  record["interrupted"] = d.interrupted || d.cut_short;
   record["tools"] = ToolsRecord();
   return record;
 }

@@ -22,7 +22,7 @@ std::optional<ClockText> ParseClockText(std::string_view text);
 
 /// Turns columns of such texts into seconds since the earliest whole one, digit by digit, and tells
 /// so in the table's notes. A column stays as it is where a cell is none, or where dates of another
-/// order change.
+/// order change. AM and PM are not read; a clock without a date goes back at midnight.
 void TurnClocksToSeconds(Table* table);
 
 }  // namespace hoplab

@@ -198,8 +198,13 @@ ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entrie
   }
   if (entries.empty()) {
     Guesses guesses = GuessChannels(table, map, type);
+    // Here what needs no guess goes before all of them.
+    const auto order = [&](const MappedColumn& m) {
+      const bool known = !m.unit.name.empty() || !table.columns[m.column].unit.empty();
+      return known ? -1 : rank(m);
+    };
     std::stable_sort(guesses.columns.begin(), guesses.columns.end(),
-                     [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+                     [&](const auto& a, const auto& b) { return order(a) < order(b); });
     map.warnings.insert(map.warnings.end(), guesses.notes.begin(), guesses.notes.end());
     for (MappedColumn guess : guesses.columns) {
       if (guess.unit.name.empty()) FindUnitOf(table, "", &map, &guess);

@@ -12,6 +12,9 @@ namespace hoplab {
 // falls at 9.81 m/s^2, which tells the vertical axis, its sign and its unit. Each says why; none is
 // used unless the user confirms it.
 
+/// Whether a column of this name is the time: "time_s", "log.t", "Zeit [s]".
+bool IsTimeName(const std::string& name);
+
 /// The column of time: the one of that name, else the first that increases throughout. Throws
 /// InputError if there is none.
 MappedColumn GuessTime(const Table& table);

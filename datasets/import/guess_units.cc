@@ -18,18 +18,27 @@ bool Increases(const Table& table, std::size_t column) {
   return true;
 }
 
+constexpr std::array<std::string_view, 8> kTimeNames = {"time_s", "time",    "t",       "timestamp",
+                                                        "zeit",   "seconds", "elapsed", "sim_time"};
+
+std::string TimeStem(const std::string& name) {
+  std::string stem = LowerStem(name);
+  const std::size_t parent = stem.find_last_of("/.");  // log.t, /body/t
+  if (parent != stem.npos) stem.erase(0, parent + 1);
+  return stem;
+}
+
 }  // namespace
 
+bool IsTimeName(const std::string& name) {
+  return std::find(kTimeNames.begin(), kTimeNames.end(), TimeStem(name)) != kTimeNames.end();
+}
+
 MappedColumn GuessTime(const Table& table) {
-  static constexpr std::array<std::string_view, 8> kNames = {
-      "time_s", "time", "t", "timestamp", "zeit", "seconds", "elapsed", "sim_time"};
-  for (const std::string_view wanted : kNames) {
+  for (const std::string_view wanted : kTimeNames) {
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       const std::string& name = table.columns[i].name;
-      std::string stem = LowerStem(name);
-      const std::size_t parent = stem.find_last_of("/.");  // log.t, /body/t
-      if (parent != stem.npos) stem.erase(0, parent + 1);
-      if (stem != wanted) continue;
+      if (TimeStem(name) != wanted) continue;
       MappedColumn time{std::nullopt, i};
       time.guessed = name != "time_s" && table.units.count(Dimension::kTime) == 0;
       time.why = time.guessed ? "is called so" : "the format's own name";

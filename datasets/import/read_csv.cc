@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "base/text.h"
 #include "datasets/import/clock_text.h"
+#include "datasets/import/guess_columns.h"
 #include "datasets/import/table.h"
 #include "datasets/import/text_rows.h"
 #include "datasets/text_file.h"
@@ -39,21 +40,21 @@ char DelimiterOf(const std::vector<TextLine>& lines) {
   return ' ';
 }
 
-// Of seconds, or of a clock.
-bool IsNumber(std::string_view cell) {
-  return ParseDouble(cell).has_value() || ParseClockText(cell).has_value();
-}
+// What counts as a number: seconds alone, or times of a clock, too.
+enum class Numbers { kPlain, kOrClock };
 
-std::size_t CountNumbers(const Cells& cells) {
-  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), IsNumber));
+bool IsNumber(std::string_view cell, Numbers numbers) {
+  return ParseDouble(cell).has_value() ||
+         (numbers == Numbers::kOrClock && ParseClockText(cell).has_value());
 }
 
 // Whether a row is one of samples: its first cell or most of them are numbers.
-bool IsData(const Cells& cells) {
-  const std::size_t numbers = CountNumbers(cells);
+bool IsData(const Cells& cells, Numbers which) {
+  const auto numbers = static_cast<std::size_t>(
+      std::count_if(cells.begin(), cells.end(), [&](auto cell) { return IsNumber(cell, which); }));
   const auto missing = static_cast<std::size_t>(
       std::count_if(cells.begin(), cells.end(), [](auto cell) { return IsMissing(cell); }));
-  return numbers > 0 && (IsNumber(cells[0]) || 2 * (numbers + missing) > cells.size());
+  return numbers > 0 && (IsNumber(cells[0], which) || 2 * (numbers + missing) > cells.size());
 }
 
 bool HasDecimalComma(const std::vector<TextLine>& lines, char delimiter) {
@@ -75,7 +76,8 @@ struct Titles {
   Cells names, units;
 };
 
-// Titles in the last line before the samples that is a comment: "# t,x,y".
+// Titles in the last line before the samples that is a comment, one of which is the time: "#
+// t,x,y".
 Titles TitlesInComment(std::string_view text, std::size_t number, char delimiter,
                        std::size_t width) {
   const std::vector<TextLine> all = SplitLines(text);
@@ -85,7 +87,9 @@ Titles TitlesInComment(std::string_view text, std::size_t number, char delimiter
     if (!IsComment(line)) break;
     line = Trim(line.substr(std::min(line.find_first_not_of("#%/"), line.size())));
     const Cells cells = SplitCells(line, delimiter);
-    if (cells.size() != width || CountNumbers(cells) > 0) break;
+    const bool tells_time = std::any_of(cells.begin(), cells.end(),
+                                        [](auto cell) { return IsTimeName(std::string(cell)); });
+    if (cells.size() != width || !tells_time) break;
     return {cells, {}};
   }
   return {};
@@ -133,22 +137,23 @@ class CsvReader {
   }
 
   Table Read() {
-    std::string_view text = CheckText(table_.texts.back(), table_.file);
-    lines_ = ContentLines(text);
+    text_ = CheckText(table_.texts.back(), table_.file);
+    lines_ = ContentLines(text_);
     if (lines_.empty())
       throw InputError({table_.file, "", "is empty; must have a row of titles and samples",
                         "Export the recording again."});
     delimiter_ = DelimiterOf(lines_);
     if (HasDecimalComma(lines_, delimiter_)) {
       table_.notes.emplace_back("decimal commas are read as points");
-      table_.texts.emplace_back(text);
+      table_.texts.emplace_back(text_);
       std::string& copy = table_.texts.back();
       for (const TextLine& line : lines_) {
-        const auto at = line.text.data() - text.data();
+        const auto at = line.text.data() - text_.data();
         std::replace(copy.begin() + at, copy.begin() + at + static_cast<long>(line.text.size()),
                      ',', '.');
       }
-      lines_ = ContentLines(copy);
+      text_ = copy;
+      lines_ = ContentLines(text_);
     }
     const std::size_t first = FirstDataLine();
     MakeColumns(first);
@@ -159,13 +164,22 @@ class CsvReader {
   }
 
  private:
-  // The first of two rows of samples alike; else one below a row of titles; else any.
+  // Times of a clock count where no row is one of samples without them: they stand above, too.
   std::size_t FirstDataLine() {
+    for (const Numbers numbers : {Numbers::kPlain, Numbers::kOrClock})
+      if (const std::optional<std::size_t> first = FindFirst(numbers)) return *first;
+    throw InputError({table_.file + ":" + std::to_string(lines_.back().number),
+                      Printable(lines_.back().text, 40), "no row holds numbers",
+                      "Separate the cells by commas, semicolons, tabs or blanks."});
+  }
+
+  // The first of two rows of samples alike; else one below a row of titles; else any.
+  std::optional<std::size_t> FindFirst(Numbers numbers) {
     const auto cells_of = [&](std::size_t i) { return SplitCells(lines_[i].text, delimiter_); };
     const auto like = [&](std::size_t i, std::size_t width, bool data) {
       if (i >= lines_.size()) return false;
       const Cells cells = cells_of(i);
-      return cells.size() == width && IsData(cells) == data;
+      return cells.size() == width && IsData(cells, numbers) == data;
     };
     for (int pass = 0; pass < 3; ++pass) {
       for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -173,22 +187,19 @@ class CsvReader {
         const bool fits = pass == 0   ? like(i + 1, cells.size(), true)
                           : pass == 1 ? i > 0 && like(i - 1, cells.size(), false)
                                       : true;
-        if (!IsData(cells) || !fits) continue;
+        if (!IsData(cells, numbers) || !fits) continue;
         width_ = cells.size();
         return i;
       }
     }
-    throw InputError({table_.file + ":" + std::to_string(lines_.back().number),
-                      Printable(lines_.back().text, 40), "no row holds numbers",
-                      "Separate the cells by commas, semicolons, tabs or blanks."});
+    return std::nullopt;
   }
 
   void MakeColumns(std::size_t first) {
     Titles titles;
     try {
-      titles = first > 0
-                   ? FindTitles(lines_, first, delimiter_, width_)
-                   : TitlesInComment(table_.texts.back(), lines_[0].number, delimiter_, width_);
+      titles = first > 0 ? FindTitles(lines_, first, delimiter_, width_)
+                         : TitlesInComment(text_, lines_[0].number, delimiter_, width_);
     } catch (const InputError& error) {
       throw InputError({table_.file + ":" + std::to_string(lines_[first - 1].number),
                         error.parts().value, error.parts().rule, error.parts().remedy});
@@ -205,6 +216,7 @@ class CsvReader {
   }
 
   Table table_;
+  std::string_view text_;
   std::vector<TextLine> lines_;
   char delimiter_ = ',';
   std::size_t width_ = 0;

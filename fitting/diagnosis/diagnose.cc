@@ -74,9 +74,11 @@ class StageByStage {
 
  private:
   bool Stopped() const { return options_.fit.IsStopped(); }
-  // A verdict stays where somebody waits for no longer parts.
+  // A verdict stays where somebody waits for no longer parts; that nothing is seen in the first
+  // stances is none.
   static Diagnosis CutShort(std::optional<Diagnosis> last, Diagnosis interrupted) {
-    if (!last) return interrupted;
+    if (!last || last->verdict == Verdict::kAdequate) return interrupted;
+    last->cut_short = true;
     last->notes.emplace_back("stopped: what longer parts of the trials say was not looked at");
     return std::move(*last);
   }

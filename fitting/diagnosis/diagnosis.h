@@ -179,6 +179,8 @@ struct Diagnosis {
   /// Why there is no diagnosis; empty if there is one.
   std::string refusal;
   bool interrupted = false;
+  /// Stopped while longer parts of the trials were looked at: the verdict is of the first ones.
+  bool cut_short = false;
 
   FittedModel plain;        // the null fit under white noise
   FittedModel null;         // the same under the noise that suits it

@@ -139,7 +139,8 @@ FreeForces Reconstruct(const Linearisation& at, const ProbeBasis& basis, std::ui
   }
   std::stable_sort(out.forces.begin(), out.forces.end(),
                    [](const ReconstructedForce& a, const ReconstructedForce& b) {
-                     return a.p_value < b.p_value;
+                     if (a.p_value != b.p_value) return a.p_value < b.p_value;
+                     return a.score > b.score;  // where both are too small for a number
                    });
   return out;
 }

@@ -60,6 +60,16 @@ TEST_F(VerdictSentenceTest, NamesTheCauseAndWhatItTakesTheErrorTo) {
             "mm.");
 }
 
+TEST_F(VerdictSentenceTest, AMisfitOfOneChannelIsToldSo) {
+  Accept({Add("air_drag")}, 0.3);
+  d_.verdict = Verdict::kUnexplained;
+  d_.localisation.cells = {{.channel = 1, .share = 0.6}, {.channel = 1, .share = 0.37}};
+  EXPECT_NE(VerdictSentence(d_).find("does not hold, 97 % of it in body_y;"), std::string::npos)
+      << VerdictSentence(d_);
+  d_.localisation.cells[1].channel = 0;
+  EXPECT_EQ(VerdictSentence(d_).find("of it in"), std::string::npos);
+}
+
 // Shares are of the misfit, where causes explain half of it, too.
 TEST_F(VerdictSentenceTest, SharesAreOfTheMisfit) {
   Accept({Add("leg_material_damping")}, 0.99, 0.92);

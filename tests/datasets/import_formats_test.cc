@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "base/text.h"
-#include "datasets/import/clock_text.h"
 #include "datasets/read_dataset.h"
 #include "tests/datasets/import_samples.h"
 #include "tests/support/input_error_of.h"
@@ -42,54 +40,6 @@ TEST_F(ImportFormats, OpenSimTrcGivesBackItsPrintedDigits) {
   EXPECT_EQ(CsvOf(result), FallCsv(fall_));
   EXPECT_EQ(result.logs[0].format, "OpenSim TRC");
   EXPECT_FALSE(result.map.HasGuesses());
-}
-
-// The fall as rows of a text file: `time` writes the instant of a row, after 10:00:00.
-std::string FallText(const Fall& fall, const std::string& titles,
-                     const std::function<std::string(double)>& time) {
-  std::string text = titles + "\n";
-  for (std::size_t i = 0; i < fall.t_s.size(); ++i)
-    text += time(fall.t_s[i]) + "," + testing::Format("%.2f", fall.x_mm[i]) + "," +
-            testing::Format("%.2f", fall.y_mm[i]) + "\n";
-  return text;
-}
-
-TEST_F(ImportFormats, TimesOfAClockAreReadAsSeconds) {
-  const auto clock = [](const std::string& before, const std::string& after) {
-    return [=](double t) { return before + "10:00:0" + testing::Format("%.3f", t) + after; };
-  };
-  for (const auto& time : {clock("", ""), clock("2026-05-01T", "Z"), clock("2026-05-01 ", "+02:00"),
-                           clock("2026/05/01 ", ""), clock("1.5.2026 ", "")}) {
-    const std::string text = FallText(fall_, "stamp,X (mm),Y (mm)", time);
-    const ImportResult result = ImportFile(Write("drop.csv", text), {"t=stamp", "x=X", "y=Y"});
-    EXPECT_EQ(CsvOf(result), FallCsv(fall_)) << time(0.1);
-  }
-}
-
-TEST_F(ImportFormats, AClockGoesOnOverMidnightWhereItHasADate) {
-  const auto time = [](double t) {
-    const int ms = 990 + static_cast<int>(std::lround(1e3 * t));
-    const std::string fraction = testing::Format("%03.0f", static_cast<double>(ms % 1000));
-    return (ms < 1000 ? "2026-02-28T23:59:59." : "2026-03-01T00:00:00.") + fraction;
-  };
-  const std::string text = FallText(fall_, "stamp,X (mm),Y (mm)", time);
-  const std::string csv = CsvOf(ImportFile(Write("drop.csv", text), {"t=stamp", "x=X", "y=Y"}));
-  EXPECT_NE(csv.find("\n0.998,"), std::string::npos) << csv;
-  EXPECT_NE(csv.find("\n1.002,"), std::string::npos) << csv;
-}
-
-TEST_F(ImportFormats, WhatIsNoClockStaysAsItIs) {
-  for (const char* text : {"10:00", "a:10:00:00", "10:61:00", "10:00:00x", "25:00:00", "", "1.5",
-                           "2026-05-01", "10:00:00+2"})
-    EXPECT_FALSE(ParseClockText(text)) << text;
-}
-
-TEST_F(ImportFormats, TitlesMayStandInAComment) {
-  for (const char* titles : {"# time_s,x_mm,y_mm", "%time_s,x_mm,y_mm", "// time_s,x_mm,y_mm"}) {
-    const auto seconds = [](double t) { return testing::Format("%.3f", t); };
-    const ImportResult result = ImportFile(Write("drop.csv", FallText(fall_, titles, seconds)), {});
-    EXPECT_EQ(CsvOf(result), FallCsv(fall_)) << titles;
-  }
 }
 
 TEST_F(ImportFormats, ATrcInMetresIsReadInMetres) {

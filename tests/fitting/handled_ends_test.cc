@@ -10,6 +10,7 @@
 
 #include "base/random.h"
 #include "datasets/read_dataset.h"
+#include "fitting/check.h"
 #include "fitting/fit_dataset.h"
 #include "fitting/problem.h"
 #include "fitting/trace_faults.h"
@@ -276,12 +277,15 @@ TEST(RecordFromAStance, BeginsAtTheTopOfItsFirstFlight) {
     EXPECT_TRUE(std::isinf(trial.own[1].prior_sigma));
   }
   EXPECT_NE(problem.notes.front().find("begins in a stance"), std::string::npos);
+  EXPECT_TRUE(DataWarnings(late, problem).empty()) << DataWarnings(late, problem)[0];
   const auto modulus = [](const Dataset& dataset) {
     return FitDataset(dataset, {}, {}).result.shared[0];
   };
   EXPECT_NEAR(modulus(late) / modulus(plain), 1.0, 1e-2);
   ProblemOptions keep;
   keep.keep_stray = true;
+  EXPECT_NE(DataWarnings(late, MakeProblem(late, keep))[0].find("must lie in flight"),
+            std::string::npos);
   EXPECT_EQ(MakeProblem(late, keep).trials[0].row_times.size(), late.trials[0].trace.time_s.size());
 }
 

@@ -51,6 +51,16 @@ TEST(TurnedAxes, NothingIsSaidOfAWrongModulus) {
   }
 }
 
+// A pitch that the simulation does not have is no pitch in degrees.
+TEST(TurnedAxes, NothingIsSaidOfAMisfitOfThePitch) {
+  Dataset robot = Shipped("robot-drops");
+  for (Trial& trial : robot.trials)
+    for (TraceColumn& column : trial.trace.columns)
+      for (std::size_t i = 0; i < column.values.size(); ++i)
+        if (column.name == "body_pitch_rad") column.values[i] += 0.5 * trial.trace.time_s[i];
+  EXPECT_TRUE(SaidOf(robot).empty()) << SaidOf(robot)[0];
+}
+
 TEST(TurnedAxes, ARobotsPitchIsSeen) {
   ExpectSaid(SaidOfRobotWith([](Trial& trial) {
                Negate(trial, "body_pitch_rad");

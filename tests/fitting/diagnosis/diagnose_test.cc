@@ -138,6 +138,7 @@ TEST(Diagnose, KeepsTheVerdictOfTheFirstStancesWhereLongerPartsAreNotWaitedFor) 
   const Diagnosis d = Diagnose(testing::RobotPronks(0.008, 0.8), options);
   ASSERT_TRUE(stop);
   EXPECT_FALSE(d.interrupted);
+  EXPECT_TRUE(d.cut_short);
   EXPECT_EQ(d.verdict, Verdict::kUnexplained);
   ASSERT_FALSE(d.notes.empty());
   EXPECT_EQ(d.notes.back(), "stopped: what longer parts of the trials say was not looked at");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "datasets/read_dataset.h"
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
@@ -140,6 +141,25 @@ TEST(FreeForces, RepeatWithTheSameSeed) {
   for (std::size_t i = 0; i < one.forces.size(); ++i) {
     for (std::size_t t = 0; t < one.forces[i].terms.size(); ++t)
       EXPECT_EQ(one.forces[i].terms[t].inclusion, two.forces[i].terms[t].inclusion);
+  }
+}
+
+// An encoder that reads 2 % too much, or 10 mrad, is found as that.
+TEST(FreeForces, AReadingOfAMotorsAngleIsFound) {
+  for (const auto& [gain, offset] : {std::pair{0.02, 0.0}, {0.0, 0.01}}) {
+    Dataset robot = ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/robot-drops");
+    for (Trial& trial : robot.trials)
+      for (TraceColumn& column : trial.trace.columns)
+        for (double& value : column.values)
+          if (column.name == "leg_angle_2_rad") value += gain * value + offset;
+    const ProbeBasis basis = ProbesOf(Law::kRobot);
+    const NullFit fit(robot);
+    const FreeForces forces = Reconstruct(fit.With(basis.probes), basis, 1);
+    ASSERT_EQ(forces.forces.front().group.name, "reading of leg_angle_2");
+    const std::vector<ForcePoint>& found = forces.forces.front().points;
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_NEAR(found[0].value, offset, 1.5 * found[0].band95 + 0.001);
+    EXPECT_NEAR(found[1].value, gain, 1.5 * found[1].band95 + 0.002);
   }
 }
 
