@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "fitting/missed_motion.h"
+#include "fitting/trial_evaluator.h"
 
 namespace hoplab {
 namespace {

@@ -16,23 +16,8 @@ using testing::Fall;
 using testing::FallCsv;
 using testing::ImportFile;
 using testing::InputErrorOf;
-using testing::MakeFall;
-using testing::TempFolder;
-using testing::WriteText;
 
-class ImportFormats : public ::testing::Test {
- protected:
-  std::filesystem::path Write(const std::string& name, const std::string& text) {
-    WriteText(temp_.path() / name, text);
-    return temp_.path() / name;
-  }
-  // The only trial's CSV.
-  static std::string CsvOf(const ImportResult& result) {
-    return result.files.at(result.logs.at(0).file);
-  }
-  TempFolder temp_;
-  const Fall fall_ = MakeFall();
-};
+class ImportFormats : public testing::FallImport {};
 
 TEST_F(ImportFormats, OpenSimTrcGivesBackItsPrintedDigits) {
   const auto file = Write("drop.trc", testing::FallTrc(fall_));

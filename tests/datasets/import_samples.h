@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gtest/gtest.h>
 #include <hdf5.h>
 #include <matio.h>
 
@@ -238,5 +239,20 @@ inline ImportResult ImportFile(const std::filesystem::path& file,
   request.options = options;
   return ImportLogs(request);
 }
+
+/// Writes the fall in some format and reads what is imported of it.
+class FallImport : public ::testing::Test {
+ protected:
+  std::filesystem::path Write(const std::string& name, const std::string& text) {
+    WriteText(temp_.path() / name, text);
+    return temp_.path() / name;
+  }
+  /// The only trial's CSV.
+  static std::string CsvOf(const ImportResult& result) {
+    return result.files.at(result.logs.at(0).file);
+  }
+  TempFolder temp_;
+  const Fall fall_ = MakeFall();
+};
 
 }  // namespace hoplab::testing

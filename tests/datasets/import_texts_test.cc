@@ -14,23 +14,8 @@ namespace {
 using testing::Fall;
 using testing::FallCsv;
 using testing::ImportFile;
-using testing::MakeFall;
-using testing::TempFolder;
-using testing::WriteText;
 
-class ImportTexts : public ::testing::Test {
- protected:
-  std::filesystem::path Write(const std::string& name, const std::string& text) {
-    WriteText(temp_.path() / name, text);
-    return temp_.path() / name;
-  }
-  // The only trial's CSV.
-  static std::string CsvOf(const ImportResult& result) {
-    return result.files.at(result.logs.at(0).file);
-  }
-  TempFolder temp_;
-  const Fall fall_ = MakeFall();
-};
+class ImportTexts : public testing::FallImport {};
 
 // The fall as rows of a text file: `time` writes the instant of a row, after 10:00:00.
 std::string FallText(const Fall& fall, const std::string& titles,
