@@ -76,8 +76,7 @@ struct Titles {
   Cells names, units;
 };
 
-// Titles in the last line before the samples that is a comment, one of which is the time: "#
-// t,x,y".
+// Titles in the last comment before the samples, one of which is the time: "# t,x,y".
 Titles TitlesInComment(std::string_view text, std::size_t number, char delimiter,
                        std::size_t width) {
   const std::vector<TextLine> all = SplitLines(text);
