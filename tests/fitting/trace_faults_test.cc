@@ -144,6 +144,22 @@ TEST(TraceFaults, TheFirstAndTheLastSampleMayBeStray) {
   EXPECT_GE(found, 95 * all / 100);
 }
 
+// A ball that is returned at half its speed within the first step was faster than it is ever seen;
+// no leg returns a body so.
+TEST(TraceFaults, ALossyBounceInTheFirstStepIsNotStray) {
+  const auto bounce = [](double t) {
+    const double since = t - 0.0034;
+    return since < 0.0 ? -3.0 * since : 1.5 * since - 4.905 * since * since;
+  };
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Dataset dataset = Recorded({bounce, 0.0002, 60, 0.004, seed});
+    dataset.trials[0].mechanism.type = MechanismKind::kBall;
+    EXPECT_EQ(RowsOf(FindTraceFaults(dataset), Kind::kStray), Rows{}) << seed;
+    dataset.trials[0].mechanism.type = MechanismKind::kCLeg;
+    EXPECT_EQ(RowsOf(FindTraceFaults(dataset), Kind::kStray), Rows{0}) << seed;
+  }
+}
+
 // What a tracker shows for a moment after it had lost the body.
 TEST(TraceFaults, ARemnantBehindAGapIsFound) {
   Dataset dataset = Recorded({});
