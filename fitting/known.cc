@@ -40,6 +40,8 @@ int MassPower(std::string_view unit) {
   return unit.find('/') < place ? -1 : 1;
 }
 
+constexpr double kMostTaken = 0.9;  // of a stated value that an effect adds to
+
 // Gravity at sea level goes from 9.780 to 9.832 m/s^2, on high ground down to 9.764: within half a
 // per cent of 9.81.
 constexpr double kGravityDiffers = 0.005;
@@ -59,8 +61,9 @@ std::vector<KnownSpec> WithFactsOf(const MechanismSpec& mechanism, std::vector<K
 }
 
 KnownCauses::KnownCauses(const std::vector<KnownSpec>& specs,
-                         std::span<const Effect* const> formulas, double body_mass)
-    : body_mass_(body_mass) {
+                         std::span<const Effect* const> formulas,
+                         const Parameters<double>& stated)
+    : stated_(stated) {
   for (const KnownSpec& spec : specs) {
     const Effect& effect = ResolveEffect(spec.effect, spec.origin.place, formulas);
     const auto count = static_cast<int>(effect.info.parameters.size());
@@ -102,7 +105,9 @@ const KnownParameter* KnownCauses::Find(const Effect& effect, int parameter) con
 
 std::optional<EffectParameter> KnownCauses::Open(const Effect& effect, int parameter) const {
   EffectParameter p = effect.info.parameters[static_cast<std::size_t>(parameter)];
-  if (effect.formula == nullptr) p.typical *= std::pow(body_mass_, MassPower(p.unit));
+  if (effect.formula == nullptr) p.typical *= std::pow(stated_.m, MassPower(p.unit));
+  if (p.adds_to && stated_.robot)
+    p.lower = std::max(p.lower, 0.0 - kMostTaken * Field(stated_, *p.adds_to));
   const KnownParameter* known = Find(effect, parameter);
   if (known == nullptr) return p;
   if (known->at_most == 0.0) return std::nullopt;

@@ -36,9 +36,11 @@ class KnownCauses {
   /// Throws InputError (place: where it was said) for an effect or parameter that does not exist,
   /// something said twice, or a size for a whole effect that has several parameters. `formulas` are
   /// known beside the catalogue. Forces, torques and masses of a size one would expect grow with
-  /// the body: `body_mass` [kg] scales what is typical of them. A formula states its own.
+  /// the body: the mass in `stated` scales what is typical of them. A formula states its own. What
+  /// adds to a stated value (EffectParameter::adds_to) takes no more of it than may go.
   explicit KnownCauses(const std::vector<KnownSpec>& specs,
-                       std::span<const Effect* const> formulas = {}, double body_mass = 1.0);
+                       std::span<const Effect* const> formulas = {},
+                       const Parameters<double>& stated = {});
 
   const std::vector<KnownParameter>& parameters() const { return parameters_; }
   /// The parameters of `effect` that may be off their null, with the bounds known of them put over
@@ -61,7 +63,7 @@ class KnownCauses {
   void Add(const Effect& effect, int parameter, const KnownSpec& spec);
 
   std::vector<KnownParameter> parameters_;
-  double body_mass_ = 1.0;  // [kg]
+  Parameters<double> stated_;
 };
 
 }  // namespace hoplab

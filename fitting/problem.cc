@@ -28,7 +28,7 @@ class Builder {
     problem_.clocks = ClocksOf(dataset_);
     AddFormulas();
     problem_.known = KnownCauses(WithFactsOf(dataset_.mechanism, dataset_.known), problem_.formulas,
-                                 dataset_.mechanism.body_mass_kg);
+                                 ParametersOfSpec(dataset_.mechanism, std::nullopt, 0.0));
     if (const std::string known = problem_.known.Text(); !known.empty())
       problem_.notes.push_back("known of the set-up: " + known);
     AddTrials();

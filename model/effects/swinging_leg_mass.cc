@@ -6,14 +6,15 @@ namespace hoplab {
 namespace {
 
 struct SwingingLegMass {
-  static constexpr std::array kParameters = {EffectParameter{"m_leg", "kg", 0.0, 0.0, 10.0, 0.005}};
+  static constexpr std::array kParameters = {EffectParameter{
+      "m_leg", "kg", 0.0, -10.0, 10.0, 0.005, /*is_shape=*/false, ParameterId::kLegMass}};
   static constexpr EffectInfo kInfo = {
       .name = "swinging_leg_mass",
       .kind = EffectKind::kParameter,
-      .equation = "leg_mass + m_leg of every leg (M82)",
+      .equation = "leg_mass + m_leg of every leg, no less than nothing (M82)",
       .sentence =
-          "the robot's legs are heavier than stated: the body turns as they swing, and "
-          "the motors turn them less readily",
+          "the robot's legs are heavier or lighter than stated: the body turns as they swing, and "
+          "the motors turn them less or more readily",
       .for_legs = false,
       .for_ball = false,
       .dissipative = false,
@@ -22,7 +23,9 @@ struct SwingingLegMass {
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
-    parameters.robot->leg_mass += p[0];
+    T& mass = parameters.robot->leg_mass;
+    mass += p[0];
+    if (Value(mass) < 0.0) mass = T(0.0);
   }
 };
 

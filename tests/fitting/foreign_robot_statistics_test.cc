@@ -57,6 +57,11 @@ constexpr Fault kFaults[] = {
      [](Parameters<double>& p, std::size_t) {
        for (double& x : p.robot->hip_x) x *= 1.03;
      }},
+    {"rotor_inertia_scale",
+     [](Parameters<double>& p, std::size_t) { p.robot->rotor_inertia *= 1.5; }},
+    {"motor_kp_scale", [](Parameters<double>& p, std::size_t) { p.robot->motor_kp *= 0.8; }},
+    {"motor_kd_scale", [](Parameters<double>& p, std::size_t) { p.robot->motor_kd *= 0.7; }},
+    {"swinging_leg_mass", [](Parameters<double>& p, std::size_t) { p.robot->leg_mass *= 0.5; }},
 };
 
 // The robots of datasets/: legs of 10 g, half an arc of each fast to its motor.

@@ -65,7 +65,7 @@ void WriteCase(std::ofstream& csv, const Outcome& o, const char* kind) {
   }
   if (!o.seen.empty()) return;
   begin();
-  csv << ",0,0,0,0,0," << o.unlisted_probability << ',' << o.left_share;
+  csv << ",0,0,0,0,0," << o.unlisted_probability << ',' << o.left_share << ',' << o.at_bound;
   for (std::size_t k = 0; k < NameFeatures::kCount; ++k) csv << ",0";
   csv << '\n';
 }
@@ -73,7 +73,7 @@ void WriteCase(std::ofstream& csv, const Outcome& o, const char* kind) {
 Cases RunCases() {
   std::ofstream csv(Folder() / "calibration.csv");
   csv << "kind,planted,law,size,seed,verdict,name,main,right,group_right,probability,evidence,"
-         "unlisted,left_share_raw";
+         "unlisted,left_share_raw,at_bound";
   for (const std::string_view name : NameFeatures::Names()) csv << ',' << name;
   csv << '\n';
   Cases cases;

@@ -48,6 +48,9 @@ const Fault kFaults[] = {
     {"a clock 0.5 % fast", "clock_scale", "gamma_t", 0.005},
     {"hips 3 % further apart", "hip_spacing", "gain", 0.03},
     {"a camera that hangs 20 mrad askew", "camera_roll", "roll", 0.02},
+    {"rotors half as heavy again", "rotor_inertia_scale", "gamma", 0.5},
+    {"motors a fifth less stiff", "motor_kp_scale", "gamma", -0.2},
+    {"motors damped by three tenths less", "motor_kd_scale", "gamma", -0.3},
 };
 
 std::string NameFor(const Fault& fault, int seed) {

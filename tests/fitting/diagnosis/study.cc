@@ -70,6 +70,7 @@ bool IsPlanted(const Truth& truth, const Candidate& c) {
 void ReadCauses(const Diagnosis& d, Outcome& out) {
   out.unlisted_probability = d.UnlistedProbability();
   out.left_share = d.left.share;
+  out.at_bound = d.extension && d.extension->at_bound;
   const auto see = [&](const auto& c, const std::vector<int>& group) -> Outcome::Seen& {
     Outcome::Seen& seen = out.seen.emplace_back();
     seen.name = c.cause.Name();

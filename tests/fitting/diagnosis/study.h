@@ -48,6 +48,7 @@ struct Outcome {
   std::vector<Seen> seen;
   double unlisted_probability = 0.0;
   double left_share = 0.0;
+  bool at_bound = false;  // a told size lies on a physical bound
 
   bool Names() const { return !groups.empty(); }
   bool Holds(std::string_view name) const;  // in some group

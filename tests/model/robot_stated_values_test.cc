@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "tests/support/robot_columns.h"
+#include "tests/support/robot_requests.h"
+#include "tests/support/tolerances.h"
+
+// What the file of a robot says of its motors and legs and what may be otherwise: M107, M108, and
+// the mass of its legs (M82).
+
+namespace hoplab {
+namespace {
+
+using namespace testing;
+using D = SensitivityDirection;
+
+Parameters<double> SomeRobot() {
+  Parameters<double> p = RobotParametersFor(2);
+  p.robot->friction = 0.9;
+  p.robot->damping = 3e-4;
+  p.robot->leg_mass = 0.02;
+  return p;
+}
+
+struct Stated {
+  const char* effect;
+  double size;  // of the effect
+  void (*state)(RobotParameters<double>& robot);
+};
+
+class RobotStatedValues : public ::testing::TestWithParam<Stated> {};
+
+TEST_P(RobotStatedValues, AreARobotThatIsStatedSo) {
+  SimulationRequest q = RandomRobotDrop(SomeRobot(), 3, 0.3);
+  const Trajectory plain = Simulate(q);
+  const std::array effects = {EffectOf(GetParam().effect, GetParam().size)};
+  q.effects = effects;
+  const Trajectory changed = Simulate(q);
+  q.effects = {};
+  GetParam().state(*q.parameters.robot);
+  const Trajectory stated = Simulate(q);
+  ASSERT_EQ(changed.outcome, stated.outcome);
+  ASSERT_EQ(changed.final_state.size(), stated.final_state.size());
+  EXPECT_GT(changed.events.size(), 1u);
+  EXPECT_GT(std::abs(plain.final_state[4] - stated.final_state[4]), 1e-6);
+  for (std::size_t k = 0; k < stated.final_state.size(); ++k)
+    EXPECT_NEAR(changed.final_state[k], stated.final_state[k], 1e-12) << k;
+}
+
+TEST_P(RobotStatedValues, HaveTheDerivativesOfDifferences) {
+  for (const double size : {0.0, GetParam().size}) {
+    const std::array effects = {EffectOf(GetParam().effect, size)};
+    SimulationRequest q = RandomRobotDrop(SomeRobot(), 2, 0.2);
+    q.effects = effects;
+    q.integrator.relative_tolerance = kOracleRelative;
+    q.integrator.absolute_tolerance = kOracleAbsolute;
+    EXPECT_GE(ExpectRobotExact(q, {}, {D::EffectParameter(0, 0), D::InitialState(1)}), 4) << size;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, RobotStatedValues,
+    ::testing::Values(Stated{"rotor_inertia_scale", 0.7,
+                             [](RobotParameters<double>& r) { r.rotor_inertia *= 1.7; }},
+                      Stated{"motor_kp_scale", -0.25,
+                             [](RobotParameters<double>& r) { r.motor_kp *= 0.75; }},
+                      Stated{"motor_kd_scale", 0.4,
+                             [](RobotParameters<double>& r) { r.motor_kd *= 1.4; }},
+                      Stated{"swinging_leg_mass", -0.012,
+                             [](RobotParameters<double>& r) { r.leg_mass = 0.008; }}),
+    [](const auto& info) { return std::string(info.param.effect); });
+
+TEST(SwingingLegMass, TakesNoMoreThanThereIs) {
+  SimulationRequest q = RandomRobotDrop(SomeRobot(), 3, 0.3);
+  const std::array effects = {EffectOf("swinging_leg_mass", -0.05)};
+  q.effects = effects;
+  const Trajectory changed = Simulate(q);
+  q.effects = {};
+  q.parameters.robot->leg_mass = 0.0;
+  const Trajectory massless = Simulate(q);
+  ASSERT_EQ(changed.final_state.size(), massless.final_state.size());
+  for (std::size_t k = 0; k < massless.final_state.size(); ++k)
+    EXPECT_NEAR(changed.final_state[k], massless.final_state[k], 1e-12) << k;
+}
+
+}  // namespace
+}  // namespace hoplab
