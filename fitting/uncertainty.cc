@@ -7,6 +7,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/nan.h"
 #include "base/parallel.h"
@@ -201,6 +202,51 @@ void FillIn(const FitProblem& problem, const Eigen::VectorXd& shared, const Know
   }
 }
 
+// How much worse `there` fits than `known` does, trial by trial; empty where it ends early.
+std::vector<double> WorseBy(const Known& there, const Known& known) {
+  if (there.samples != known.samples) return {};
+  std::vector<double> worse;
+  for (std::size_t i = 0; i < known.reduced.size(); ++i)
+    if (known.reduced[i].samples > 0)
+      worse.push_back(there.reduced[i].chi2 - known.reduced[i].chi2);
+  return worse;
+}
+
+// Whether the mean of some numbers is above zero for certain, by their own scatter.
+bool IsSurelyAboveZero(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  const Eigen::Map<const Eigen::ArrayXd> v(values.data(), std::ssize(values));
+  const double variance = (v - v.mean()).square().sum() / (n - 1.0);
+  const double t = boost::math::quantile(boost::math::students_t(n - 1.0), 0.975);
+  return v.mean() > t * std::sqrt(variance / n);
+}
+
+// A value with a threshold may be known from one side alone: a torque limit that is no longer
+// reached changes nothing, wherever beyond it is. Where the far end of its range fits as well as
+// its value, all else as it is, its intervals reach that end.
+void ReachBeyondThresholds(const FitProblem& problem, const std::vector<TrialProblem>& trials,
+                           const Eigen::VectorXd& shared,
+                           const std::vector<OwnValues>& initial_states, const Loss& loss, int jobs,
+                           const Known& known, Uncertainty& out) {
+  for (const int k : known.active) {
+    const SharedParameter& s = problem.shared[k];
+    ParameterUncertainty& p = out.parameters[k];
+    if (!s.has_threshold || !p.ci95) continue;
+    Eigen::VectorXd end = shared;
+    const bool upper = shared[k] > s.initial;
+    end[k] = upper ? s.upper : s.lower;
+    const std::vector<double> worse =
+        WorseBy(Gather(problem, trials, end, initial_states, loss, jobs), known);
+    if (worse.empty()) continue;
+    const auto reach = [&](std::pair<double, double>& interval) {
+      (upper ? interval.second : interval.first) = end[k];
+    };
+    const double all = std::accumulate(worse.begin(), worse.end(), 0.0);
+    if (all <= kNormal975 * kNormal975 * std::max(p.inflation, 1.0)) reach(*p.ci95);
+    if (p.ci95_between_trials && !IsSurelyAboveZero(worse)) reach(*p.ci95_between_trials);
+  }
+}
+
 }  // namespace
 
 const std::optional<std::pair<double, double>>& ParameterUncertainty::Wider() const {
@@ -240,6 +286,7 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
   FindWeakDirections(svd.singularValues(), svd.matrixV(), known.active, n, out.identifiability);
   FillIn(problem, shared, known,
          CovariancesOf(known, svd.singularValues(), svd.matrixV(), out.identifiability.rank), out);
+  ReachBeyondThresholds(problem, trials, shared, initial_states, loss, jobs, known, out);
   return out;
 }
 

@@ -14,7 +14,9 @@ namespace hoplab {
 struct ParameterUncertainty {
   /// Own unit, of least squares under the problem's noise: white, and the discrepancy there is.
   std::optional<double> std_error;
-  std::optional<std::pair<double, double>> ci95;  // value -+ 1.96 std_error, cut at the bounds
+  /// value -+ 1.96 std_error, cut at the bounds; up to a bound where a value with a threshold fits
+  /// as well there.
+  std::optional<std::pair<double, double>> ci95;
   /// The same from the scatter between trials (sandwich estimate, Student's t): what counts when
   /// the model misses more than noise. Absent with fewer than 3 trials.
   std::optional<double> std_error_between_trials;

@@ -23,6 +23,7 @@ struct RobotParameters {
   T rotor_inertia{0.0};      // of each motor, reflected to the hip, on the relative speed [kg m^2]
   T motor_kp{0.0};           // [N m/rad]
   T motor_kd{0.0};           // [N m s/rad]
+  T torque_limit{std::numeric_limits<double>::infinity()};  // of a motor [N m]
   T motor_gain{1.0};         // what a motor gives of what it is told [-]
   T motor_lag{0.0};          // how long what it gives follows what it is told [s]
   T friction{std::numeric_limits<double>::infinity()};  // under the feet [-]
@@ -63,7 +64,6 @@ struct RobotParameters {
   bool own_moduli = false;     // each leg has its E; else all have that of Parameters
   MotorControl control = MotorControl::kHeld;
   bool starts_at_angles = false;  // recorded motors, at `angle`; else on what they follow
-  double torque_limit = std::numeric_limits<double>::infinity();  // of a motor [N m]
   double pitch_limit = 1.4;                                       // [rad]
 
   /// Every differentiable number, in one order: for converting.
@@ -71,7 +71,7 @@ struct RobotParameters {
   static void Each(Self& p, const Do& act) {
     for (auto* v :
          {&p.pitch_inertia, &p.com_x, &p.com_y, &p.rotor_inertia, &p.motor_kp, &p.motor_kd,
-          &p.motor_gain, &p.motor_lag, &p.friction, &p.foot_slip, &p.ground_compliance, &p.clamp,
+          &p.torque_limit, &p.motor_gain, &p.motor_lag, &p.friction, &p.foot_slip, &p.ground_compliance, &p.clamp,
           &p.damping, &p.leg_mass, &p.lateral_stiffness, &p.period, &p.duty, &p.sweep, &p.offset})
       act(*v);
     for (auto* list : {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.rate, &p.E_scale, &p.extra_damping,
@@ -85,7 +85,7 @@ struct RobotParameters {
 template <class To, class From>
 RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   RobotParameters<To> to;
-  std::array<double, 19 + 17 * kMaxLegs> values{};
+  std::array<double, 20 + 17 * kMaxLegs> values{};
   std::size_t n = 0;
   RobotParameters<From>::Each(from, [&](const From& v) { values[n++] = Value(v); });
   n = 0;
@@ -95,7 +95,6 @@ RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   to.own_moduli = from.own_moduli;
   to.control = from.control;
   to.starts_at_angles = from.starts_at_angles;
-  to.torque_limit = from.torque_limit;
   to.pitch_limit = from.pitch_limit;
   return to;
 }

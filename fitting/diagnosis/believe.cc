@@ -10,6 +10,8 @@ constexpr double kMostOthers = 2.0;      // no more causes were planted together
 constexpr double kMostNatsOfGap = 50.0;  // a gap beyond is no surer
 constexpr double kLeastChance = 1e-10, kLeastShare = 1e-4;
 constexpr double kPlainRarity = 3.0;  // trials that differ this plainly differ
+// Of a name in an extension with a size at its bound: less than even odds.
+constexpr double kMostAtBound = 0.49;
 // Sizes in the trials that spread by this share of the effect's own are not of one cause. A spread
 // of half a per cent is certain, too, where rows are many, and says nothing.
 constexpr double kUnlikeSizes = 0.5;
@@ -68,6 +70,14 @@ void FindStandIns(std::vector<CauseReport>& causes) {
   for (CauseReport& c : causes) {
     c.stands_in = c.main && c.group_probability < kLikely;
     c.main = c.main && !c.stands_in;
+  }
+}
+
+void BelieveLessAtBound(std::vector<CauseReport>& causes) {
+  for (CauseReport& c : causes) {
+    const double share = c.group_probability > 0.0 ? c.probability / c.group_probability : 0.0;
+    c.group_probability = std::min(c.group_probability, kMostAtBound);
+    c.probability = share * c.group_probability;
   }
 }
 

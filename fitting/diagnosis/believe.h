@@ -20,6 +20,10 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
 /// Tells main causes from those that stand in for something else (CauseReport::stands_in).
 void FindStandIns(std::vector<CauseReport>& causes);
 
+/// Where a told size lies on a physical bound the extension as a whole is not what acts, so none of
+/// its names has better than even odds.
+void BelieveLessAtBound(std::vector<CauseReport>& causes);
+
 /// A told cause as one that is set aside.
 SetAside AsSetAside(const CauseReport& cause, const ExtensionReport& report, const Naming& naming);
 

@@ -78,9 +78,9 @@ void Robot<T>::ListGuards(Mode mode) {
     }
   }
   for (int i = 0; i < legs_; ++i) add({EventKind::kFallHeight, i, size_});
-  if (robot_.control != MotorControl::kLocked && std::isfinite(robot_.torque_limit))
+  if (robot_.control != MotorControl::kLocked && std::isfinite(Value(robot_.torque_limit)))
     for (int i = 0; i < legs_; ++i)
-      if (!leg_[i].is_told) add({EventKind::kTorqueLimit, i, robot_.torque_limit});
+      if (!leg_[i].is_told) add({EventKind::kTorqueLimit, i, Value(robot_.torque_limit)});
   for (int i = 0; i < legs_; ++i)
     if (leg_[i].geared()) add({EventKind::kGearMesh, i, Value(leg_[i].gear.half)});
   for (int i = 0; i < legs_; ++i) {

@@ -70,7 +70,7 @@ template <class T>
 T Robot<T>::Torque(int leg, const T& t, const T* z) const {
   if (robot_.control == MotorControl::kLocked) return T(0.0);
   const double side = leg_[leg].limit;
-  return side == 0.0 ? Command(leg, t, z) : T(side * robot_.torque_limit);
+  return side == 0.0 ? Command(leg, t, z) : side * robot_.torque_limit;
 }
 
 // How fast what the motor is told changes within its piece, off its limit [N m/s].
@@ -115,7 +115,7 @@ void Robot<T>::FindLimit(int leg, double t, const T* z) {
   leg_[leg].limit = 0;
   if (leg_[leg].is_told) return;  // what was recorded was limited before
   const double command = Value(Command(leg, T(t), z));
-  if (std::abs(command) > robot_.torque_limit) leg_[leg].limit = command > 0.0 ? 1 : -1;
+  if (std::abs(command) > Value(robot_.torque_limit)) leg_[leg].limit = command > 0.0 ? 1 : -1;
 }
 template <class T>
 void Robot<T>::FindLimits(double t, const T* z) {

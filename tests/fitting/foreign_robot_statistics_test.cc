@@ -61,6 +61,7 @@ constexpr Fault kFaults[] = {
      [](Parameters<double>& p, std::size_t) { p.robot->rotor_inertia *= 1.5; }},
     {"motor_kp_scale", [](Parameters<double>& p, std::size_t) { p.robot->motor_kp *= 0.8; }},
     {"motor_kd_scale", [](Parameters<double>& p, std::size_t) { p.robot->motor_kd *= 0.7; }},
+    {"torque_limit_loss", [](Parameters<double>& p, std::size_t) { p.robot->torque_limit *= 0.5; }},
     {"swinging_leg_mass", [](Parameters<double>& p, std::size_t) { p.robot->leg_mass *= 0.5; }},
 };
 

@@ -64,7 +64,9 @@ TEST(KnownCauses, GravityOfAFreeBallIsThatOfTheEarth) {
 
 // A draught of 0.1 N is usual on a body of 1 kg; a ball of 3 g would fly up in it.
 TEST(KnownCauses, TypicalForcesAreThoseOfABodyOfItsMass) {
-  const KnownCauses light({}, {}, 0.003);
+  Parameters<double> body;
+  body.m = 0.003;
+  const KnownCauses light({}, {}, body);
   const auto share = [&](const char* effect) {
     return light.Open(*FindEffect(effect), 0)->typical /
            FindEffect(effect)->info.parameters[0].typical;
@@ -76,8 +78,18 @@ TEST(KnownCauses, TypicalForcesAreThoseOfABodyOfItsMass) {
   EXPECT_DOUBLE_EQ(share("foot_slip"), 1.0 / 0.003);
   EXPECT_EQ(share("camera_roll"), 1.0);
   EXPECT_EQ(share("leg_material_damping"), 1.0);
-  const KnownCauses bounded({{"constant_force", "", 1e-4}}, {}, 0.003);
+  const KnownCauses bounded({{"constant_force", "", 1e-4}}, {}, body);
   EXPECT_EQ(bounded.Open(*FindEffect("constant_force"), 0)->typical, 1e-4);
+}
+
+TEST(KnownCauses, WhatAddsToAStatedValueTakesMostOfItAtMost) {
+  const Effect& heavier = *FindEffect("swinging_leg_mass");
+  Parameters<double> robot;
+  robot.robot = RobotParameters<double>();
+  EXPECT_EQ(KnownCauses({}, {}, robot).Open(heavier, 0)->lower, 0.0);
+  robot.robot->leg_mass = 0.05;
+  EXPECT_DOUBLE_EQ(KnownCauses({}, {}, robot).Open(heavier, 0)->lower, -0.045);
+  EXPECT_EQ(KnownCauses({}, {}, robot).Open(heavier, 0)->upper, heavier.info.parameters[0].upper);
 }
 
 TEST(KnownCauses, AnEffectWithEveryParameterRuledOutIsRuledOut) {

@@ -8,7 +8,7 @@
 #include "tests/support/robot_requests.h"
 #include "tests/support/tolerances.h"
 
-// What the file of a robot says of its motors and legs and what may be otherwise: M107, M108, and
+// What the file of a robot says of its motors and legs and what may be otherwise: M107 to M109, and
 // the mass of its legs (M82).
 
 namespace hoplab {
@@ -22,6 +22,7 @@ Parameters<double> SomeRobot() {
   p.robot->friction = 0.9;
   p.robot->damping = 3e-4;
   p.robot->leg_mass = 0.02;
+  p.robot->torque_limit = 5.0;
   return p;
 }
 
@@ -69,6 +70,8 @@ INSTANTIATE_TEST_SUITE_P(
                              [](RobotParameters<double>& r) { r.motor_kp *= 0.75; }},
                       Stated{"motor_kd_scale", 0.4,
                              [](RobotParameters<double>& r) { r.motor_kd *= 1.4; }},
+                      Stated{"torque_limit_loss", 0.2,
+                             [](RobotParameters<double>& r) { r.torque_limit *= 0.8; }},
                       Stated{"swinging_leg_mass", -0.012,
                              [](RobotParameters<double>& r) { r.leg_mass = 0.008; }}),
     [](const auto& info) { return std::string(info.param.effect); });

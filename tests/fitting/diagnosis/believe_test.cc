@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 #include "tests/support/diagnosed_hops.h"
 
@@ -38,6 +39,18 @@ TEST(Disagreement, OfSeveralParametersIsMeasuredAgainstTheLargest) {
               1e-12);
   EXPECT_NEAR(Disagreement(std::array{Sizes(0.0, 0.0, 1.0), Sizes(0.0, 5e-4, 1e-6)}, mass), 3.0,
               1e-12);
+}
+
+TEST(BelieveLessAtBound, LeavesNoNameLikelyAndTheSharesOfAGroupAsTheyAre) {
+  std::vector<CauseReport> causes(2);
+  causes[0].group_probability = 0.96;
+  causes[0].probability = 0.72;  // three quarters of its group
+  causes[1].group_probability = causes[1].probability = 0.2;
+  BelieveLessAtBound(causes);
+  EXPECT_LT(causes[0].group_probability, kLikely);
+  EXPECT_NEAR(causes[0].probability / causes[0].group_probability, 0.75, 1e-12);
+  EXPECT_EQ(causes[1].group_probability, 0.2);
+  EXPECT_EQ(causes[1].probability, 0.2);
 }
 
 }  // namespace
