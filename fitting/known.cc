@@ -107,7 +107,7 @@ std::optional<EffectParameter> KnownCauses::Open(const Effect& effect, int param
   EffectParameter p = effect.info.parameters[static_cast<std::size_t>(parameter)];
   if (effect.formula == nullptr) p.typical *= std::pow(stated_.m, MassPower(p.unit));
   if (p.adds_to && stated_.robot)
-    p.lower = std::max(p.lower, 0.0 - kMostTaken * Field(stated_, *p.adds_to));
+    p.lower -= kMostTaken * Field(stated_, *p.adds_to);
   const KnownParameter* known = Find(effect, parameter);
   if (known == nullptr) return p;
   if (known->at_most == 0.0) return std::nullopt;

@@ -37,7 +37,7 @@ class KnownCauses {
   /// something said twice, or a size for a whole effect that has several parameters. `formulas` are
   /// known beside the catalogue. Forces, torques and masses of a size one would expect grow with
   /// the body: the mass in `stated` scales what is typical of them. A formula states its own. What
-  /// adds to a stated value (EffectParameter::adds_to) takes no more of it than may go.
+  /// adds to a stated value (EffectParameter::adds_to) may take nine tenths of it away.
   explicit KnownCauses(const std::vector<KnownSpec>& specs,
                        std::span<const Effect* const> formulas = {},
                        const Parameters<double>& stated = {});

@@ -60,7 +60,10 @@ class SharedBuilder {
       } else {
         const auto [index, component] = EffectParameterOf(split, "--fix");
         const EffectParameter& info = problem_.effects[index].effect->info.parameters[component];
-        CheckRange(name, value, info.lower, info.upper, info.unit, "--fix");
+        const std::optional<EffectParameter> open =
+            problem_.known.Open(*problem_.effects[index].effect, component);
+        CheckRange(name, value, std::min(info.lower, open ? open->lower : info.lower), info.upper,
+                   info.unit, "--fix");
         problem_.known.CheckValue(*problem_.effects[index].effect, component, value, "--fix");
         problem_.effects[index].values[component] = value;
       }

@@ -7,7 +7,6 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "base/nan.h"
 #include "base/parallel.h"
@@ -202,28 +201,28 @@ void FillIn(const FitProblem& problem, const Eigen::VectorXd& shared, const Know
   }
 }
 
-// How much worse `there` fits than `known` does, trial by trial; empty where it ends early.
-std::vector<double> WorseBy(const Known& there, const Known& known) {
-  if (there.samples != known.samples) return {};
+// Whether another fit is no worse than `known` for certain: not in all by what the trials differ
+// in it, nor in one of them by more than that trial is missed anyway.
+bool FitsAsWell(const Known& other, const Known& known) {
+  if (other.samples != known.samples) return false;
   std::vector<double> worse;
-  for (std::size_t i = 0; i < known.reduced.size(); ++i)
-    if (known.reduced[i].samples > 0)
-      worse.push_back(there.reduced[i].chi2 - known.reduced[i].chi2);
-  return worse;
+  for (std::size_t i = 0; i < known.reduced.size(); ++i) {
+    const Reduced& trial = known.reduced[i];
+    if (trial.samples == 0) continue;
+    worse.push_back(other.reduced[i].chi2 - trial.chi2);
+    const double missed = trial.chi2 - static_cast<double>(trial.samples);
+    if (!(worse.back() <= std::max(missed, kNormal975 * kNormal975))) return false;
+  }
+  const auto n = static_cast<double>(worse.size());
+  const Eigen::Map<const Eigen::ArrayXd> w(worse.data(), std::ssize(worse));
+  if (n < 2.0 || w.sum() <= kNormal975 * kNormal975) return w.sum() <= kNormal975 * kNormal975;
+  const double error = std::sqrt((w - w.mean()).square().sum() / (n * (n - 1.0)));
+  return w.mean() <= error * boost::math::quantile(boost::math::students_t(n - 1.0), 0.975);
 }
 
-// Whether the mean of some numbers is above zero for certain, by their own scatter.
-bool IsSurelyAboveZero(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  const Eigen::Map<const Eigen::ArrayXd> v(values.data(), std::ssize(values));
-  const double variance = (v - v.mean()).square().sum() / (n - 1.0);
-  const double t = boost::math::quantile(boost::math::students_t(n - 1.0), 0.975);
-  return v.mean() > t * std::sqrt(variance / n);
-}
-
-// A value with a threshold may be known from one side alone: a torque limit that is no longer
-// reached changes nothing, wherever beyond it is. Where the far end of its range fits as well as
-// its value, all else as it is, its intervals reach that end.
+// A value with a threshold on both sides of whose null the range goes on may be known from one
+// side alone: a torque limit that is not reached changes nothing, however high it is. Where an end
+// of the range fits as well as the value, all else as it is, its intervals reach that end.
 void ReachBeyondThresholds(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                            const Eigen::VectorXd& shared,
                            const std::vector<OwnValues>& initial_states, const Loss& loss, int jobs,
@@ -231,19 +230,14 @@ void ReachBeyondThresholds(const FitProblem& problem, const std::vector<TrialPro
   for (const int k : known.active) {
     const SharedParameter& s = problem.shared[k];
     ParameterUncertainty& p = out.parameters[k];
-    if (!s.has_threshold || !p.ci95) continue;
-    Eigen::VectorXd end = shared;
-    const bool upper = shared[k] > s.initial;
-    end[k] = upper ? s.upper : s.lower;
-    const std::vector<double> worse =
-        WorseBy(Gather(problem, trials, end, initial_states, loss, jobs), known);
-    if (worse.empty()) continue;
-    const auto reach = [&](std::pair<double, double>& interval) {
-      (upper ? interval.second : interval.first) = end[k];
-    };
-    const double all = std::accumulate(worse.begin(), worse.end(), 0.0);
-    if (all <= kNormal975 * kNormal975 * std::max(p.inflation, 1.0)) reach(*p.ci95);
-    if (p.ci95_between_trials && !IsSurelyAboveZero(worse)) reach(*p.ci95_between_trials);
+    if (!s.has_threshold || s.lower >= 0.0 || !p.ci95) continue;
+    for (const bool upper : {false, true}) {
+      Eigen::VectorXd end = shared;
+      end[k] = upper ? s.upper : s.lower;
+      if (!FitsAsWell(Gather(problem, trials, end, initial_states, loss, jobs), known)) continue;
+      for (auto* interval : {&p.ci95, &p.ci95_between_trials})
+        if (*interval) (upper ? (*interval)->second : (*interval)->first) = end[k];
+    }
   }
 }
 

@@ -58,6 +58,20 @@ bool IsDelayOfAll(const FitProblem& problem, const Effect& effect) {
                      [](const ChannelProblem& c) { return IsPose(c.channel); });
 }
 
+// Motors without a limit, locked ones, and those that are told a recorded torque have none to lose.
+bool HasNoTorqueLimit(const FitProblem& problem, const Effect& effect) {
+  return effect.info.name == "torque_limit_loss" &&
+         std::none_of(problem.trials.begin(), problem.trials.end(), [](const TrialProblem& t) {
+           const RobotParameters<double>& robot = *t.parameters.robot;
+           const bool told =
+               std::any_of(t.inputs.begin(), t.inputs.end(), [](const DrivenColumn& column) {
+                 return (BitOf(column.kind) & BitsOfFamily(InputKind::kHipTorque)) != 0;
+               });
+           return std::isfinite(robot.torque_limit) && robot.control != MotorControl::kLocked &&
+                  !told;
+         });
+}
+
 // On one leg what is of that leg alone is what is of all of them.
 bool IsOfAllLegs(const FitProblem& problem, const Effect& effect) {
   const EffectInfo& info = effect.info;
@@ -96,9 +110,9 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
                    problem.robot_legs()) ||
         IsFitted(problem, *effect) || Simulates(problem, *effect))
       continue;
-    if (only.empty() &&
-        (HasNoGuide(problem, *effect) || IsOfAllLegs(problem, *effect) ||
-         IsDelayOfAll(problem, *effect) || (effect->hooks0.change_filter_time && !smoothed)))
+    if (only.empty() && (HasNoGuide(problem, *effect) || HasNoTorqueLimit(problem, *effect) ||
+                         IsOfAllLegs(problem, *effect) || IsDelayOfAll(problem, *effect) ||
+                         (effect->hooks0.change_filter_time && !smoothed)))
       continue;
     if (holds(without, effect) || (!only.empty() && !holds(only, effect))) continue;
     if (!problem.known.RulesOut(*effect)) candidates.push_back({effect, "", problem.known});

@@ -8,6 +8,7 @@
 #include "datasets/suspect_things.h"
 #include "fitting/check.h"
 #include "fitting/diagnosis/after_verdict.h"
+#include "fitting/diagnosis/believe.h"
 #include "fitting/diagnosis/carry_on.h"
 #include "fitting/diagnosis/diagnosis.h"
 #include "fitting/diagnosis/null_fit.h"
@@ -172,6 +173,7 @@ Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
       TraitsOf(problem.law).lands_leg_by_leg && options.span == Segmentation::kAuto;
   d = by_stages ? StageByStage(std::move(problem), options).Run()
                 : DiagnoseFitted(FitPlain(std::move(problem), options, options.span), options);
+  if (d.extension && d.extension->at_bound) BelieveLessAtBound(d.extension->causes);
   TellBesides(d, options);
   d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
   d.warnings = std::move(warnings);

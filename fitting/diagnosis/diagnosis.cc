@@ -156,7 +156,6 @@ class Pipeline {
       const int member = static_cast<int>(d_.naming.MemberOf(c->candidate));
       d_.extension->at_bound |= d_.naming.best.AtPhysicalBound(member);
     }
-    if (d_.extension->at_bound) BelieveLessAtBound(d_.extension->causes);
   }
 
   // Nothing is told: the model as it is, with intervals that hold what the evidence wanted.

@@ -24,7 +24,7 @@ struct EffectParameter {
   /// It shapes the effect and has no null: it stays at `null`, its given value, unless freed by
   /// name.
   bool is_shape = false;
-  /// It adds to this stated value and may take nine tenths of it away, no more.
+  /// It adds to this stated value; a fit may take up to nine tenths of that away, below `lower`.
   std::optional<ParameterId> adds_to = std::nullopt;
 };
 

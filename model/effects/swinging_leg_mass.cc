@@ -7,11 +7,11 @@ namespace {
 
 struct SwingingLegMass {
   static constexpr std::array kParameters = {EffectParameter{
-      "m_leg", "kg", 0.0, -10.0, 10.0, 0.005, /*is_shape=*/false, ParameterId::kLegMass}};
+      "m_leg", "kg", 0.0, 0.0, 10.0, 0.005, /*is_shape=*/false, ParameterId::kLegMass}};
   static constexpr EffectInfo kInfo = {
       .name = "swinging_leg_mass",
       .kind = EffectKind::kParameter,
-      .equation = "leg_mass + m_leg of every leg, no less than nothing (M82)",
+      .equation = "leg_mass + m_leg of every leg (M82); a fit takes nine tenths of the stated mass at most",
       .sentence =
           "the robot's legs are heavier or lighter than stated: the body turns as they swing, and "
           "the motors turn them less or more readily",
@@ -23,9 +23,7 @@ struct SwingingLegMass {
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
-    T& mass = parameters.robot->leg_mass;
-    mass += p[0];
-    if (Value(mass) < 0.0) mass = T(0.0);
+    parameters.robot->leg_mass += p[0];
   }
 };
 

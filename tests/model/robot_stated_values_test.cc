@@ -76,18 +76,5 @@ INSTANTIATE_TEST_SUITE_P(
                              [](RobotParameters<double>& r) { r.leg_mass = 0.008; }}),
     [](const auto& info) { return std::string(info.param.effect); });
 
-TEST(SwingingLegMass, TakesNoMoreThanThereIs) {
-  SimulationRequest q = RandomRobotDrop(SomeRobot(), 3, 0.3);
-  const std::array effects = {EffectOf("swinging_leg_mass", -0.05)};
-  q.effects = effects;
-  const Trajectory changed = Simulate(q);
-  q.effects = {};
-  q.parameters.robot->leg_mass = 0.0;
-  const Trajectory massless = Simulate(q);
-  ASSERT_EQ(changed.final_state.size(), massless.final_state.size());
-  for (std::size_t k = 0; k < massless.final_state.size(); ++k)
-    EXPECT_NEAR(changed.final_state[k], massless.final_state[k], 1e-12) << k;
-}
-
 }  // namespace
 }  // namespace hoplab

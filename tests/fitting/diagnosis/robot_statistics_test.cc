@@ -151,64 +151,6 @@ TEST(RobotStatistics, NamesWhatIsWrongAndWhichLeg) {
   EXPECT_TRUE(IsAtMost(wrong_leg, all, 0.02));
 }
 
-// The names of a fault on every leg, or of all legs at once, which are left out with it.
-std::vector<std::string> NamesOfAllLegs(const Fault& fault) {
-  const auto at = fault.effect.find('%');
-  if (at == std::string::npos) return {fault.effect};
-  std::vector<std::string> names;
-  for (const char* leg : {"1", "2"}) names.push_back(fault.effect.substr(0, at) + leg);
-  const std::string all = fault.effect.substr(0, at - 1);
-  if (FindEffect(all) != nullptr) names.push_back(all);
-  return names;
-}
-
-// What no list holds: the verdict, and how sure its first name.
-TEST(RobotStatistics, WhatIsNotListedIsNotGivenAConfidentWrongName) {
-  const int seeds = SeedCount(4);
-  const int faults = IsQuick() ? 2 : static_cast<int>(std::size(kFaults));
-  struct Said {
-    Verdict verdict = Verdict::kAdequate;
-    bool sure = false;
-    std::string text;
-  };
-  std::vector<Said> said(static_cast<std::size_t>(faults * seeds));
-  const int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  ParallelFor(faults * seeds, jobs, [&](int i) {
-    const Fault& fault = kFaults[i % faults];
-    DiagnosisOptions options;
-    options.fit.jobs = 1;
-    options.candidates.without = NamesOfAllLegs(fault);
-    const Diagnosis d = Diagnose(RobotWith({&fault}, i / faults), options);
-    Said& s = said[static_cast<std::size_t>(i)];
-    s.verdict = d.verdict;
-    s.text = d.refusal.empty() ? std::string(NameOf(d.verdict)) : d.refusal;
-    if (!d.extension) return;
-    s.text += Cell(", %.4f left", 1.0 - d.extension->explained) +
-              (d.extension->at_bound ? ", at a bound" : "");
-    for (const CauseReport* c : d.extension->ToldCauses()) {
-      s.sure |= c->probability >= kSure && NamesSomething(d);
-      s.text += ", " + c->cause.Name() + Cell(" %.3f", c->probability);
-    }
-  });
-  long counts[4] = {}, sure = 0;
-  for (std::size_t i = 0; i < said.size(); ++i) {
-    ++counts[static_cast<int>(said[i].verdict)];
-    sure += said[i].sure;
-    std::printf("%s: %s\n", kFaults[i % static_cast<std::size_t>(faults)].text,
-                said[i].text.c_str());
-  }
-  const long all = std::ssize(said);
-  Report report("9-robot-left-out", "Robots: what is wrong is not in the catalogue");
-  report.Say(
-      "The same robot and faults, %d seeds each, with the fault's own names left out: %ld "
-      "adequate, %ld named, %ld confounded, %ld unexplained; a wrong name with P >= 0.95 in %ld of "
-      "%ld.",
-      seeds, counts[static_cast<int>(Verdict::kAdequate)],
-      counts[static_cast<int>(Verdict::kNamed)], counts[static_cast<int>(Verdict::kConfounded)],
-      counts[static_cast<int>(Verdict::kUnexplained)], sure, all);
-  EXPECT_TRUE(IsAtMost(sure, all, 0.1));
-}
-
 // What was said of a robot with two things wrong, of the same leg where both are of one.
 struct PairAnswer {
   std::string planted, said;
