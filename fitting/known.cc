@@ -61,8 +61,7 @@ std::vector<KnownSpec> WithFactsOf(const MechanismSpec& mechanism, std::vector<K
 }
 
 KnownCauses::KnownCauses(const std::vector<KnownSpec>& specs,
-                         std::span<const Effect* const> formulas,
-                         const Parameters<double>& stated)
+                         std::span<const Effect* const> formulas, const Parameters<double>& stated)
     : stated_(stated) {
   for (const KnownSpec& spec : specs) {
     const Effect& effect = ResolveEffect(spec.effect, spec.origin.place, formulas);
@@ -106,8 +105,7 @@ const KnownParameter* KnownCauses::Find(const Effect& effect, int parameter) con
 std::optional<EffectParameter> KnownCauses::Open(const Effect& effect, int parameter) const {
   EffectParameter p = effect.info.parameters[static_cast<std::size_t>(parameter)];
   if (effect.formula == nullptr) p.typical *= std::pow(stated_.m, MassPower(p.unit));
-  if (p.adds_to && stated_.robot)
-    p.lower -= kMostTaken * Field(stated_, *p.adds_to);
+  if (p.adds_to && stated_.robot) p.lower -= kMostTaken * Field(stated_, *p.adds_to);
   const KnownParameter* known = Find(effect, parameter);
   if (known == nullptr) return p;
   if (known->at_most == 0.0) return std::nullopt;

@@ -202,20 +202,22 @@ void FillIn(const FitProblem& problem, const Eigen::VectorXd& shared, const Know
 }
 
 // Whether another fit is no worse than `known` for certain: not in all by what the trials differ
-// in it, nor in one of them by more than that trial is missed anyway.
+// in it, nor in one of them by more than the trial that is missed most is missed anyway.
 bool FitsAsWell(const Known& other, const Known& known) {
   if (other.samples != known.samples) return false;
+  constexpr double kNoise = kNormal975 * kNormal975;
+  double missed = kNoise;
   std::vector<double> worse;
   for (std::size_t i = 0; i < known.reduced.size(); ++i) {
     const Reduced& trial = known.reduced[i];
     if (trial.samples == 0) continue;
     worse.push_back(other.reduced[i].chi2 - trial.chi2);
-    const double missed = trial.chi2 - static_cast<double>(trial.samples);
-    if (!(worse.back() <= std::max(missed, kNormal975 * kNormal975))) return false;
+    missed = std::max(missed, trial.chi2 - static_cast<double>(trial.samples));
   }
   const auto n = static_cast<double>(worse.size());
   const Eigen::Map<const Eigen::ArrayXd> w(worse.data(), std::ssize(worse));
-  if (n < 2.0 || w.sum() <= kNormal975 * kNormal975) return w.sum() <= kNormal975 * kNormal975;
+  if (w.sum() <= kNoise) return true;
+  if (n < 2.0 || !(w.maxCoeff() <= missed)) return false;
   const double error = std::sqrt((w - w.mean()).square().sum() / (n * (n - 1.0)));
   return w.mean() <= error * boost::math::quantile(boost::math::students_t(n - 1.0), 0.975);
 }
