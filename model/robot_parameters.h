@@ -24,8 +24,8 @@ struct RobotParameters {
   T motor_kp{0.0};           // [N m/rad]
   T motor_kd{0.0};           // [N m s/rad]
   T torque_limit{std::numeric_limits<double>::infinity()};  // of a motor [N m]
-  T motor_gain{1.0};         // what a motor gives of what it is told [-]
-  T motor_lag{0.0};          // how long what it gives follows what it is told [s]
+  T motor_gain{1.0};  // what a motor gives of what it is told [-]
+  T motor_lag{0.0};   // how long what it gives follows what it is told [s]
   T friction{std::numeric_limits<double>::infinity()};  // under the feet [-]
   T foot_slip{0.0};          // how fast feet that hold creep under a force along [m/(N s)]
   T ground_compliance{0.0};  // how far the ground sinks under a foot (M28) [m/N]
@@ -64,15 +64,16 @@ struct RobotParameters {
   bool own_moduli = false;     // each leg has its E; else all have that of Parameters
   MotorControl control = MotorControl::kHeld;
   bool starts_at_angles = false;  // recorded motors, at `angle`; else on what they follow
-  double pitch_limit = 1.4;                                       // [rad]
+  double pitch_limit = 1.4;       // [rad]
 
   /// Every differentiable number, in one order: for converting.
   template <class Self, class Do>
   static void Each(Self& p, const Do& act) {
-    for (auto* v :
-         {&p.pitch_inertia, &p.com_x, &p.com_y, &p.rotor_inertia, &p.motor_kp, &p.motor_kd,
-          &p.torque_limit, &p.motor_gain, &p.motor_lag, &p.friction, &p.foot_slip, &p.ground_compliance, &p.clamp,
-          &p.damping, &p.leg_mass, &p.lateral_stiffness, &p.period, &p.duty, &p.sweep, &p.offset})
+    for (auto* v : {&p.pitch_inertia, &p.com_x,    &p.com_y,        &p.rotor_inertia,
+                    &p.motor_kp,      &p.motor_kd, &p.torque_limit, &p.motor_gain,
+                    &p.motor_lag,     &p.friction, &p.foot_slip,    &p.ground_compliance,
+                    &p.clamp,         &p.damping,  &p.leg_mass,     &p.lateral_stiffness,
+                    &p.period,        &p.duty,     &p.sweep,        &p.offset})
       act(*v);
     for (auto* list : {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.rate, &p.E_scale, &p.extra_damping,
                        &p.gain_of, &p.leg_zero, &p.torque_bias, &p.hip_viscous, &p.hip_coulomb,

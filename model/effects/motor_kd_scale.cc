@@ -7,16 +7,17 @@ namespace {
 
 struct MotorKdScale {
   static constexpr std::array kParameters = {EffectParameter{"gamma", "-", 0.0, -0.9, 20.0, 0.1}};
-  static constexpr EffectInfo kInfo = {
-      .name = "motor_kd_scale",
-      .kind = EffectKind::kParameter,
-      .equation = "kd (1 + gamma) in M75 (M108)",
-      .sentence = "the motors resist being turned fast more or less than stated: another gain, another unit",
-      .for_legs = false,
-      .for_ball = false,
-      .dissipative = false,
-      .parameters = kParameters,
-      .for_robot = true};
+  static constexpr EffectInfo kInfo = {.name = "motor_kd_scale",
+                                       .kind = EffectKind::kParameter,
+                                       .equation = "kd (1 + gamma) in M75 (M108)",
+                                       .sentence =
+                                           "the motors resist being turned fast more or less than "
+                                           "stated: another gain, another unit",
+                                       .for_legs = false,
+                                       .for_ball = false,
+                                       .dissipative = false,
+                                       .parameters = kParameters,
+                                       .for_robot = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

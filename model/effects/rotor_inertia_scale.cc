@@ -11,7 +11,8 @@ struct RotorInertiaScale {
       .name = "rotor_inertia_scale",
       .kind = EffectKind::kParameter,
       .equation = "J (1 + gamma) of every motor (M107)",
-      .sentence = "what the motors turn is heavier or lighter than stated: a rotor behind its gear, a hub",
+      .sentence =
+          "what the motors turn is heavier or lighter than stated: a rotor behind its gear, a hub",
       .for_legs = false,
       .for_ball = false,
       .dissipative = false,

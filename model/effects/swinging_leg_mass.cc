@@ -11,7 +11,8 @@ struct SwingingLegMass {
   static constexpr EffectInfo kInfo = {
       .name = "swinging_leg_mass",
       .kind = EffectKind::kParameter,
-      .equation = "leg_mass + m_leg of every leg (M82); a fit takes nine tenths of the stated mass at most",
+      .equation =
+          "leg_mass + m_leg of every leg (M82); a fit takes nine tenths of the stated mass at most",
       .sentence =
           "the robot's legs are heavier or lighter than stated: the body turns as they swing, and "
           "the motors turn them less or more readily",

@@ -64,16 +64,14 @@ TEST_P(RobotStatedValues, HaveTheDerivativesOfDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, RobotStatedValues,
-    ::testing::Values(Stated{"rotor_inertia_scale", 0.7,
-                             [](RobotParameters<double>& r) { r.rotor_inertia *= 1.7; }},
-                      Stated{"motor_kp_scale", -0.25,
-                             [](RobotParameters<double>& r) { r.motor_kp *= 0.75; }},
-                      Stated{"motor_kd_scale", 0.4,
-                             [](RobotParameters<double>& r) { r.motor_kd *= 1.4; }},
-                      Stated{"torque_limit_loss", 0.2,
-                             [](RobotParameters<double>& r) { r.torque_limit *= 0.8; }},
-                      Stated{"swinging_leg_mass", -0.012,
-                             [](RobotParameters<double>& r) { r.leg_mass = 0.008; }}),
+    ::testing::Values(
+        Stated{"rotor_inertia_scale", 0.7,
+               [](RobotParameters<double>& r) { r.rotor_inertia *= 1.7; }},
+        Stated{"motor_kp_scale", -0.25, [](RobotParameters<double>& r) { r.motor_kp *= 0.75; }},
+        Stated{"motor_kd_scale", 0.4, [](RobotParameters<double>& r) { r.motor_kd *= 1.4; }},
+        Stated{"torque_limit_loss", 0.2, [](RobotParameters<double>& r) { r.torque_limit *= 0.8; }},
+        Stated{"swinging_leg_mass", -0.012,
+               [](RobotParameters<double>& r) { r.leg_mass = 0.008; }}),
     [](const auto& info) { return std::string(info.param.effect); });
 
 }  // namespace
