@@ -100,7 +100,7 @@ TEST_F(CompletionCli, BashOffersLawsEffectsParametersChoicesAndFiles) {
   EXPECT_EQ(Bash({"fit", "--law", "c"}), Words{"consistent"});
   EXPECT_EQ(Bash({"fit", "--law", "=", "c"}), Words{"consistent"}) << "--law=c, as bash cuts it";
   EXPECT_EQ(Bash({"fit", "--law", "="}).size(), 8u);
-  EXPECT_EQ(Bash({"fit", "--with", "air_drag,torque_l"}), Words{"air_drag,torque_lag"});
+  EXPECT_EQ(Bash({"fit", "--with", "air_drag,torque_la"}), Words{"air_drag,torque_lag"});
   EXPECT_EQ(Bash({"fit", "--integrator", ""}), (Words{"dop853", "erkstep", "cvodes"}));
   EXPECT_EQ(Bash({"fit", "--fix", "kp"}), (Words{"kp=", "kp_place="}));
   EXPECT_EQ(Bash({"optimize", "--algorithm", "crs"}), Words{"crs2"});
@@ -118,7 +118,7 @@ TEST_F(CompletionCli, FishOffersTheSame) {
     EXPECT_EQ(Fish("hoplab " + command + " --"), OptionsOf(command)) << command;
   EXPECT_EQ(Fish("hoplab fit --law c"), Words{"consistent"});
   EXPECT_EQ(Fish("hoplab fit --law=c"), Words{"--law=consistent"});
-  EXPECT_EQ(Fish("hoplab fit --with air_drag,torque_l"), Words{"air_drag,torque_lag"});
+  EXPECT_EQ(Fish("hoplab fit --with air_drag,torque_la"), Words{"air_drag,torque_lag"});
   EXPECT_EQ(Fish("hoplab fit dro"), Words{"drops/"});
   EXPECT_EQ(Fish("hoplab simulate dro"), (Words{"drops/", "drops.yaml"}));
 }
@@ -139,7 +139,7 @@ TEST_F(CompletionCli, ZshOffersTheSame) {
            {"hoplab gen", "hoplab generate "},
            {"hoplab fit --inte", "hoplab fit --integrator "},
            {"hoplab fit --law cons", "hoplab fit --law consistent "},
-           {"hoplab fit --with air_drag,torque_l", "hoplab fit --with air_drag,torque_lag"},
+           {"hoplab fit --with air_drag,torque_la", "hoplab fit --with air_drag,torque_lag"},
            {"hoplab explain spec", "hoplab explain spectral-radius "},
            {"hoplab fit dro", "hoplab fit drops/"}}) {
     const std::string shown = completed(typed, expected);

@@ -28,6 +28,7 @@ TEST(Robot, EffectsHaveTheDerivativesOfDifferences) {
   p.robot->friction = 0.9;
   p.robot->damping = 3e-4;
   p.robot->rotor_inertia = 4e-3;  // slower than a real one: fewer steps
+  p.robot->torque_limit = 4.0;
   SimulationRequest q = RobotDrop(p, {0.0, 0.2, 0.3, -0.2, 0.03, 0.2}, 0.14);
   // Teeth hardly move the events: differences of their times see the steps of a coarser run.
   q.integrator.relative_tolerance = 1e-12;
