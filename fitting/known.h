@@ -7,6 +7,7 @@
 #include "datasets/known_spec.h"
 #include "datasets/mechanism_spec.h"
 #include "model/effects/effect.h"
+#include "model/parameters.h"
 
 namespace hoplab {
 
