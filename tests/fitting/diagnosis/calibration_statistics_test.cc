@@ -59,7 +59,8 @@ void WriteCase(std::ofstream& csv, const Outcome& o, const char* kind) {
   for (const Outcome::Seen& s : o.seen) {
     begin();
     csv << s.name << ',' << s.main << ',' << s.right << ',' << s.group_right << ',' << s.probability
-        << ',' << s.evidence << ',' << o.unlisted_probability << ',' << o.left_share;
+        << ',' << s.evidence << ',' << o.unlisted_probability << ',' << o.left_share << ','
+        << o.at_bound;
     for (const double value : s.features.Values()) csv << ',' << value;
     csv << '\n';
   }
