@@ -72,6 +72,20 @@ bool HasNoTorqueLimit(const FitProblem& problem, const Effect& effect) {
          });
 }
 
+// Motors that no clock turns have none that could be wrong.
+bool HasNoClock(const FitProblem& problem, const Effect& effect) {
+  return effect.info.name.starts_with("gait_") &&
+         std::none_of(problem.trials.begin(), problem.trials.end(), [](const TrialProblem& t) {
+           return t.parameters.robot->control == MotorControl::kClock;
+         });
+}
+
+// The problem has nothing that the effect could change.
+bool HasNothingOf(const FitProblem& problem, const Effect& effect) {
+  return HasNoGuide(problem, effect) || HasNoTorqueLimit(problem, effect) ||
+         HasNoClock(problem, effect);
+}
+
 // On one leg what is of that leg alone is what is of all of them.
 bool IsOfAllLegs(const FitProblem& problem, const Effect& effect) {
   const EffectInfo& info = effect.info;
@@ -110,9 +124,9 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
                    problem.robot_legs()) ||
         IsFitted(problem, *effect) || Simulates(problem, *effect))
       continue;
-    if (only.empty() && (HasNoGuide(problem, *effect) || HasNoTorqueLimit(problem, *effect) ||
-                         IsOfAllLegs(problem, *effect) || IsDelayOfAll(problem, *effect) ||
-                         (effect->hooks0.change_filter_time && !smoothed)))
+    if (only.empty() &&
+        (HasNothingOf(problem, *effect) || IsOfAllLegs(problem, *effect) ||
+         IsDelayOfAll(problem, *effect) || (effect->hooks0.change_filter_time && !smoothed)))
       continue;
     if (holds(without, effect) || (!only.empty() && !holds(only, effect))) continue;
     if (!problem.known.RulesOut(*effect)) candidates.push_back({effect, "", problem.known});

@@ -59,6 +59,13 @@ inline constexpr std::array<std::string_view, kMaxLegs + 1> kGearWithPlay = {
     "the gear of the motor of leg 3 has play: no torque passes while its teeth are apart",
     "the gear of the motor of leg 4 has play: no torque passes while its teeth are apart"};
 
+inline constexpr std::array<std::string_view, kMaxLegs + 1> kClockAhead = {
+    "the clock of the robot's legs is ahead of what is stated, or behind it",
+    "the clock of leg 1 (the hindmost) is ahead of what is stated, or behind it",
+    "the clock of leg 2 is ahead of what is stated, or behind it",
+    "the clock of leg 3 is ahead of what is stated, or behind it",
+    "the clock of leg 4 is ahead of what is stated, or behind it"};
+
 constexpr EffectInfo InfoOfLeg(int leg, std::string_view name, std::string_view equation,
                                std::string_view sentence,
                                std::span<const EffectParameter> parameters) {
@@ -157,6 +164,24 @@ struct LegZeroOffset {
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
     for (int i = 0; i < kMaxLegs; ++i)
       if (leg == 0 || i == leg - 1) parameters.robot->leg_zero[static_cast<std::size_t>(i)] += p[0];
+  }
+};
+
+/// Of a leg; of all of them where `leg` is 0.
+template <int leg>
+struct GaitPhaseShift {
+  static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
+      "gait_phase_shift", "gait_phase_shift_1", "gait_phase_shift_2", "gait_phase_shift_3",
+      "gait_phase_shift_4"};
+  static constexpr std::array kParameters = {EffectParameter{"shift", "-", 0.0, -0.5, 0.5, 0.02}};
+  static constexpr EffectInfo kInfo =
+      InfoOfLeg(leg, kNames[leg], "that leg's phase + shift, as a share of a turn, in M76 (M110)",
+                kClockAhead[leg], kParameters);
+
+  template <class T>
+  static void ChangeParameters(const T* p, Parameters<T>& parameters) {
+    for (int i = 0; i < kMaxLegs; ++i)
+      if (leg == 0 || i == leg - 1) parameters.robot->phase[static_cast<std::size_t>(i)] += p[0];
   }
 };
 

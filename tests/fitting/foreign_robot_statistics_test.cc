@@ -63,7 +63,19 @@ constexpr Fault kFaults[] = {
     {"motor_kd_scale", [](Parameters<double>& p, std::size_t) { p.robot->motor_kd *= 0.7; }},
     {"torque_limit_loss", [](Parameters<double>& p, std::size_t) { p.robot->torque_limit *= 0.5; }},
     {"swinging_leg_mass", [](Parameters<double>& p, std::size_t) { p.robot->leg_mass *= 0.5; }},
+    // Of a robot with a clock alone.
+    {"gait_duty_shift", [](Parameters<double>& p, std::size_t) { p.robot->duty += 0.01; }},
+    {"gait_sweep_scale", [](Parameters<double>& p, std::size_t) { p.robot->sweep *= 1.03; }},
+    {"gait_offset_shift", [](Parameters<double>& p, std::size_t) { p.robot->offset += 0.02; }},
+    {"gait_period_scale", [](Parameters<double>& p, std::size_t) { p.robot->period *= 1.005; }},
+    {"gait_phase_shift_%",
+     [](Parameters<double>& p, std::size_t leg) { p.robot->phase[leg] += 0.02; }},
 };
+
+int FaultsOf(const Parameters<double>& robot) {
+  constexpr int kAll = static_cast<int>(std::size(kFaults)), kOfClocks = 5;
+  return robot.robot->control == MotorControl::kClock ? kAll : kAll - kOfClocks;
+}
 
 // The robots of datasets/: legs of 10 g, half an arc of each fast to its motor.
 Parameters<double> SoundRobot(int legs) {
@@ -178,12 +190,13 @@ void Judge(const Diagnosis& d, const std::string& planted, double E, Count& coun
 
 TEST_P(ForeignRobots, WhatIsWrongIsNamed) {
   const int first = EnvironmentOr("HOPLAB_ROBOT_SEED", 0);
-  const int robots = EnvironmentOr("HOPLAB_ROBOTS", static_cast<int>(std::size(kFaults)));
+  const int faults = FaultsOf(GetParam().robot());
+  const int robots = EnvironmentOr("HOPLAB_ROBOTS", faults);
   Count count;
   for (int seed = first; seed < first + robots; ++seed) {
-    const Fault& fault = kFaults[static_cast<std::size_t>(seed) % std::size(kFaults)];
+    const Fault& fault = kFaults[static_cast<std::size_t>(seed % faults)];
     Parameters<double> told = GetParam().robot(), robot = told;
-    const int leg = seed / static_cast<int>(std::size(kFaults)) % told.robot->legs;
+    const int leg = seed / faults % told.robot->legs;
     std::string cause = fault.cause;
     if (const auto at = cause.find('%'); at != cause.npos)
       cause.replace(at, 1, std::to_string(leg + 1));

@@ -8,8 +8,8 @@
 #include "tests/support/robot_requests.h"
 #include "tests/support/tolerances.h"
 
-// What the file of a robot says of its motors and legs and what may be otherwise: M107 to M109, and
-// the mass of its legs (M82).
+// What the file of a robot says of its motors, their clock and its legs, and what may be otherwise:
+// M107 to M111, and the mass of its legs (M82).
 
 namespace hoplab {
 namespace {
@@ -32,10 +32,15 @@ struct Stated {
   void (*state)(RobotParameters<double>& robot);
 };
 
+SimulationRequest Drop(const std::string& effect, unsigned seed, double horizon) {
+  return effect.starts_with("gait_") ? WalkingDrop(horizon)
+                                     : RandomRobotDrop(SomeRobot(), seed, horizon);
+}
+
 class RobotStatedValues : public ::testing::TestWithParam<Stated> {};
 
 TEST_P(RobotStatedValues, AreARobotThatIsStatedSo) {
-  SimulationRequest q = RandomRobotDrop(SomeRobot(), 3, 0.3);
+  SimulationRequest q = Drop(GetParam().effect, 3, 0.3);
   const Trajectory plain = Simulate(q);
   const std::array effects = {EffectOf(GetParam().effect, GetParam().size)};
   q.effects = effects;
@@ -54,7 +59,7 @@ TEST_P(RobotStatedValues, AreARobotThatIsStatedSo) {
 TEST_P(RobotStatedValues, HaveTheDerivativesOfDifferences) {
   for (const double size : {0.0, GetParam().size}) {
     const std::array effects = {EffectOf(GetParam().effect, size)};
-    SimulationRequest q = RandomRobotDrop(SomeRobot(), 2, 0.2);
+    SimulationRequest q = Drop(GetParam().effect, 2, 0.2);
     q.effects = effects;
     q.integrator.relative_tolerance = kOracleRelative;
     q.integrator.absolute_tolerance = kOracleAbsolute;
@@ -70,8 +75,18 @@ INSTANTIATE_TEST_SUITE_P(
         Stated{"motor_kp_scale", -0.25, [](RobotParameters<double>& r) { r.motor_kp *= 0.75; }},
         Stated{"motor_kd_scale", 0.4, [](RobotParameters<double>& r) { r.motor_kd *= 1.4; }},
         Stated{"torque_limit_loss", 0.2, [](RobotParameters<double>& r) { r.torque_limit *= 0.8; }},
-        Stated{"swinging_leg_mass", -0.012,
-               [](RobotParameters<double>& r) { r.leg_mass = 0.008; }}),
+        Stated{"swinging_leg_mass", -0.012, [](RobotParameters<double>& r) { r.leg_mass = 0.008; }},
+        Stated{"hub_clamp", 0.004, [](RobotParameters<double>& r) { r.clamp = 0.004; }},
+        Stated{"gait_period_scale", 0.05, [](RobotParameters<double>& r) { r.period *= 1.05; }},
+        Stated{"gait_duty_shift", -0.03, [](RobotParameters<double>& r) { r.duty -= 0.03; }},
+        Stated{"gait_sweep_scale", 0.1, [](RobotParameters<double>& r) { r.sweep *= 1.1; }},
+        Stated{"gait_offset_shift", 0.04, [](RobotParameters<double>& r) { r.offset += 0.04; }},
+        Stated{"gait_phase_shift", 0.02,
+               [](RobotParameters<double>& r) {
+                 for (double& phase : r.phase) phase += 0.02;
+               }},
+        Stated{"gait_phase_shift_2", -0.03,
+               [](RobotParameters<double>& r) { r.phase[1] -= 0.03; }}),
     [](const auto& info) { return std::string(info.param.effect); });
 
 }  // namespace

@@ -67,6 +67,14 @@ inline SimulationRequest RobotDrop(const Parameters<double>& p, std::vector<doub
   return q;
 }
 
+/// A drop of one that walks; none of its legs begins where the clock's pieces meet, and no two of
+/// them come to that at once.
+inline SimulationRequest WalkingDrop(double horizon) {
+  Parameters<double> p = Walking();
+  p.robot->phase = {0.1, 0.65, 0.15};
+  return RobotDrop(p, {0.0, 0.2, 0.4, 0.0, 0.02, 0.1}, horizon);
+}
+
 /// Another drop with each seed: heights, speeds, pitch and angles of the motors.
 inline SimulationRequest RandomRobotDrop(Parameters<double> p, unsigned seed, double horizon) {
   std::mt19937 random(seed);

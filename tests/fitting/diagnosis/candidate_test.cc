@@ -83,6 +83,24 @@ TEST(Candidates, OfARobotOnOneLegAreNotNamedTwice) {
   EXPECT_EQ(count(2, "leg_stiffness"), 2);
 }
 
+// Motors that are held have no clock that could be wrong.
+TEST(Candidates, OfARobotHoldAClockWhereItHasOne) {
+  FitProblem robot;
+  robot.law = Law::kRobot;
+  robot.trials.resize(1);
+  robot.trials[0].parameters.robot = RobotParameters<double>();
+  robot.trials[0].parameters.robot->legs = 2;
+  const auto of_clocks = [&](const CandidateOptions& options) {
+    const std::vector<std::string> names = NamesOf(CandidatesOf(robot, options));
+    return std::count_if(names.begin(), names.end(),
+                         [](const std::string& name) { return name.starts_with("gait_"); });
+  };
+  EXPECT_EQ(of_clocks({}), 0);
+  EXPECT_EQ(of_clocks({.only = {"gait_duty_shift"}}), 1);
+  robot.trials[0].parameters.robot->control = MotorControl::kClock;
+  EXPECT_EQ(of_clocks({}), 7);  // period, duty, sweep, offset; phase of all, of one, of the other
+}
+
 TEST(Candidates, DoNotDependOnTheOrderInWhichTheyAreNamed) {
   const CandidateOptions options{.only = {"touchdown_loss", "air_drag"}};
   EXPECT_EQ(NamesOf(CandidatesOf(Problem(), options)),

@@ -1,0 +1,5 @@
+#include "model/effects/robot_leg.h"
+
+namespace hoplab::effects {
+extern constexpr Effect gait_phase_shift_1 = MakeEffect<effect_detail::GaitPhaseShift<1>>();
+}
