@@ -1,11 +1,13 @@
 #include "experiments/identification/identification.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <mutex>
+#include <span>
+#include <utility>
 
-#include "base/parallel.h"
 #include "experiments/identification/findings.h"
+#include "experiments/identification/fit_ranking.h"
 
 namespace hoplab {
 namespace {
@@ -18,21 +20,19 @@ constexpr double kNearbyShare = 0.5, kTablesShare = 0.1, kRefineShare = 0.2, kFr
 // A leg with a toe mass vibrates: its runs take thirty times as long. Of the evaluations over
 // steady hops of such a leg, those over all tables.
 constexpr double kToeShare = 0.08, kToeTables = 0.25;
-constexpr int kEnergyMost = 300;  // evaluations: table 6.5 has no more to say
+// A search by one reading of the times, how many of these are tried of a reading of the law, and
+// how many of what they find are polished.
+constexpr double kTimesShare = 0.15;
+constexpr int kLikelyTimes = 4, kPolishedTimes = 3;
+constexpr int kEnergyMost = 300;    // evaluations: table 6.5 has no more to say
+constexpr int kToeEnergyTimes = 4;  // with a mass at the toe, one constant more and vibrating
 // Half-width of a search about the best of another reading, in logarithms.
 constexpr double kNearby = 0.3;
 constexpr double kToeBox = 0.6;  // of the other constants once there is a toe mass
 constexpr double kFirstToeMass = 0.01, kFirstRate = 30.0, kFirstDamping = 0.5;
 constexpr double kEmphasis = 10.0;
-
-// NaN last, so that what a stop cut short does not lead.
-bool IsBetter(double a, double b) { return std::isnan(b) ? !std::isnan(a) : a < b; }
-
-void SortByMisfit(Fits& fits) {
-  std::stable_sort(fits.begin(), fits.end(), [](const StudyFit& a, const StudyFit& b) {
-    return IsBetter(a.misfit, b.misfit);
-  });
-}
+constexpr std::array kBothSigns = {ThesisReading::TorqueSign::kNormal,
+                                   ThesisReading::TorqueSign::kPrinted};
 
 class Identifier {
  public:
@@ -43,6 +43,7 @@ class Identifier {
     FitEnergy();
     FitSteady();
     FitTables();
+    FitTimes();
     FitToeMass();
     Refine();
     SortByMisfit(all_);
@@ -126,8 +127,7 @@ class Identifier {
     return units;
   }
   static void AddWithBothSigns(const StudyUnit& unit, Units& units) {
-    for (const auto sign :
-         {ThesisReading::TorqueSign::kNormal, ThesisReading::TorqueSign::kPrinted}) {
+    for (const auto sign : kBothSigns) {
       units.push_back(unit);
       units.back().reading.law.torque_sign = sign;
     }
@@ -148,7 +148,7 @@ class Identifier {
       return;
     }
     Units units;
-    for (const StudyFit& fit : Best(result_.by_steady, request_.keep)) {
+    for (const StudyFit& fit : BestReadings(result_.by_steady, request_.keep)) {
       StudyUnit unit = UnitOf(StudyUnit::Runs::kTables, fit.reading, kTablesShare);
       unit.constants = fit.constants;
       units.push_back(unit);
@@ -157,12 +157,68 @@ class Identifier {
     SortByMisfit(all_);
   }
 
+  // The best readings of the law by each reading of the times in turn, within all bounds of
+  // what 6.5 does not tell: a search that may take any reading stays with the one that fits where
+  // it begins, and a linear map tells slow times badly.
+  void FitTimes() {
+    if (!HasTables()) return;
+    Units units;
+    for (const StudyFit& fit : BestReadings(all_, request_.refine))
+      AddByTimes(fit, std::array{fit.reading.law.torque_sign}, units);
+    for (const StudyFit& fit : Best(result_.by_energy, request_.refine))
+      AddByTimes(fit, kBothSigns, units);
+    Fits found = Fit("readings of the times", units);
+    SortByMisfit(found);
+    units.clear();
+    for (const StudyFit& fit : Best(found, kPolishedTimes)) {
+      if (std::isnan(fit.misfit)) continue;
+      units.push_back(From(fit, kTablesShare));
+      units.back().times = fit.parts.reading;
+    }
+    const Fits polished = Fit("readings of the times, polished", units);
+    all_.insert(all_.end(), polished.begin(), polished.end());
+    SortByMisfit(all_);
+  }
+  void AddByTimes(const StudyFit& fit, std::span<const ThesisReading::TorqueSign> signs,
+                  Units& units) const {
+    if (std::isnan(fit.misfit)) return;
+    StudyUnit unit = UnitOf(StudyUnit::Runs::kTables, fit.reading, kTimesShare);
+    unit.constants = fit.constants;
+    unit.box = kWholeBox;
+    std::erase_if(unit.free, IsInEnergy);
+    if (unit.free.empty()) return;
+    for (const auto sign : signs) {
+      unit.reading.law.torque_sign = sign;
+      for (const int times : LikelyTimes(unit)) {
+        unit.times = times;
+        units.push_back(unit);
+      }
+    }
+  }
+  // The readings of the times that come closest where a unit begins.
+  std::vector<int> LikelyTimes(const StudyUnit& unit) const {
+    const UnitContext& context = request_.context;
+    std::vector<std::pair<double, int>> by_misfit;
+    const StudyHopper hopper{unit.reading, unit.constants, context.integrator};
+    const StudyRuns runs = RunTables(hopper, context.data, WantsOf(context.convergence));
+    for (int i = 0; i < std::ssize(context.convergence); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      by_misfit.emplace_back(MisfitOf(runs, context.data, {context.convergence[at]}).Total(), i);
+    }
+    std::sort(by_misfit.begin(), by_misfit.end());
+    std::vector<int> likely;
+    for (const auto& [misfit, i] : by_misfit) {
+      if (std::ssize(likely) < kLikelyTimes) likely.push_back(i);
+    }
+    return likely;
+  }
+
   // The best readings again with a toe mass, by a part of the runs: from the constants and the toe
   // mass that 6.5 finds, and in a box about the best without one; then by all runs.
   void FitToeMass() {
     if (request_.toe_free.empty() || !HasTables()) return;
     Units units = ToeUnitsFromEnergy();
-    for (const StudyFit& fit : BestReadings(all_, request_.keep_toe)) {
+    for (const StudyFit& fit : BestLaws(all_, request_.keep_toe)) {
       units.push_back(ToeUnit(fit));
       units.back().box = kToeBox;
       if (request_.toe_budget == 0) continue;
@@ -186,7 +242,7 @@ class Identifier {
   Units ToeUnitsFromEnergy() {
     constexpr int kReadings = 4;  // times those that go on
     Units units;
-    for (const StudyFit& fit : BestReadings(result_.by_steady, kReadings * request_.keep_toe)) {
+    for (const StudyFit& fit : BestLaws(result_.by_steady, kReadings * request_.keep_toe)) {
       StudyUnit unit = ToeUnit(fit);
       unit.runs = StudyUnit::Runs::kEnergy;
       unit.weights = kEnergyAlone;
@@ -195,6 +251,7 @@ class Identifier {
                c == StudyConstant::kPlacementDamping;
       });
       unit.box = kWholeBox;
+      unit.budget = std::max(unit.budget, kEnergyMost * kToeEnergyTimes);
       units.push_back(unit);
     }
     if (request_.context.data.energy.empty()) return {};
@@ -272,22 +329,6 @@ class Identifier {
     return unit;
   }
 
-  static Fits Best(const Fits& fits, int count) {
-    const auto kept = std::min(std::ssize(fits), static_cast<std::ptrdiff_t>(count));
-    return {fits.begin(), fits.begin() + kept};
-  }
-  // The best fit of each of the best readings that a toe mass goes with.
-  static Fits BestReadings(const Fits& fits, int count) {
-    Fits best;
-    for (const StudyFit& fit : fits) {
-      const bool is_known = std::any_of(best.begin(), best.end(), [&](const StudyFit& other) {
-        return other.reading.law == fit.reading.law;
-      });
-      if (!is_known && std::ssize(best) < count && !std::isnan(fit.misfit)) best.push_back(fit);
-    }
-    return best;
-  }
-
   void Score() {
     if (!result_.by_energy.empty())
       result_.best_by_energy = Scored(result_.by_energy.front(), request_.context);
@@ -301,34 +342,6 @@ class Identifier {
 };
 
 }  // namespace
-
-FitUnits ThreadedFits::On(const UnitContext& context) const {
-  return [&context, *this](const std::string& stage, const Units& units) {
-    Fits fits(units.size());
-    std::mutex mutex;
-    int done = 0;
-    ParallelFor(static_cast<int>(units.size()), jobs, [&](int i) {
-      const auto at = static_cast<std::size_t>(i);
-      fits[at] = FitUnit(context, units[at]);
-      if (!progress) return;
-      const std::lock_guard lock(mutex);
-      progress(stage, ++done, static_cast<int>(units.size()));
-    });
-    return fits;
-  };
-}
-
-ScoredFit Scored(const StudyFit& fit, const UnitContext& context) {
-  ScoredFit scored{fit, {}, {}};
-  scored.scores.modulus_trend = scored.scores.convergence_rms = std::nan("");
-  if (std::isnan(fit.misfit)) return scored;
-  if (!context.convergence.empty())
-    scored.convergence = context.convergence[static_cast<std::size_t>(fit.parts.reading)];
-  const StudyRuns runs = RunTables({fit.reading, fit.constants, context.integrator}, context.data,
-                                   WantsOf({scored.convergence}));
-  scored.scores = ScoresOf(runs, context.data, scored.convergence);
-  return scored;
-}
 
 IdentificationResult Identify(const IdentificationRequest& request, const FitUnits& fit_units) {
   return Identifier(request, fit_units).Run();

@@ -14,9 +14,10 @@ namespace {
 class UnitProblem {
  public:
   UnitProblem(const UnitContext& context, const StudyUnit& unit)
-      : context_(context), unit_(unit), steady_(context) {
+      : context_(context), unit_(unit), own_(context) {
     const bool has_toe = At(unit.constants, StudyConstant::kToeMass) > 0.0;
-    if (unit.runs == StudyUnit::Runs::kSteady) steady_.data = SteadyData(context.data, has_toe);
+    if (unit.runs == StudyUnit::Runs::kSteady) own_.data = SteadyData(context.data, has_toe);
+    if (unit.times) own_.convergence = {context.convergence[static_cast<std::size_t>(*unit.times)]};
     for (const StudyConstant c : unit.free) {
       const double at = std::log(At(unit.constants, c));
       low_.push_back(std::max(std::log(InfoOf(c).low), at - Reach()));
@@ -95,10 +96,9 @@ class UnitProblem {
       return std::vector<double>(context_.data.energy.size());
     const std::vector<ConvergenceReading> readings = ReadingOf(fit);
     const StudyRuns runs = unit_.runs == StudyUnit::Runs::kSteady
-                               ? RunSteady(hopper, steady_.data, WantsOf(readings))
-                               : RunTables(hopper, context_.data, WantsOf(readings));
-    const StudyData& data = unit_.runs == StudyUnit::Runs::kSteady ? steady_.data : context_.data;
-    return ResidualsOf(runs, data, readings.empty() ? ConvergenceReading() : readings[0],
+                               ? RunSteady(hopper, own_.data, WantsOf(readings))
+                               : RunTables(hopper, own_.data, WantsOf(readings));
+    return ResidualsOf(runs, own_.data, readings.empty() ? ConvergenceReading() : readings[0],
                        unit_.weights);
   }
   std::vector<ConvergenceReading> ReadingOf(const StudyFit& fit) const {
@@ -125,17 +125,18 @@ class UnitProblem {
     return r.allFinite();
   }
   StudyMisfit Cost(const StudyHopper& hopper) const {
-    return MisfitOf(hopper, steady_, unit_.runs, unit_.weights);
+    return MisfitOf(hopper, own_, unit_.runs, unit_.weights);
   }
   void Take(const StudyHopper& hopper, StudyFit& fit) const {
     fit.constants = hopper.constants;
     fit.parts = Cost(hopper);
+    if (unit_.times) fit.parts.reading = *unit_.times;
     fit.misfit = fit.parts.Total(unit_.weights);
   }
 
   const UnitContext& context_;
   const StudyUnit& unit_;
-  UnitContext steady_;  // with the data its runs take
+  UnitContext own_;  // with the data its runs take, and the readings of the times it tries
   std::vector<double> low_, high_, start_;
 };
 

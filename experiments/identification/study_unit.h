@@ -26,6 +26,8 @@ struct StudyUnit {
   double box = 0.0;
   std::uint64_t seed = 1;
   int budget = 600;  // evaluations; what is found is polished by no more than as many
+  /// Place of the one reading of the times that it is measured by; none: by the best of all.
+  std::optional<int> times = std::nullopt;
   bool operator==(const StudyUnit&) const = default;
 };
 /// A box that holds all of the bounds.

@@ -90,6 +90,7 @@ std::string TextOf(const StudyUnit& unit) {
   out.Add(unit.box);
   out.Add(unit.seed);
   out.Add(unit.budget);
+  if (unit.times) out.Add(*unit.times);
   return out.text();
 }
 
@@ -113,6 +114,7 @@ std::optional<StudyUnit> UnitOfText(std::string_view text) {
   in.Get(unit.box);
   in.Get(unit.seed);
   in.Get(unit.budget);
+  if (!in.done()) in.Get(unit.times.emplace());
   if (in.failed() || !in.done()) return std::nullopt;
   return unit;
 }

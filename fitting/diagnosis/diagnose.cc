@@ -67,6 +67,10 @@ class StageByStage {
                             std::to_string(late.max_effects) +
                             " causes together are told of the whole trials");
     if (whole.interrupted) return CutShort(std::move(last), std::move(whole));
+    if (nothing_early && !whole.refusal.empty()) {
+      last->notes.push_back("the whole trials have no verdict of their own: " + whole.refusal);
+      return std::move(*last);
+    }
     const bool keeps_last = !whole.refusal.empty() || IsLessSure(whole, last);
     if (last && NamesSomething(*last) && keeps_last)
       return WithWholeTrials(std::move(*last), whole_, options_);

@@ -38,7 +38,10 @@ UnitContext ContextFor(const StudyHopper& truth) {
 
 TEST(StudyUnit, ReadsBackFromItsText) {
   EXPECT_EQ(UnitOfText(TextOf(SomeUnit())), SomeUnit());
-  EXPECT_FALSE(UnitOfText(TextOf(SomeUnit()) + " 1").has_value());
+  StudyUnit by_one_reading = SomeUnit();
+  by_one_reading.times = 3;
+  EXPECT_EQ(UnitOfText(TextOf(by_one_reading)), by_one_reading);
+  EXPECT_FALSE(UnitOfText(TextOf(by_one_reading) + " 1").has_value());
   EXPECT_FALSE(UnitOfText(TextOf(SomeUnit()).substr(4)).has_value());
   EXPECT_FALSE(UnitOfText("").has_value());
 }

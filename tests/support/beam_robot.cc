@@ -215,7 +215,9 @@ void DescribeRobot(const Parameters<double>& p, bool compares_torque, std::ostre
   yaml << "trials:\n";
 }
 
-std::string ControllerText(const RobotParameters<double>& robot, const Run& run) {
+// What is told of the controller of a run of robot `p`.
+std::string ControllerText(const RobotParameters<double>& p, const RobotParameters<double>& robot,
+                           const Run& run) {
   const auto list = [&](const std::array<double, kMaxLegs>& values) {
     std::string text;
     for (int k = 0; k < robot.legs; ++k)
@@ -226,7 +228,8 @@ std::string ControllerText(const RobotParameters<double>& robot, const Run& run)
     return fmt::format("{{type: held, angles_rad: [{}]}}", list(run.angle));
   return fmt::format(
       "{{type: clock, period_s: {}, duty: {}, sweep_rad: {}, offset_rad: {}, phases: [{}]}}",
-      run.period, robot.duty, run.sweep, robot.offset, list(robot.phase));
+      run.period * (robot.period / p.period), robot.duty, run.sweep * (robot.sweep / p.sweep),
+      robot.offset, list(robot.phase));
 }
 
 }  // namespace
@@ -262,8 +265,8 @@ void RecordRobot(const Parameters<double>& p, const Parameters<double>& told, in
         "pitch_rad: {:.5f}, pitch_rate_rad_per_s: {:.4f}}}\n"
         "    initial_sigma: {{x_m: 0.002, y_m: 0.002, vx_m_per_s: 0.02, vy_m_per_s: 0.02, "
         "pitch_rad: 0.005, pitch_rate_rad_per_s: 0.05}}\n",
-        name, role, ControllerText(*p.robot, run), start[0], start[1], start[2], start[3], start[4],
-        start[5]);
+        name, role, ControllerText(*p.robot, *told.robot, run), start[0], start[1], start[2],
+        start[3], start[4], start[5]);
   }
 }
 
