@@ -106,6 +106,8 @@ std::optional<EffectParameter> KnownCauses::Open(const Effect& effect, int param
   EffectParameter p = effect.info.parameters[static_cast<std::size_t>(parameter)];
   if (effect.formula == nullptr) p.typical *= std::pow(stated_.m, MassPower(p.unit));
   if (p.adds_to && stated_.robot) p.lower -= kMostTaken * Field(stated_, *p.adds_to);
+  // A file states 2 r at most, of an arc of pi r.
+  if (p.adds_to == ParameterId::kClamp) p.upper = std::min(p.upper, 0.5 * stated_.r);
   const KnownParameter* known = Find(effect, parameter);
   if (known == nullptr) return p;
   if (known->at_most == 0.0) return std::nullopt;

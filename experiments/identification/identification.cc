@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <utility>
 
 #include "experiments/identification/findings.h"
 #include "experiments/identification/fit_ranking.h"
@@ -157,23 +156,25 @@ class Identifier {
     SortByMisfit(all_);
   }
 
-  // The best readings of the law by each reading of the times in turn, within all bounds of
-  // what 6.5 does not tell: a search that may take any reading stays with the one that fits where
-  // it begins, and a linear map tells slow times badly.
+  // The best readings of the law, and those that do best on 6.5, by each of the likely readings of
+  // the times, within all bounds of what 6.5 does not tell: a search that may take any reading
+  // stays with the one that fits where it begins, and a linear map tells slow times badly.
   void FitTimes() {
-    if (!HasTables()) return;
+    if (!HasTables() || all_.empty() || result_.by_energy.empty()) return;
     Units units;
     for (const StudyFit& fit : BestReadings(all_, request_.refine))
       AddByTimes(fit, std::array{fit.reading.law.torque_sign}, units);
-    for (const StudyFit& fit : Best(result_.by_energy, request_.refine))
+    for (StudyFit fit : Best(result_.by_energy, request_.refine)) {
+      for (const StudyConstant c : request_.free)
+        if (!IsInEnergy(c)) At(fit.constants, c) = At(all_.front().constants, c);
       AddByTimes(fit, kBothSigns, units);
+    }
     Fits found = Fit("readings of the times", units);
     SortByMisfit(found);
     units.clear();
     for (const StudyFit& fit : Best(found, kPolishedTimes)) {
       if (std::isnan(fit.misfit)) continue;
       units.push_back(From(fit, kTablesShare));
-      units.back().times = fit.parts.reading;
     }
     const Fits polished = Fit("readings of the times, polished", units);
     all_.insert(all_.end(), polished.begin(), polished.end());
@@ -181,7 +182,8 @@ class Identifier {
   }
   void AddByTimes(const StudyFit& fit, std::span<const ThesisReading::TorqueSign> signs,
                   Units& units) const {
-    if (std::isnan(fit.misfit)) return;
+    const bool stopped = request_.context.stop && *request_.context.stop;
+    if (std::isnan(fit.misfit) || stopped) return;
     StudyUnit unit = UnitOf(StudyUnit::Runs::kTables, fit.reading, kTimesShare);
     unit.constants = fit.constants;
     unit.box = kWholeBox;
@@ -189,30 +191,12 @@ class Identifier {
     if (unit.free.empty()) return;
     for (const auto sign : signs) {
       unit.reading.law.torque_sign = sign;
-      for (const int times : LikelyTimes(unit)) {
+      for (const int times : LikelyTimes(request_.context, unit, kLikelyTimes)) {
         unit.times = times;
         units.push_back(unit);
       }
     }
   }
-  // The readings of the times that come closest where a unit begins.
-  std::vector<int> LikelyTimes(const StudyUnit& unit) const {
-    const UnitContext& context = request_.context;
-    std::vector<std::pair<double, int>> by_misfit;
-    const StudyHopper hopper{unit.reading, unit.constants, context.integrator};
-    const StudyRuns runs = RunTables(hopper, context.data, WantsOf(context.convergence));
-    for (int i = 0; i < std::ssize(context.convergence); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      by_misfit.emplace_back(MisfitOf(runs, context.data, {context.convergence[at]}).Total(), i);
-    }
-    std::sort(by_misfit.begin(), by_misfit.end());
-    std::vector<int> likely;
-    for (const auto& [misfit, i] : by_misfit) {
-      if (std::ssize(likely) < kLikelyTimes) likely.push_back(i);
-    }
-    return likely;
-  }
-
   // The best readings again with a toe mass, by a part of the runs: from the constants and the toe
   // mass that 6.5 finds, and in a box about the best without one; then by all runs.
   void FitToeMass() {
@@ -251,7 +235,7 @@ class Identifier {
                c == StudyConstant::kPlacementDamping;
       });
       unit.box = kWholeBox;
-      unit.budget = std::max(unit.budget, kEnergyMost * kToeEnergyTimes);
+      unit.budget = std::min(request_.budget, kEnergyMost * kToeEnergyTimes);
       units.push_back(unit);
     }
     if (request_.context.data.energy.empty()) return {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "experiments/identification/study_residuals.h"
 #include "fitting/least_squares.h"
@@ -153,6 +154,21 @@ StudyMisfit MisfitOf(const StudyHopper& hopper, const UnitContext& context, Stud
   const StudyRuns made = runs == StudyUnit::Runs::kSteady ? RunSteady(hopper, context.data, wants)
                                                           : RunTables(hopper, context.data, wants);
   return MisfitOf(made, context.data, context.convergence, weights);
+}
+
+std::vector<int> LikelyTimes(const UnitContext& context, const StudyUnit& unit, int most) {
+  const StudyHopper hopper{unit.reading, unit.constants, context.integrator};
+  const StudyRuns runs = RunTables(hopper, context.data, WantsOf(context.convergence));
+  std::vector<std::pair<double, int>> by_misfit;
+  for (int i = 0; i < std::ssize(context.convergence); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    by_misfit.emplace_back(MisfitOf(runs, context.data, {context.convergence[at]}).Total(), i);
+  }
+  std::sort(by_misfit.begin(), by_misfit.end());
+  std::vector<int> likely;
+  for (const auto& [misfit, place] : by_misfit)
+    if (std::ssize(likely) < most) likely.push_back(place);
+  return likely;
 }
 
 StudyFit FitUnit(const UnitContext& context, const StudyUnit& unit) {

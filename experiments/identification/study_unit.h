@@ -58,6 +58,10 @@ StudyFit FitUnit(const UnitContext& context, const StudyUnit& unit);
 StudyMisfit MisfitOf(const StudyHopper& hopper, const UnitContext& context, StudyUnit::Runs runs,
                      const StudyWeights& weights);
 
+/// Places of the readings of the times that come closest where the unit begins, `most` at most: by
+/// one set of tables.
+std::vector<int> LikelyTimes(const UnitContext& context, const StudyUnit& unit, int most);
+
 // Text that reads back bit for bit, one line without its end: what ranks send each other and what a
 // journal holds.
 std::string TextOf(const StudyUnit& unit);

@@ -114,7 +114,10 @@ std::optional<StudyUnit> UnitOfText(std::string_view text) {
   in.Get(unit.box);
   in.Get(unit.seed);
   in.Get(unit.budget);
-  if (!in.done()) in.Get(unit.times.emplace());
+  if (!in.done()) {
+    in.Get(unit.times.emplace());
+    in.Require(*unit.times >= 0);
+  }
   if (in.failed() || !in.done()) return std::nullopt;
   return unit;
 }

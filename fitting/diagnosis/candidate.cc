@@ -80,8 +80,10 @@ bool HasNoClock(const FitProblem& problem, const Effect& effect) {
          });
 }
 
-// The problem has nothing that the effect could change.
+// The problem has nothing that an effect of the catalogue could change. A formula may have any
+// name.
 bool HasNothingOf(const FitProblem& problem, const Effect& effect) {
+  if (effect.formula != nullptr) return false;
   return HasNoGuide(problem, effect) || HasNoTorqueLimit(problem, effect) ||
          HasNoClock(problem, effect);
 }

@@ -36,7 +36,8 @@ class StageByStage {
 
   // Longer and longer parts, as long as something is seen that has no sure name and longer ones
   // make it surer, each beginning with what the last one found; where nothing is seen, the whole
-  // trials. Where no simulation follows the first one, shorter ones first.
+  // trials; where these cannot be judged and fit, what the first ones said stays. Where no
+  // simulation follows the first one, shorter ones first.
   Diagnosis Run() {
     std::optional<Diagnosis> last;
     for (Parts parts(whole_); parts.IsLeft();) {
@@ -61,13 +62,14 @@ class StageByStage {
     DiagnosisOptions late = options_;
     const bool nothing_early = last && last->verdict == Verdict::kAdequate;
     if (nothing_early) late.max_effects = std::min(late.max_effects, kMostLateOnes);
+    const bool far_off = IsFarOff(WholeNull());
     Diagnosis whole = DiagnoseFitted(std::move(WholeNull()), late, FoundIn(last, whole_));
     if (late.max_effects < options_.max_effects && whole.extension)
       whole.notes.push_back("nothing is seen in the first stances, so no more than " +
                             std::to_string(late.max_effects) +
                             " causes together are told of the whole trials");
     if (whole.interrupted) return CutShort(std::move(last), std::move(whole));
-    if (nothing_early && !whole.refusal.empty()) {
+    if (nothing_early && !whole.refusal.empty() && !far_off) {
       last->notes.push_back("the whole trials have no verdict of their own: " + whole.refusal);
       return std::move(*last);
     }
@@ -79,6 +81,14 @@ class StageByStage {
 
  private:
   bool Stopped() const { return options_.fit.IsStopped(); }
+  // What is left of the whole trials is no detail.
+  static bool IsFarOff(const DatasetFit& null) {
+    constexpr double kFarOff = 1.5;  // squares of the noise, a sample
+    long samples = 0;
+    for (const TrialProblem& t : null.problem.trials)
+      samples += t.role == TrialRole::kTrain ? t.sample_count : 0;
+    return !(2.0 * null.result.cost <= kFarOff * static_cast<double>(samples));
+  }
   // A verdict stays where somebody waits for no longer parts; that nothing is seen in the first
   // stances is none.
   static Diagnosis CutShort(std::optional<Diagnosis> last, Diagnosis interrupted) {

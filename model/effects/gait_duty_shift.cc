@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "model/effects/effect.h"
@@ -11,7 +12,7 @@ struct GaitDutyShift {
   static constexpr EffectInfo kInfo = {
       .name = "gait_duty_shift",
       .kind = EffectKind::kParameter,
-      .equation = "duty + shift in M76, kept within 0.02 and 0.98 (M110)",
+      .equation = "duty + shift in M76, no nearer to 0 and 1 than 0.02 or the stated duty (M110)",
       .sentence =
           "the slow part of every turn of the robot's clock is another share of it than stated",
       .for_legs = false,
@@ -23,9 +24,11 @@ struct GaitDutyShift {
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
     T& duty = parameters.robot->duty;
+    const double least = std::min(kLeast, Value(duty));
+    const double most = std::max(1.0 - kLeast, Value(duty));
     duty += p[0];
-    if (Value(duty) < kLeast) duty = T(kLeast);
-    if (Value(duty) > 1.0 - kLeast) duty = T(1.0 - kLeast);
+    if (Value(duty) < least) duty = T(least);
+    if (Value(duty) > most) duty = T(most);
   }
 };
 

@@ -6,7 +6,7 @@ namespace hoplab {
 namespace {
 
 struct GaitSweepScale {
-  static constexpr std::array kParameters = {EffectParameter{"gamma", "-", 0.0, -0.5, 1.0, 0.05}};
+  static constexpr std::array kParameters = {EffectParameter{"gamma", "-", 0.0, -0.5, 0.5, 0.05}};
   static constexpr EffectInfo kInfo = {
       .name = "gait_sweep_scale",
       .kind = EffectKind::kParameter,

@@ -84,6 +84,26 @@ TEST(StudyUnit, IsFoundAgainFromNearby) {
   EXPECT_EQ(TextOf(FitUnit(context, unit)), TextOf(fit));
 }
 
+// The truth's reading fits its tables, another one does not, and a fit says which it took.
+TEST(StudyUnit, IsMeasuredByTheReadingOfTheTimesThatItNames) {
+  const StudyHopper truth = SomeHopper();
+  UnitContext context = ContextFor(truth);
+  context.convergence.push_back({ConvergenceReading::Speed::kHopMean});
+  StudyUnit unit;
+  unit.reading = truth.reading;
+  unit.constants = truth.constants;
+  unit.free = {C::kGain};
+  unit.budget = 20;
+  EXPECT_EQ(LikelyTimes(context, unit, 2), (std::vector<int>{0, 1}));
+  EXPECT_EQ(LikelyTimes(context, unit, 1), (std::vector<int>{0}));
+  const StudyFit any = FitUnit(context, unit);
+  unit.times = 1;
+  const StudyFit other = FitUnit(context, unit);
+  EXPECT_EQ(any.parts.reading, 0);
+  EXPECT_EQ(other.parts.reading, 1);
+  EXPECT_GT(other.misfit, 2.0 * any.misfit);
+}
+
 TEST(StudyUnit, EveryPartOfAMisfitHasItsTables) {
   const StudyHopper truth = SomeHopper();
   UnitContext context;

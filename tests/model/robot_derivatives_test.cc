@@ -32,9 +32,8 @@ TEST(Robot, EffectsHaveTheDerivativesOfDifferences) {
   const SimulationRequest held = RobotDrop(p, {0.0, 0.2, 0.3, -0.2, 0.03, 0.2}, 0.14);
   int columns = 0;
   for (const Effect* effect : AllEffects()) {
-    if (!AppliesTo(*effect, Law::kRobot, LegMass::kNone, 0, 2)) continue;
     const bool of_clock = effect->info.name.starts_with("gait_");
-    if (effect->info.robot_leg > (of_clock ? 3 : 2)) continue;
+    if (!AppliesTo(*effect, Law::kRobot, LegMass::kNone, 0, of_clock ? 3 : 2)) continue;
     SimulationRequest q = of_clock ? WalkingDrop(0.14) : held;
     // Teeth hardly move the events: differences of their times see the steps of a coarser run.
     q.integrator.relative_tolerance = 1e-12;

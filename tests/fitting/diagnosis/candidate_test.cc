@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tests/support/diagnosed_hops.h"
+#include "tests/support/formulas.h"
 #include "tests/support/input_error_of.h"
 
 namespace hoplab {
@@ -99,6 +100,19 @@ TEST(Candidates, OfARobotHoldAClockWhereItHasOne) {
   EXPECT_EQ(of_clocks({.only = {"gait_duty_shift"}}), 1);
   robot.trials[0].parameters.robot->control = MotorControl::kClock;
   EXPECT_EQ(of_clocks({}), 7);  // period, duty, sweep, offset; phase of all, of one, of the other
+}
+
+// What a formula is called says nothing of what it needs.
+TEST(Candidates, HoldAFormulaByWhateverName) {
+  for (const char* name : {"gait_cable", "guide_cable"}) {
+    const FormulaSource source =
+        testing::Source("body_force_along", "-c * speed^2",
+                        {testing::Factor("c", "N s^2/m^2", 0.0, 10.0, 0.02)}, name);
+    FitProblem problem = Problem();
+    problem.formulas = {&FormulaEffect(source)};
+    const std::vector<std::string> names = NamesOf(CandidatesOf(problem, {}));
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  }
 }
 
 TEST(Candidates, DoNotDependOnTheOrderInWhichTheyAreNamed) {

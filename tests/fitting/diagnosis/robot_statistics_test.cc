@@ -48,6 +48,7 @@ const Fault kFaults[] = {
     {"motors a fifth less stiff", "motor_kp_scale", "gamma", -0.2},
     {"motors damped by three tenths less", "motor_kd_scale", "gamma", -0.3},
     {"motors that give 6 N m at most, not 15", "torque_limit_loss", "loss", 0.6},
+    {"hubs that hold 3 mm more of the legs", "hub_clamp", "length", 0.003},
     {"x read 3 % too large", "sensor_scale_x", "gain", 0.03},
     {"y read 1 % too large", "sensor_scale_y", "gain", 0.01},
     {"a clock 0.5 % fast", "clock_scale", "gamma_t", 0.005},
