@@ -40,7 +40,7 @@ int MassPower(std::string_view unit) {
   return unit.find('/') < place ? -1 : 1;
 }
 
-constexpr double kMostTaken = 0.9;  // of a stated value that an effect adds to
+constexpr double kTenths = 9.0;  // that may be taken of a stated value that an effect adds to
 
 // Gravity at sea level goes from 9.780 to 9.832 m/s^2, on high ground down to 9.764: within half a
 // per cent of 9.81.
@@ -105,9 +105,11 @@ const KnownParameter* KnownCauses::Find(const Effect& effect, int parameter) con
 std::optional<EffectParameter> KnownCauses::Open(const Effect& effect, int parameter) const {
   EffectParameter p = effect.info.parameters[static_cast<std::size_t>(parameter)];
   if (effect.formula == nullptr) p.typical *= std::pow(stated_.m, MassPower(p.unit));
-  if (p.adds_to && stated_.robot) p.lower -= kMostTaken * Field(stated_, *p.adds_to);
-  // A file states 2 r at most, of an arc of pi r.
-  if (p.adds_to == ParameterId::kClamp) p.upper = std::min(p.upper, 0.5 * stated_.r);
+  if (p.adds_to && stated_.robot) {
+    p.lower -= Field(stated_, *p.adds_to) * kTenths / 10.0;
+    // A file states 2 r at most, of an arc of pi r.
+    if (p.adds_to == ParameterId::kClamp) p.upper = std::min(p.upper, 0.5 * stated_.r);
+  }
   const KnownParameter* known = Find(effect, parameter);
   if (known == nullptr) return p;
   if (known->at_most == 0.0) return std::nullopt;

@@ -41,7 +41,8 @@ struct IdentificationRequest {
   int keep_readings = 192;
   /// Fits that go on from the steady hops to all tables, and to a mass at the toe.
   int keep = 24, keep_toe = 3;
-  int refine = 4;          // fits that are searched on from in the end
+  /// Fits whose readings of the times are tried in turn, and that are searched on from in the end.
+  int refine = 4;
   bool with_front = true;  // between the parts of the misfit
   std::uint64_t seed = 1;
 };
@@ -107,7 +108,7 @@ struct IdentificationResult {
 };
 
 /// Table 6.5 over all readings; then everything by the steady hops and what their return maps
-/// predict; the best of that on all tables, the best of those refined; with a mass at the toe; and
+/// predict; the best of that on all tables, by the likely readings of the times in turn, the best of those refined; with a mass at the toe; and
 /// the front between the parts of the misfit.
 IdentificationResult Identify(const IdentificationRequest& request, const FitUnits& fit_units);
 

@@ -92,6 +92,19 @@ TEST(KnownCauses, WhatAddsToAStatedValueTakesMostOfItAtMost) {
   EXPECT_EQ(KnownCauses({}, {}, robot).Open(heavier, 0)->upper, heavier.info.parameters[0].upper);
 }
 
+// Of an arc of pi r, r = 20 mm, a hub may hold 10 mm more and nine tenths of 6 mm less.
+TEST(KnownCauses, AClampEndsBeforeItsLegDoes) {
+  Parameters<double> stated;
+  stated.r = 0.02;
+  stated.robot = RobotParameters<double>();
+  stated.robot->clamp = 0.006;
+  const KnownCauses known({}, {}, stated);
+  const std::optional<EffectParameter> p = known.Open(*FindEffect("hub_clamp"), 0);
+  ASSERT_TRUE(p.has_value());
+  EXPECT_DOUBLE_EQ(p->upper, 0.01);
+  EXPECT_DOUBLE_EQ(p->lower, -0.0054);
+}
+
 TEST(KnownCauses, AnEffectWithEveryParameterRuledOutIsRuledOut) {
   const FitProblem p = ProblemKnowing({{"boom_inertia", "mu_x"}, {"boom_inertia", "mu_y"}});
   EXPECT_EQ(Find(CandidatesOf(p, {}), "boom_inertia"), nullptr);
