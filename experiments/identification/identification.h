@@ -108,8 +108,8 @@ struct IdentificationResult {
 };
 
 /// Table 6.5 over all readings; then everything by the steady hops and what their return maps
-/// predict; the best of that on all tables, by the likely readings of the times in turn, the best of those refined; with a mass at the toe; and
-/// the front between the parts of the misfit.
+/// predict; the best of that on all tables, by the likely readings of the times in turn, the best
+/// of those refined; with a mass at the toe; and the front between the parts of the misfit.
 IdentificationResult Identify(const IdentificationRequest& request, const FitUnits& fit_units);
 
 /// The fit's scores over all tables, and the runs behind them.
