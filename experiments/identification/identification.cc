@@ -180,6 +180,7 @@ class Identifier {
     all_.insert(all_.end(), polished.begin(), polished.end());
     SortByMisfit(all_);
   }
+
   void AddByTimes(const StudyFit& fit, std::span<const ThesisReading::TorqueSign> signs,
                   Units& units) const {
     const bool stopped = request_.context.stop && *request_.context.stop;
@@ -197,6 +198,7 @@ class Identifier {
       }
     }
   }
+
   // The best readings again with a toe mass, by a part of the runs: from the constants and the toe
   // mass that 6.5 finds, and in a box about the best without one; then by all runs.
   void FitToeMass() {

@@ -87,7 +87,7 @@ class StageByStage {
     long samples = 0;
     for (const TrialProblem& t : null.problem.trials)
       samples += t.role == TrialRole::kTrain ? t.sample_count : 0;
-    return !(2.0 * null.result.cost <= kFarOff * static_cast<double>(samples));
+    return !null.result.ok || !(2.0 * null.result.cost <= kFarOff * static_cast<double>(samples));
   }
   // A verdict stays where somebody waits for no longer parts; that nothing is seen in the first
   // stances is none.

@@ -175,7 +175,7 @@ struct GaitPhaseShift {
       "gait_phase_shift_4"};
   static constexpr std::array kParameters = {EffectParameter{"shift", "-", 0.0, -0.5, 0.5, 0.02}};
   static constexpr EffectInfo kInfo =
-      InfoOfLeg(leg, kNames[leg], "that leg's phase + shift, as a share of a turn, in M76 (M110)",
+      InfoOfLeg(leg, kNames[leg], "the leg's phase + shift, as a share of a turn, in M76 (M110)",
                 kClockAhead[leg], kParameters);
 
   template <class T>

@@ -67,6 +67,21 @@ TEST_P(RobotStatedValues, HaveTheDerivativesOfDifferences) {
   }
 }
 
+// Whatever duty is stated: none at null, and both parts of a turn stay.
+TEST(GaitDutyShift, LeavesWhatIsStatedAndKeepsBothPartsOfATurn) {
+  const auto shifted = [](double duty, double shift) {
+    Parameters<double> p = Walking();
+    p.robot->duty = duty;
+    FindEffect("gait_duty_shift")->hooks0.change_parameters(&shift, p);
+    return p.robot->duty;
+  };
+  for (const double duty : {0.005, 0.02, 0.6, 0.98, 0.995}) EXPECT_EQ(shifted(duty, 0.0), duty);
+  EXPECT_DOUBLE_EQ(shifted(0.6, -0.03), 0.57);
+  EXPECT_DOUBLE_EQ(shifted(0.9, 0.3), 0.98);
+  EXPECT_DOUBLE_EQ(shifted(0.2, -0.3), 0.02);
+  EXPECT_DOUBLE_EQ(shifted(0.995, 0.1), 0.995);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, RobotStatedValues,
     ::testing::Values(

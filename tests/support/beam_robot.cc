@@ -54,7 +54,7 @@ Run RandomDrop(const Parameters<double>& p, RandomStream& random) {
 // Legs in phase leap, others walk: from near a steady gait of the robots in datasets/.
 Run RandomGait(const Parameters<double>& p, RandomStream& random) {
   const RobotParameters<double>& robot = *p.robot;
-  const bool leaps = robot.phase[0] == robot.phase[1];
+  const bool leaps = std::abs(robot.phase[0] - robot.phase[1]) < 0.25;
   Run run = {};
   run.period = robot.period * random.Uniform(0.97, 1.03);
   run.sweep = robot.sweep * random.Uniform(0.98, 1.02);
