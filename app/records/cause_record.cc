@@ -25,14 +25,21 @@ Json SeenRecord(const NameFeatures& features) {
   return out;
 }
 
+Json GainRecord(const HeldOutGain& gain) {
+  return {{"nats_per_sample", NumberOrNull(gain.nats_per_sample)},
+          {"ci95", IntervalRecord(gain.ci95)}};
+}
+
 // What a size in each trial is worth; null without a refit.
 Json SizesWorth(const Diagnosis& d, const SizesReport& sizes) {
   return {{"evidence_nats", NumberOrNull(sizes.gain)},
           {"pays", sizes.pays},
+          {"matters", sizes.matters},
           {"explained", NumberOrNull(sizes.explained)},
           {"explained_one_size", NumberOrNull(d.extension->explained)},
           {"held_out_rmse", ByChannel(d.problem, sizes.held_out_rmse)},
-          {"held_out_rmse_one_size", ByChannel(d.problem, d.extension->after.test.rmse)}};
+          {"held_out_rmse_one_size", ByChannel(d.problem, d.extension->after.test.rmse)},
+          {"held_out_gain", GainRecord(sizes.held_out_gain)}};
 }
 
 // Of one parameter: of the refit if there is one, else to first order.
@@ -122,9 +129,7 @@ Json CausesRecord(const Diagnosis& d) {
                      {"main", c.main},
                      {"stands_in", c.stands_in},
                      {"held_out_rmse_without", ByChannel(d.problem, c.rmse_without)},
-                     {"held_out_gain",
-                      {{"nats_per_sample", NumberOrNull(c.gain.nats_per_sample)},
-                       {"ci95", IntervalRecord(c.gain.ci95)}}}});
+                     {"held_out_gain", GainRecord(c.gain)}});
     }
   }
   return out;

@@ -148,28 +148,25 @@ std::string SizesText(const std::vector<double>& sizes, const std::vector<TrialP
   return Join(texts);
 }
 
-// "in every trial, differently": one parameter of a cause on whose size trials do not agree.
+// "in every trial, differently": one parameter of a cause that is told so.
 std::string DifferentlyText(const CauseReport& c, std::size_t k,
                             const std::vector<TrialProblem>& train) {
-  const Heterogeneity& h = c.sizes[k];
+  const VaryingValue& value = *c.refitted[k];
   const EffectParameter& p = c.cause.Parameter(static_cast<int>(k));
   const std::string unit(p.unit);
-  const VaryingValue* refitted = k < c.refitted.size() && c.refitted[k] ? &*c.refitted[k] : nullptr;
-  const double mean = refitted ? refitted->mean : h.mean;
   std::string interval;
-  if (refitted && refitted->ci95) {
-    const ReadableUnit shown = ReadableUnitOf(mean, unit);
-    const auto [low, high] = *refitted->ci95;
+  if (value.ci95) {
+    const ReadableUnit shown = ReadableUnitOf(value.mean, unit);
+    const auto [low, high] = *value.ci95;
     const int decimals = DecimalsFor(0.5 * (high - low) * shown.factor);
     interval = fmt::format(" (95 % {} .. {})", Fixed(low * shown.factor, decimals),
                            Fixed(high * shown.factor, decimals));
   }
-  return fmt::format(
-      "{}{} in every trial, differently: mean {}{}, spread {} ({}): {}{}", CauseText(c.cause),
-      c.sizes.size() > 1 ? "." + std::string(p.name) : std::string(), SizeText(mean, unit),
-      interval, SizeText(refitted ? refitted->spread : h.spread, unit), ChanceText(h.p_value),
-      SizesText(refitted ? refitted->sizes : h.sizes, train, unit),
-      refitted ? "" : " (to first order: no refit came to rest)");
+  return fmt::format("{}{} in every trial, differently: mean {}{}, spread {} ({}): {}",
+                     CauseText(c.cause),
+                     c.sizes.size() > 1 ? "." + std::string(p.name) : std::string(),
+                     SizeText(value.mean, unit), interval, SizeText(value.spread, unit),
+                     ChanceText(c.sizes[k].p_value), SizesText(value.sizes, train, unit));
 }
 
 // What sizes of each trial's own are worth.
@@ -199,8 +196,7 @@ std::string VariesLines(const Diagnosis& d, bool colours) {
         text += Labelled("varies", DifferentlyText(*c, k, train), colours);
     }
   }
-  if (!text.empty() && d.extension->sizes->refitted)
-    text += Labelled("", SizesWorthText(d), colours);
+  if (!text.empty()) text += Labelled("", SizesWorthText(d), colours);
   return text;
 }
 

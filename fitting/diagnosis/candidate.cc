@@ -23,32 +23,16 @@ bool Simulates(const FitProblem& problem, const Effect& effect) {
                      [&](const EffectSetting& e) { return e.effect == &effect; });
 }
 
-// The inputs whose scale the effect changes by another name: the gain of a motor that is told a
-// logged torque.
-InputSet ScaledBy(const EffectInfo& effect) {
-  if (effect.name == "torque_gain") return BitOf(InputKind::kHipTorque);
-  if (!effect.name.starts_with("motor_gain")) return 0;
-  if (effect.robot_leg == 0) return BitsOfFamily(InputKind::kHipTorque);
-  return BitOf(OfMotor(InputKind::kHipTorque1, effect.robot_leg - 1));
-}
-
 // Whether a delay or scale that the effect would change is fitted by its own name already.
 bool IsFitted(const FitProblem& problem, const Effect& effect) {
   const std::string_view name = effect.info.name;
   const bool delays = name.ends_with("_input_delay");
-  const InputSet of = ScaledBy(effect.info) | effect.info.needs_inputs;
+  const InputSet of = effect.info.scales | effect.info.needs_inputs;
   return std::any_of(problem.shared.begin(), problem.shared.end(), [&](const SharedParameter& s) {
     return s.direction.of == SensitivityDirection::Of::kInput &&
            (BitOf(static_cast<InputKind>(s.direction.index)) & of) != 0 &&
            (s.direction.component == 0) == delays;
   });
-}
-
-// A ball that falls free rubs on no guide.
-bool HasNoGuide(const FitProblem& problem, const Effect& effect) {
-  return problem.law == Law::kBall && effect.info.name.starts_with("guide_") &&
-         std::none_of(problem.trials.begin(), problem.trials.end(),
-                      [](const TrialProblem& t) { return t.parameters.on_guide; });
 }
 
 // Beside no other channel, a pose that is late is a recording that is late.
@@ -59,33 +43,35 @@ bool IsDelayOfAll(const FitProblem& problem, const Effect& effect) {
 }
 
 // Motors without a limit, locked ones, and those that are told a recorded torque have none to lose.
-bool HasNoTorqueLimit(const FitProblem& problem, const Effect& effect) {
-  return effect.info.name == "torque_limit_loss" &&
-         std::none_of(problem.trials.begin(), problem.trials.end(), [](const TrialProblem& t) {
-           const RobotParameters<double>& robot = *t.parameters.robot;
-           const bool told =
-               std::any_of(t.inputs.begin(), t.inputs.end(), [](const DrivenColumn& column) {
-                 return (BitOf(column.kind) & BitsOfFamily(InputKind::kHipTorque)) != 0;
-               });
-           return std::isfinite(robot.torque_limit) && robot.control != MotorControl::kLocked &&
-                  !told;
-         });
+bool HasTorqueLimit(const TrialProblem& trial) {
+  const RobotParameters<double>& robot = *trial.parameters.robot;
+  const bool told =
+      std::any_of(trial.inputs.begin(), trial.inputs.end(), [](const DrivenColumn& column) {
+        return (BitOf(column.kind) & BitsOfFamily(InputKind::kHipTorque)) != 0;
+      });
+  return std::isfinite(robot.torque_limit) && robot.control != MotorControl::kLocked && !told;
 }
 
-// Motors that no clock turns have none that could be wrong.
-bool HasNoClock(const FitProblem& problem, const Effect& effect) {
-  return effect.info.name.starts_with("gait_") &&
-         std::none_of(problem.trials.begin(), problem.trials.end(), [](const TrialProblem& t) {
-           return t.parameters.robot->control == MotorControl::kClock;
-         });
+bool HasPart(const FitProblem& problem, const TrialProblem& trial, MachinePart part) {
+  switch (part) {
+    case MachinePart::kNone:
+      return true;
+    case MachinePart::kGuideOfBall:
+      return problem.law != Law::kBall || trial.parameters.on_guide;
+    case MachinePart::kClock:
+      return trial.parameters.robot->control == MotorControl::kClock;
+    case MachinePart::kTorqueLimit:
+      return HasTorqueLimit(trial);
+  }
+  return true;
 }
 
-// The problem has nothing that an effect of the catalogue could change. A formula may have any
-// name.
+// No trial has what the effect is about.
 bool HasNothingOf(const FitProblem& problem, const Effect& effect) {
-  if (effect.formula != nullptr) return false;
-  return HasNoGuide(problem, effect) || HasNoTorqueLimit(problem, effect) ||
-         HasNoClock(problem, effect);
+  const MachinePart part = effect.info.about;
+  return part != MachinePart::kNone &&
+         std::none_of(problem.trials.begin(), problem.trials.end(),
+                      [&](const TrialProblem& t) { return HasPart(problem, t, part); });
 }
 
 // On one leg what is of that leg alone is what is of all of them.

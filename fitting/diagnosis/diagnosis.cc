@@ -151,7 +151,8 @@ class Pipeline {
 
   void Accept(ExtensionReport report) {
     d_.extension = std::move(report);
-    MeasureSizes(*d_.extension, d_, Settings());
+    MeasureSizes(*d_.extension, d_, options_.material, options_.Seed(Draws::kBootstrap),
+                 Settings());
     for (const CauseReport* c : d_.extension->ToldCauses()) {
       const int member = static_cast<int>(d_.naming.MemberOf(c->candidate));
       d_.extension->at_bound |= d_.naming.best.AtPhysicalBound(member);

@@ -108,16 +108,20 @@ struct Leftover {
   bool material = false;
 };
 
-/// What the extension is worth with a size in each trial of the told causes whose size differs
-/// between trials: all of them together or, where that comes to no rest, the largest that does
-/// alone. The extension itself stays the model that is told.
+/// What the extension is worth with a size in each trial of told causes whose size differs between
+/// trials: of the one that gains most, and of others as far as theirs pay beside it. The extension
+/// itself stays the model that is told.
 struct SizesReport {
   bool refitted = false;              // the refit came to rest; else nothing else is filled in
   double gain = 0.0;                  // VaryingModel::gain
   double explained = 0.0;             // share of the excess chi-square, 0..1
   std::vector<double> held_out_rmse;  // per channel, each held-out trial's size found as its start
+  HeldOutGain held_out_gain;          // over one size for all
   /// It gains kVaryingPays.
   bool pays = false;
+  /// It explains as much more, or takes held-out errors down as far, as a main cause does
+  /// (IsMainCause), and no held-out error grows.
+  bool matters = false;
 };
 
 /// What the accepted extension is worth.
@@ -139,7 +143,7 @@ struct ExtensionReport {
   /// `explained`.
   double OfMisfit(double share) const { return share * explained; }
   /// Whether the told cause's parameter `k` is told to differ between trials: it does to first
-  /// order, and the refit, if it came to rest, pays.
+  /// order, and the refit came to rest, pays and matters.
   bool TellsSizesOf(const CauseReport& cause, std::size_t k) const;
 
   /// Some misfit is left for certain, or may be: one of the members may stand in for another cause.

@@ -7,17 +7,12 @@
 #include "base/parallel.h"
 
 namespace hoplab {
-namespace {
-
-// By what factor some channel's held-out error is larger without a cause.
 double ErrorGrowsBy(const std::vector<double>& without, const std::vector<double>& with) {
   double most = 0.0;
   for (std::size_t c = 0; c < std::min(without.size(), with.size()); ++c)
     most = std::max(most, without[c] / with[c]);
   return most;
 }
-
-}  // namespace
 
 bool IsMainCause(double share, double error_grows, const HeldOutGain& gain, double material) {
   // What an engineer would see; and what he needs no interval for, where the noise of a model that

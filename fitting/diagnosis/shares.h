@@ -40,6 +40,9 @@ struct CauseReport {
 /// Trials do not agree on this value for certain.
 bool Differs(const Heterogeneity& sizes);
 
+/// By what factor some channel's held-out error is larger without something; 0 with no channels.
+double ErrorGrowsBy(const std::vector<double>& without, const std::vector<double>& with);
+
 /// Share of the misfit below which a cause, or what is left, is of no consequence.
 inline constexpr double kMaterial = 0.02;
 

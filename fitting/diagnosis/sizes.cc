@@ -12,28 +12,84 @@ int FirstPlace(const Diagnosis& d, const CauseReport& cause) {
   return d.naming.best.PlaceOf(static_cast<int>(d.naming.MemberOf(cause.candidate)));
 }
 
-// Places that differ between trials: of each told cause that varies, the largest share first.
-std::vector<std::vector<int>> DifferingPlaces(const ExtensionReport& report, const Diagnosis& d) {
-  std::vector<std::vector<int>> of_causes;
+// Values of a told cause that differ between trials.
+struct DifferingCause {
+  std::vector<int> places;
+  double gain = 0.0;  // nats, to first order
+};
+
+// Of those, what sizes of their own promise to explain: less than this share of what would matter
+// is no cause for a refit.
+constexpr double kPromise = 0.1;
+
+std::vector<DifferingCause> DifferingCauses(const ExtensionReport& report, const Diagnosis& d,
+                                            const std::vector<Heterogeneity>& white,
+                                            double material) {
+  const double excess = d.detection.chi2 - d.detection.degrees_of_freedom;
+  std::vector<DifferingCause> causes;
   for (const CauseReport* c : report.ToldCauses()) {
-    std::vector<int> places;
-    for (std::size_t k = 0; k < c->sizes.size(); ++k)
-      if (Differs(c->sizes[k])) places.push_back(FirstPlace(d, *c) + static_cast<int>(k));
-    if (!places.empty()) of_causes.push_back(std::move(places));
+    DifferingCause cause;
+    for (std::size_t k = 0; k < c->sizes.size(); ++k) {
+      if (!Differs(c->sizes[k])) continue;
+      const int place = FirstPlace(d, *c) + static_cast<int>(k);
+      cause.places.push_back(place);
+      cause.gain += white[static_cast<std::size_t>(place)].gain;
+    }
+    if (!cause.places.empty() && 2.0 * cause.gain >= kPromise * material * excess)
+      causes.push_back(std::move(cause));
   }
-  return of_causes;
+  return causes;
 }
 
-// All that vary together; where that does not come to rest, the first cause that does alone.
-VaryingModel RefitOf(const FittedModel& best, const std::vector<std::vector<int>>& of_causes,
+// Those that still differ beside the sizes that `v` has.
+std::vector<DifferingCause> StillDiffering(const VaryingModel& v,
+                                           const std::vector<DifferingCause>& causes, int jobs) {
+  const std::vector<Heterogeneity> seen = HeterogeneityOf(v.model, v.train, jobs);
+  std::vector<DifferingCause> left;
+  for (const DifferingCause& cause : causes) {
+    DifferingCause now;
+    for (const int place : cause.places) {
+      const Heterogeneity& h = seen[static_cast<std::size_t>(place)];
+      if (!Differs(h)) continue;
+      now.places.push_back(place);
+      now.gain += h.gain;
+    }
+    if (!now.places.empty()) left.push_back(std::move(now));
+  }
+  return left;
+}
+
+// Sizes of one cause after another, the one that gains most first, as long as they pay beside
+// those that are there already: where one cause differs, all that act like it seem to.
+VaryingModel RefitOf(const FittedModel& best, std::vector<DifferingCause> causes,
                      const RefitSettings& settings) {
-  std::vector<int> all;
-  for (const std::vector<int>& places : of_causes)
-    all.insert(all.end(), places.begin(), places.end());
-  VaryingModel v = RefitVarying(best, all, settings);
-  for (std::size_t i = 0; i < of_causes.size() && of_causes.size() > 1 && !v.converged; ++i)
-    v = RefitVarying(best, of_causes[i], settings);
+  VaryingModel v;
+  std::vector<int> places;
+  while (!causes.empty()) {
+    const auto most = std::max_element(
+        causes.begin(), causes.end(),
+        [](const DifferingCause& a, const DifferingCause& b) { return a.gain < b.gain; });
+    std::vector<int> more = places;
+    more.insert(more.end(), most->places.begin(), most->places.end());
+    causes.erase(most);
+    VaryingModel longer = RefitVarying(best, more, settings);
+    if (!longer.converged) continue;
+    const bool pays = longer.gain >= (places.empty() ? 0.0 : v.gain) + kVaryingPays;
+    if (pays || !v.converged) v = std::move(longer);
+    if (!pays) continue;
+    places = std::move(more);
+    causes = StillDiffering(v, causes, settings.jobs);
+  }
   return v;
+}
+
+// They do as a cause does that is a main one, and take no held-out error up.
+bool Matter(const SizesReport& sizes, const ExtensionReport& report, double material) {
+  constexpr double kWorse = 1.05;
+  const std::vector<double>& one_size = report.after.test.rmse;
+  return IsMainCause(sizes.explained - report.explained,
+                     ErrorGrowsBy(one_size, sizes.held_out_rmse), sizes.held_out_gain, material) &&
+         ErrorGrowsBy(sizes.held_out_rmse, one_size) < kWorse;
 }
 
 void HandOut(const VaryingModel& v, const Diagnosis& d, ExtensionReport& report) {
@@ -49,11 +105,16 @@ void HandOut(const VaryingModel& v, const Diagnosis& d, ExtensionReport& report)
 
 }  // namespace
 
-void MeasureSizes(ExtensionReport& report, const Diagnosis& d, const RefitSettings& settings) {
-  const std::vector<std::vector<int>> differing = DifferingPlaces(report, d);
-  if (differing.empty()) return;
+void MeasureSizes(ExtensionReport& report, const Diagnosis& d, double material, std::uint64_t seed,
+                  const RefitSettings& settings) {
+  const std::vector<const CauseReport*> told = report.ToldCauses();
+  if (std::none_of(told.begin(), told.end(), [](const CauseReport* c) { return c->Varies(); }))
+    return;
   const FittedModel& best = d.naming.best;
-  const VaryingModel v = RefitOf(best, differing, settings);
+  std::vector<DifferingCause> differing = DifferingCauses(
+      report, d, HeterogeneityOf(UnderWhiteNoise(best), *settings.train, settings.jobs), material);
+  if (differing.empty()) return;
+  const VaryingModel v = RefitOf(best, std::move(differing), settings);
   SizesReport& out = report.sizes.emplace();
   if (!v.converged) return;
   HandOut(v, d, report);
@@ -64,8 +125,12 @@ void MeasureSizes(ExtensionReport& report, const Diagnosis& d, const RefitSettin
   if (v.values.empty()) return;
   // A deviation is a value more and its prior a row more.
   out.explained = 1.0 - LeftShare(d.detection, v.square, best.parameter_count());
-  out.held_out_rmse = MeasureHeldOut(v.model, settings.jobs, /*test_only=*/true).test.rmse;
+  const HeldOutErrors errors =
+      MeasureHeldOut(v.model, settings.jobs, /*test_only=*/true, &report.after);
+  out.held_out_rmse = errors.test.rmse;
+  out.held_out_gain = CompareHeldOut(best, report.after, errors, seed, nullptr);
   out.pays = out.gain >= kVaryingPays;
+  out.matters = Matter(out, report, material);
 }
 
 }  // namespace hoplab

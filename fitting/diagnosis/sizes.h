@@ -4,9 +4,9 @@
 
 namespace hoplab {
 
-/// Refits the extension with a size in each trial of the told causes that vary, and fills in
-/// `report.sizes` and each cause's `refitted`. Leaves all else as it is.
-void MeasureSizes(ExtensionReport& report, const Diagnosis& diagnosis,
-                  const RefitSettings& settings);
+/// Refits the extension with a size in each trial of told causes that vary and might matter, and
+/// fills in `report.sizes` and each cause's `refitted`. Leaves all else as it is.
+void MeasureSizes(ExtensionReport& report, const Diagnosis& diagnosis, double material,
+                  std::uint64_t seed, const RefitSettings& settings);
 
 }  // namespace hoplab

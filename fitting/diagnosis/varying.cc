@@ -14,15 +14,8 @@
 namespace hoplab {
 namespace {
 
-constexpr double kAtRest = 0.01;  // change of a spread's logarithm
+constexpr double kAtRest = 0.03;  // change of a spread's logarithm
 constexpr int kMostRounds = 20;
-
-// One size for all, as the search for different ones begins: under white noise, since the noise
-// that suits one size has taken the differences over.
-FittedModel UnderWhiteNoise(FittedModel model) {
-  model.problem.noise = {};
-  return model;
-}
 
 // Gives the trials deviations of the values, at the sizes they seem to have.
 void Begin(const std::vector<VaryingValue>& values, VaryingModel& v) {
@@ -169,6 +162,11 @@ std::vector<VaryingValue> Differing(const FittedModel& model, const std::vector<
 }
 
 }  // namespace
+
+FittedModel UnderWhiteNoise(FittedModel model) {
+  model.problem.noise = {};
+  return model;
+}
 
 VaryingModel RefitVarying(const FittedModel& model, const std::vector<int>& places,
                           const RefitSettings& settings) {

@@ -41,6 +41,10 @@ struct VaryingModel {
 /// alike likely.
 inline constexpr double kVaryingPays = 3.0;
 
+/// One size for all, as the search for different ones begins: under white noise, since the noise
+/// that suits one size has taken the differences over.
+FittedModel UnderWhiteNoise(FittedModel model);
+
 /// Refits a settled model with a deviation of the shared values at `places` in each trial: shared
 /// values, initial states and deviations by least squares, the spreads by the restricted likelihood
 /// at the refit (HeterogeneityAt) under the noise that suits it, in turn until no spread changes by

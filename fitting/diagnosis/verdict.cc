@@ -164,7 +164,7 @@ std::vector<const CauseReport*> ExtensionReport::ToldCauses() const {
 
 bool ExtensionReport::TellsSizesOf(const CauseReport& cause, std::size_t k) const {
   if (!sizes || !Differs(cause.sizes[k])) return false;
-  return !sizes->refitted || (sizes->pays && cause.refitted[k]);
+  return sizes->refitted && sizes->pays && sizes->matters && cause.refitted[k];
 }
 
 double ExtensionReport::ToldProbability() const {

@@ -15,6 +15,9 @@ namespace hoplab {
 enum class EffectKind { kForce, kParameter, kGuard, kObservation };
 std::string_view NameOf(EffectKind kind);
 
+/// A part that not every machine has.
+enum class MachinePart { kNone, kGuideOfBall, kClock, kTorqueLimit };
+
 /// One parameter of an effect. At `null` the effect changes nothing, bit for bit.
 struct EffectParameter {
   std::string_view name;
@@ -54,6 +57,10 @@ struct EffectInfo {
   int least_legs = 1;         // that it must have
   bool arcs_only = false;     // of a robot whose legs are half circles
   int robot_leg = 0;  // it is of this leg of a robot alone, 1 the hindmost; 0: of no one leg
+  /// What it is about: a search leaves it alone where no trial has such a part.
+  MachinePart about = MachinePart::kNone;
+  /// The inputs whose scale it changes, too, by its own name.
+  InputSet scales = 0;
 };
 
 /// Motion of the body at one instant, for forces on it. Frame W.

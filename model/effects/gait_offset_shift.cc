@@ -16,7 +16,8 @@ struct GaitOffsetShift {
       .for_ball = false,
       .dissipative = false,
       .parameters = kParameters,
-      .for_robot = true};
+      .for_robot = true,
+      .about = MachinePart::kClock};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

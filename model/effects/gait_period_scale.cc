@@ -17,7 +17,8 @@ struct GaitPeriodScale {
                                        .for_ball = false,
                                        .dissipative = false,
                                        .parameters = kParameters,
-                                       .for_robot = true};
+                                       .for_robot = true,
+                                       .about = MachinePart::kClock};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

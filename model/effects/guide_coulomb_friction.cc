@@ -16,7 +16,8 @@ struct GuideCoulombFriction {
       .for_ball = true,
       .dissipative = true,
       .sharp = true,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .about = MachinePart::kGuideOfBall};
   static constexpr double kWidth = 0.02;  // m/s
 
   template <class T>

@@ -16,7 +16,8 @@ struct GuideViscousFriction {
       .for_legs = true,
       .for_ball = true,
       .dissipative = true,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .about = MachinePart::kGuideOfBall};
 
   template <class T>
   static void AddBodyForce(const T* p, const BodyMotion<T>& body, Vector2<T>& force) {

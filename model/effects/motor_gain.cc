@@ -16,7 +16,8 @@ struct MotorGain {
       .for_ball = false,
       .dissipative = false,
       .parameters = kParameters,
-      .for_robot = true};
+      .for_robot = true,
+      .scales = BitsOfFamily(InputKind::kHipTorque)};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

@@ -89,6 +89,14 @@ constexpr EffectInfo Sharp(EffectInfo info) {
   info.sharp = true;
   return info;
 }
+constexpr EffectInfo OfClock(EffectInfo info) {
+  info.about = MachinePart::kClock;
+  return info;
+}
+constexpr EffectInfo Scales(InputKind input, EffectInfo info) {
+  info.scales = BitOf(input);
+  return info;
+}
 
 template <int leg>
 struct LegStiffness {
@@ -123,9 +131,10 @@ struct MotorGainOf {
   static constexpr std::array<std::string_view, kMaxLegs + 1> kNames = {
       "", "motor_gain_1", "motor_gain_2", "motor_gain_3", "motor_gain_4"};
   static constexpr std::array kParameters = {EffectParameter{"gamma", "-", 0.0, -0.9, 2.0, 0.05}};
-  static constexpr EffectInfo kInfo =
+  static constexpr EffectInfo kInfo = Scales(
+      OfMotor(InputKind::kHipTorque1, leg - 1),
       InfoOfLeg(leg, kNames[leg], "that motor gives (1 + gamma) of the torque it is told (M75)",
-                kWeakMotor[leg], kParameters);
+                kWeakMotor[leg], kParameters));
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
@@ -174,9 +183,9 @@ struct GaitPhaseShift {
       "gait_phase_shift", "gait_phase_shift_1", "gait_phase_shift_2", "gait_phase_shift_3",
       "gait_phase_shift_4"};
   static constexpr std::array kParameters = {EffectParameter{"shift", "-", 0.0, -0.5, 0.5, 0.02}};
-  static constexpr EffectInfo kInfo =
+  static constexpr EffectInfo kInfo = OfClock(
       InfoOfLeg(leg, kNames[leg], "the leg's phase + shift, as a share of a turn, in M76 (M110)",
-                kClockAhead[leg], kParameters);
+                kClockAhead[leg], kParameters));
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

@@ -15,7 +15,8 @@ struct TorqueGain {
       .for_legs = true,
       .for_ball = false,
       .dissipative = false,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .scales = BitOf(InputKind::kHipTorque)};
 
   template <class T>
   static void AddHipTorque(const T* p, const HipMotion<T>& hip, T& torque) {

@@ -20,7 +20,8 @@ struct TorqueLimitLoss {
       .dissipative = false,
       .has_threshold = true,
       .parameters = kParameters,
-      .for_robot = true};
+      .for_robot = true,
+      .about = MachinePart::kTorqueLimit};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
