@@ -58,8 +58,10 @@ OwnValues RefitStart(const FitProblem& problem, const TrialProblem& trial,
   const auto is_poor = [&](const SolveResult& r) {
     return !r.complete || r.cost > poor * static_cast<double>(trial.sample_count);
   };
-  if (grows && like && like->complete && like->start.size() == trial.start.size()) {
-    request.initial_states = {like->start};
+  if (grows && like && like->complete && like->start.size() <= trial.start.size()) {
+    OwnValues begun = trial.start;
+    begun.head(like->start.size()) = like->start;
+    request.initial_states = {begun};
     const SolveResult found = Solve(request);
     if (found.status == SolveStatus::kConverged && !is_poor(found))
       return found.initial_states.front();

@@ -54,7 +54,7 @@ function variesText(v) {
   const interval = Array.isArray(v.ci95) ? ` (95 % ${v.ci95.map((x) => quantity(x, v.unit, 2)).join(' .. ')})` : '';
   const text = `${v.name}: mean ${quantity(v.mean, v.unit, 3)}${interval}, spread ${quantity(v.spread, v.unit, 2)}`;
   const w = v.with_sizes;
-  if (!w) return `${text}.`;
+  if (!w) return v.refitted === false ? `${text}, to first order.` : `${text}.`;
   const errors = Object.keys(w.held_out_rmse).filter((ch) => isNumber(w.held_out_rmse[ch]) && isNumber(w.held_out_rmse_one_size[ch]))
     .map((ch) => `${splitUnit(ch).name} ${quantity(w.held_out_rmse_one_size[ch], splitUnit(ch).unit, 3)} → ${quantity(w.held_out_rmse[ch], splitUnit(ch).unit, 3)}`);
   return `${text}. With these sizes the causes explain ${shareText(w.explained)} of the misfit instead of ${shareText(w.explained_one_size)}${errors.length ? `, held-out ${errors.join(', ')}` : ''} (${significant(w.evidence_nats, 2)} nats).`;
@@ -91,7 +91,7 @@ function causesPart(causes, extension) {
     needed.length ? paragraph(`The model needs them, but most likely in place of something not listed: ${doubted(needed)}.`) : undefined,
     leftOut.length ? paragraph(`Left out, since they would explain ${causes.length ? 'a little more' : 'some'} and most likely do not act: ${doubted(leftOut)}.`) : undefined,
     unconfirmed.length ? paragraph(`Left out, since the whole trials know ${unconfirmed.length === 1 ? 'it' : 'them'} in another size: ${unconfirmed.map(unconfirmedText).join(', ')}. What acts keeps its size; what stands in for an error of the model does not.`) : undefined,
-    ...causes.flatMap((c) => list(c.varies).filter((v) => v.told).map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
+    ...causes.flatMap((c) => list(c.varies).filter((v) => v.told ?? true).map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
       paragraph(variesText(v)),
       dataTable(['trial', v.name], v.trials.map((t) => [t.trial, quantity(t.value, v.unit, 3)]), 'lr')))),
     otherModelsPart(extension),

@@ -59,9 +59,9 @@ bool HasPart(const FitProblem& problem, const TrialProblem& trial, MachinePart p
     case MachinePart::kGuideOfBall:
       return problem.law != Law::kBall || trial.parameters.on_guide;
     case MachinePart::kClock:
-      return trial.parameters.robot->control == MotorControl::kClock;
+      return trial.parameters.robot && trial.parameters.robot->control == MotorControl::kClock;
     case MachinePart::kTorqueLimit:
-      return HasTorqueLimit(trial);
+      return trial.parameters.robot && HasTorqueLimit(trial);
   }
   return true;
 }

@@ -109,18 +109,17 @@ struct Leftover {
 };
 
 /// What the extension is worth with a size in each trial of told causes whose size differs between
-/// trials: of the one that gains most, and of others as far as theirs pay beside it. The extension
-/// itself stays the model that is told.
+/// trials: of the one that gains most to first order, and of others as far as theirs pay beside it.
+/// The extension itself stays the model that is told.
 struct SizesReport {
-  bool refitted = false;              // the refit came to rest; else nothing else is filled in
+  bool refitted = false;              // some refit came to rest; else nothing else is filled in
   double gain = 0.0;                  // VaryingModel::gain
   double explained = 0.0;             // share of the excess chi-square, 0..1
   std::vector<double> held_out_rmse;  // per channel, each held-out trial's size found as its start
-  HeldOutGain held_out_gain;          // over one size for all
+  HeldOutGain held_out_gain;          // over one size for all, likewise
   /// It gains kVaryingPays.
   bool pays = false;
-  /// It explains as much more, or takes held-out errors down as far, as a main cause does
-  /// (IsMainCause), and no held-out error grows.
+  /// SizesMatter.
   bool matters = false;
 };
 
@@ -138,7 +137,7 @@ struct ExtensionReport {
   bool at_bound = false;      // a told cause's size lies on a physical bound
 
   std::vector<CauseReport> causes;   // the members, the largest share first
-  std::optional<SizesReport> sizes;  // absent where no told cause varies
+  std::optional<SizesReport> sizes;  // absent where none varies that may matter
   /// A cause's share (CauseReport::share) of the plain model's misfit, of which all of them explain
   /// `explained`.
   double OfMisfit(double share) const { return share * explained; }

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 
 namespace hoplab {
+
 double ErrorGrowsBy(const std::vector<double>& without, const std::vector<double>& with) {
   double most = 0.0;
   for (std::size_t c = 0; c < std::min(without.size(), with.size()); ++c)

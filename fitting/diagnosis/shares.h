@@ -40,7 +40,8 @@ struct CauseReport {
 /// Trials do not agree on this value for certain.
 bool Differs(const Heterogeneity& sizes);
 
-/// By what factor some channel's held-out error is larger without something; 0 with no channels.
+/// By what factor some channel's held-out error is larger without something. Channels without an
+/// error, NaN, are passed over; 0 where all are.
 double ErrorGrowsBy(const std::vector<double>& without, const std::vector<double>& with);
 
 /// Share of the misfit below which a cause, or what is left, is of no consequence.

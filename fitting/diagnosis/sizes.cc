@@ -1,6 +1,7 @@
 #include "fitting/diagnosis/sizes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fitting/diagnosis/verdict.h"
 
@@ -15,17 +16,17 @@ int FirstPlace(const Diagnosis& d, const CauseReport& cause) {
 // Values of a told cause that differ between trials.
 struct DifferingCause {
   std::vector<int> places;
-  double gain = 0.0;  // nats, to first order
+  double gain = 0.0;  // nats, to first order, of the one that gains most
 };
 
-// Of those, what sizes of their own promise to explain: less than this share of what would matter
-// is no cause for a refit.
+// A cause whose sizes promise less than this share of what would matter is not refitted.
 constexpr double kPromise = 0.1;
 
 std::vector<DifferingCause> DifferingCauses(const ExtensionReport& report, const Diagnosis& d,
                                             const std::vector<Heterogeneity>& white,
                                             double material) {
   const double excess = d.detection.chi2 - d.detection.degrees_of_freedom;
+  const double matters = material * report.explained * excess;
   std::vector<DifferingCause> causes;
   for (const CauseReport* c : report.ToldCauses()) {
     DifferingCause cause;
@@ -33,9 +34,9 @@ std::vector<DifferingCause> DifferingCauses(const ExtensionReport& report, const
       if (!Differs(c->sizes[k])) continue;
       const int place = FirstPlace(d, *c) + static_cast<int>(k);
       cause.places.push_back(place);
-      cause.gain += white[static_cast<std::size_t>(place)].gain;
+      cause.gain = std::max(cause.gain, white[static_cast<std::size_t>(place)].gain);
     }
-    if (!cause.places.empty() && 2.0 * cause.gain >= kPromise * material * excess)
+    if (!cause.places.empty() && 2.0 * cause.gain >= kPromise * matters)
       causes.push_back(std::move(cause));
   }
   return causes;
@@ -52,7 +53,7 @@ std::vector<DifferingCause> StillDiffering(const VaryingModel& v,
       const Heterogeneity& h = seen[static_cast<std::size_t>(place)];
       if (!Differs(h)) continue;
       now.places.push_back(place);
-      now.gain += h.gain;
+      now.gain = std::max(now.gain, h.gain);
     }
     if (!now.places.empty()) left.push_back(std::move(now));
   }
@@ -83,15 +84,6 @@ VaryingModel RefitOf(const FittedModel& best, std::vector<DifferingCause> causes
   return v;
 }
 
-// They do as a cause does that is a main one, and take no held-out error up.
-bool Matter(const SizesReport& sizes, const ExtensionReport& report, double material) {
-  constexpr double kWorse = 1.05;
-  const std::vector<double>& one_size = report.after.test.rmse;
-  return IsMainCause(sizes.explained - report.explained,
-                     ErrorGrowsBy(one_size, sizes.held_out_rmse), sizes.held_out_gain, material) &&
-         ErrorGrowsBy(sizes.held_out_rmse, one_size) < kWorse;
-}
-
 void HandOut(const VaryingModel& v, const Diagnosis& d, ExtensionReport& report) {
   for (CauseReport& c : report.causes) {
     c.refitted.resize(c.sizes.size());
@@ -105,6 +97,17 @@ void HandOut(const VaryingModel& v, const Diagnosis& d, ExtensionReport& report)
 
 }  // namespace
 
+bool SizesMatter(const SizesReport& sizes, const ExtensionReport& report, double material) {
+  constexpr double kWorse = 1.05;
+  const std::vector<double>&one_size = report.after.test.rmse, &own = sizes.held_out_rmse;
+  for (std::size_t c = 0; c < std::min(one_size.size(), own.size()); ++c)
+    if (std::isfinite(one_size[c]) && !std::isfinite(own[c])) return false;
+  const double more = sizes.explained - report.explained;
+  const double share = report.explained > 0.0 ? more / report.explained : more;
+  return IsMainCause(share, ErrorGrowsBy(one_size, own), sizes.held_out_gain, material) &&
+         ErrorGrowsBy(own, one_size) < kWorse;
+}
+
 void MeasureSizes(ExtensionReport& report, const Diagnosis& d, double material, std::uint64_t seed,
                   const RefitSettings& settings) {
   const std::vector<const CauseReport*> told = report.ToldCauses();
@@ -114,7 +117,7 @@ void MeasureSizes(ExtensionReport& report, const Diagnosis& d, double material, 
   std::vector<DifferingCause> differing = DifferingCauses(
       report, d, HeterogeneityOf(UnderWhiteNoise(best), *settings.train, settings.jobs), material);
   if (differing.empty()) return;
-  const VaryingModel v = RefitOf(best, std::move(differing), settings);
+  VaryingModel v = RefitOf(best, std::move(differing), settings);
   SizesReport& out = report.sizes.emplace();
   if (!v.converged) return;
   HandOut(v, d, report);
@@ -125,12 +128,13 @@ void MeasureSizes(ExtensionReport& report, const Diagnosis& d, double material, 
   if (v.values.empty()) return;
   // A deviation is a value more and its prior a row more.
   out.explained = 1.0 - LeftShare(d.detection, v.square, best.parameter_count());
+  SetRidges(v);
   const HeldOutErrors errors =
       MeasureHeldOut(v.model, settings.jobs, /*test_only=*/true, &report.after);
   out.held_out_rmse = errors.test.rmse;
   out.held_out_gain = CompareHeldOut(best, report.after, errors, seed, nullptr);
   out.pays = out.gain >= kVaryingPays;
-  out.matters = Matter(out, report, material);
+  out.matters = SizesMatter(out, report, material);
 }
 
 }  // namespace hoplab

@@ -77,14 +77,6 @@ double Inflation(const VaryingModel& v, int place) {
   return trials > 0.0 ? sum / trials : 1.0;
 }
 
-// Least squares weigh rows as if all noise were white. A size is then drawn to the mean as it
-// should be only where the ridge is stronger by as much as the discrepancy widens what one trial
-// tells.
-void SetRidges(VaryingModel& v) {
-  for (const VaryingValue& value : v.values)
-    SetPrior(value.place, value.spread / std::sqrt(Inflation(v, value.place)), v);
-}
-
 // Deviations that the shared value has left behind a bound are put on it: what acts stays, and the
 // trial answers to it.
 void PutInside(VaryingModel& v) {
@@ -163,6 +155,11 @@ std::vector<VaryingValue> Differing(const FittedModel& model, const std::vector<
 
 }  // namespace
 
+void SetRidges(VaryingModel& v) {
+  for (const VaryingValue& value : v.values)
+    SetPrior(value.place, value.spread / std::sqrt(Inflation(v, value.place)), v);
+}
+
 FittedModel UnderWhiteNoise(FittedModel model) {
   model.problem.noise = {};
   return model;
@@ -204,7 +201,6 @@ VaryingModel RefitVarying(const FittedModel& model, const std::vector<int>& plac
                                 seen[k]);
   AddIntervals(v, settings.jobs);
   v.square = SquareOf(v);
-  SetRidges(v);
   return v;
 }
 

@@ -59,7 +59,7 @@ struct EffectInfo {
   int robot_leg = 0;  // it is of this leg of a robot alone, 1 the hindmost; 0: of no one leg
   /// What it is about: a search leaves it alone where no trial has such a part.
   MachinePart about = MachinePart::kNone;
-  /// The inputs whose scale it changes, too, by its own name.
+  /// The inputs whose scale it stands for under another name.
   InputSet scales = 0;
 };
 

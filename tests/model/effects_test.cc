@@ -55,6 +55,21 @@ TEST(EffectRegistry, HoldsForEveryParameterANullInsideItsBoundsAndATypicalSize) 
   }
 }
 
+// A search leaves alone what is about a part that no trial has.
+TEST(EffectRegistry, SaysWhatPartOfAMachineAnEffectIsAbout) {
+  for (const Effect* effect : AllEffects()) {
+    const EffectInfo& info = effect->info;
+    const MachinePart about = info.name.starts_with("gait_")     ? MachinePart::kClock
+                              : info.name.starts_with("guide_")  ? MachinePart::kGuideOfBall
+                              : info.name == "torque_limit_loss" ? MachinePart::kTorqueLimit
+                                                                 : MachinePart::kNone;
+    EXPECT_EQ(info.about, about) << info.name;
+    const bool of_motors = about == MachinePart::kClock || about == MachinePart::kTorqueLimit;
+    const bool of_robots_alone = info.for_robot && !info.for_legs && !info.for_ball;
+    EXPECT_TRUE(!of_motors || of_robots_alone) << info.name;
+  }
+}
+
 TEST(EffectAtNull, ChangesNothingBitForBit) {
   for (Law law : kAllLaws) {
     SimulationRequest q = ExcitedRequest(law);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "tests/support/diagnosed_hops.h"
 #include "tests/support/formulas.h"
@@ -84,13 +85,60 @@ TEST(Candidates, OfARobotOnOneLegAreNotNamedTwice) {
   EXPECT_EQ(count(2, "leg_stiffness"), 2);
 }
 
-// Motors that are held have no clock that could be wrong.
-TEST(Candidates, OfARobotHoldAClockWhereItHasOne) {
+FitProblem TwoLeggedRobot() {
   FitProblem robot;
   robot.law = Law::kRobot;
   robot.trials.resize(1);
   robot.trials[0].parameters.robot = RobotParameters<double>();
   robot.trials[0].parameters.robot->legs = 2;
+  return robot;
+}
+bool Holds(const FitProblem& problem, const std::string& name) {
+  const std::vector<std::string> names = NamesOf(CandidatesOf(problem, {}));
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// Motors that are locked, have none, or are told a torque of the log have no limit to lose.
+TEST(Candidates, OfARobotHoldALimitOfTorqueWhereItHasOne) {
+  FitProblem problem = TwoLeggedRobot();
+  RobotParameters<double>& robot = *problem.trials[0].parameters.robot;
+  robot.control = MotorControl::kClock;
+  robot.torque_limit = 10.0;
+  EXPECT_TRUE(Holds(problem, "torque_limit_loss"));
+  problem.trials[0].inputs.resize(1);
+  problem.trials[0].inputs[0].kind = InputKind::kHipTorque2;
+  EXPECT_FALSE(Holds(problem, "torque_limit_loss"));
+  problem.trials[0].inputs.clear();
+  robot.control = MotorControl::kLocked;
+  EXPECT_FALSE(Holds(problem, "torque_limit_loss"));
+  robot.control = MotorControl::kClock;
+  robot.torque_limit = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(Holds(problem, "torque_limit_loss"));
+}
+
+// The scale of a told torque that is fitted is the gain of its motor by another name.
+TEST(Candidates, HoldNoGainWhoseInputsScaleIsFitted) {
+  FitProblem robot = TwoLeggedRobot();
+  for (const char* name : {"motor_gain", "motor_gain_1", "motor_gain_2"})
+    EXPECT_TRUE(Holds(robot, name)) << name;
+  SharedParameter scale;
+  scale.direction.of = SensitivityDirection::Of::kInput;
+  scale.direction.index = static_cast<int>(InputKind::kHipTorque2);
+  scale.direction.component = 1;
+  robot.shared.push_back(scale);
+  EXPECT_FALSE(Holds(robot, "motor_gain"));
+  EXPECT_TRUE(Holds(robot, "motor_gain_1"));
+  EXPECT_FALSE(Holds(robot, "motor_gain_2"));
+  FitProblem hopper = Problem();
+  EXPECT_TRUE(Holds(hopper, "torque_gain"));
+  scale.direction.index = static_cast<int>(InputKind::kHipTorque);
+  hopper.shared.push_back(scale);
+  EXPECT_FALSE(Holds(hopper, "torque_gain"));
+}
+
+// Motors that are held have no clock that could be wrong.
+TEST(Candidates, OfARobotHoldAClockWhereItHasOne) {
+  FitProblem robot = TwoLeggedRobot();
   const auto of_clocks = [&](const CandidateOptions& options) {
     const std::vector<std::string> names = NamesOf(CandidatesOf(robot, options));
     return std::count_if(names.begin(), names.end(),
