@@ -6,6 +6,7 @@
 #include "datasets/copied_trials.h"
 #include "datasets/suspect_things.h"
 #include "fitting/apex_segments.h"
+#include "fitting/leg_starts.h"
 #include "fitting/mixed_up_trials.h"
 #include "fitting/smoothed_traces.h"
 #include "fitting/turned_axes.h"
@@ -46,7 +47,7 @@ std::vector<std::string> DataWarnings(const Dataset& dataset, const FitProblem& 
   for (const std::string& sentence : CopiedTrials(dataset)) warnings.push_back(sentence);
   if (!UnreadableTimes(dataset).empty()) return warnings;
   for (const auto& sentences :
-       {TurnedAxes(problem), MixedUpTrials(problem), SmoothedTraces(problem)})
+       {TurnedAxes(problem), LegStarts(problem), MixedUpTrials(problem), SmoothedTraces(problem)})
     for (const std::string& sentence : sentences)
       warnings.push_back(dataset.origin.place + ": " + sentence + ".");
   return warnings;
