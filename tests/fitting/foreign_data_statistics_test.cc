@@ -145,15 +145,6 @@ TEST_P(ForeignRecords, AreFittedAndDiagnosedUnderEveryLaw) {
 INSTANTIATE_TEST_SUITE_P(Folders, ForeignRecords, ::testing::ValuesIn(kFolders),
                          [](const auto& info) { return info.param; });
 
-// How many sizes are told to differ between trials. In the practice sets and the rigs none does.
-int SizesToldToDiffer(const Diagnosis& d) {
-  int told = 0;
-  if (!d.extension) return told;
-  for (const CauseReport* c : d.extension->ToldCauses())
-    for (std::size_t k = 0; k < c->sizes.size(); ++k) told += d.extension->TellsSizesOf(*c, k);
-  return told;
-}
-
 // ---- the practice sets' truths -----------------------------------------------------------------
 
 struct Found {
@@ -168,7 +159,7 @@ Found Seek(const PracticeSet& set) {
   DiagnosisOptions options;
   options.problem.law = set.law;
   const Diagnosis d = Diagnose(set.dataset, options);
-  out.differ = SizesToldToDiffer(d);
+  out.differ = testing::SizesToldToDiffer(d);
   out.verdict = d.refusal.empty() ? std::string(NameOf(d.verdict)) : "refused";
   std::vector<std::string> names;
   for (std::size_t m = 0; m < d.naming.groups.size(); ++m) {
@@ -203,7 +194,7 @@ TEST(ForeignData, ThePracticeSetsTruthsAreFound) {
     for (const std::string& effect : sets[i].effects) truth += effect + " ";
     std::printf("%s: %s| %s| E %+.2f %% with the truth given\n", sets[i].name.c_str(),
                 truth.c_str(), found[i].verdict.c_str(), 100.0 * found[i].error);
-    EXPECT_EQ(found[i].differ, 0) << sets[i].name;
+    EXPECT_EQ(found[i].differ, 0) << sets[i].name;  // in none of them does one
     if (sets[i].effects.empty()) {
       ++none;
       adequate += found[i].named;
@@ -279,7 +270,7 @@ TEST(ForeignData, TheRigsCausesAreNamed) {
     std::printf("%s: %s;%s; E %+.2f %%\n", rig.name, std::string(NameOf(d.verdict)).c_str(),
                 told.c_str(), 100.0 * error);
     EXPECT_LT(std::abs(error), 0.01) << rig.name;
-    EXPECT_EQ(SizesToldToDiffer(d), 0) << rig.name;
+    EXPECT_EQ(testing::SizesToldToDiffer(d), 0) << rig.name;
   }
   std::printf("main causes: %d, of them right %d of %d that are there\n", main, right, wanted);
   EXPECT_GE(right, 12);

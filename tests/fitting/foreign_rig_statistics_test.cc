@@ -16,6 +16,7 @@
 #include "datasets/read_dataset.h"
 #include "fitting/diagnosis/diagnosis.h"
 #include "tests/support/beam_rig.h"
+#include "tests/support/diagnosed_hops.h"
 #include "tests/support/temp_folder.h"
 
 namespace hoplab::testing {
@@ -100,7 +101,7 @@ bool Has(const std::vector<std::string>& names, const std::string& name) {
 
 struct Count {
   int main = 0, right = 0, small = 0, small_right = 0, wanted = 0, found = 0, near = 0, covered = 0,
-      rigs = 0;
+      rigs = 0, differ = 0;
   double width = 0.0;  // sum of half the intervals of E, relative
 };
 
@@ -141,6 +142,9 @@ void DiagnoseOne(int seed, Count& count) {
   count.near += std::abs(error) < 0.01;
   count.covered += low <= truth && truth <= high;
   count.width += 0.5 * (high - low) / truth;
+  const int differ = SizesToldToDiffer(d);
+  if (differ > 0) told += fmt::format(" and {} sizes that DIFFER", differ);
+  count.differ += differ;
   ++count.rigs;
   fmt::print(
       "{:3} {:21} tau {:3.0f} us, leg {:4.1f} g, mu {:.2f}: {} ({:.1f} % explained, left {:.2f} "
@@ -163,9 +167,10 @@ TEST(ForeignRigs, CausesOfRigsDrawnAtRandom) {
   for (int seed = first; seed < first + rigs; ++seed) DiagnoseOne(seed, count);
   fmt::print(
       "main causes: {} of {} are there, small ones {} of {}; of what shows, {} of {} found; E "
-      "within 1 %: {}, within its interval: {} of {}, which is +- {:.2f} % wide in the mean\n",
+      "within 1 %: {}, within its interval: {} of {}, which is +- {:.2f} % wide in the mean; "
+      "sizes told to differ between trials: {}\n",
       count.right, count.main, count.small_right, count.small, count.found, count.wanted,
-      count.near, count.covered, count.rigs, 100.0 * count.width / count.rigs);
+      count.near, count.covered, count.rigs, 100.0 * count.width / count.rigs, count.differ);
   if (rigs != kRigs || first != 1) return;
   // The bounds are 80 and 95 %. Known: rig 7, whose slow clock is told as gravity.
   EXPECT_GE(count.right, 0.95 * count.main);
@@ -174,6 +179,7 @@ TEST(ForeignRigs, CausesOfRigsDrawnAtRandom) {
   EXPECT_GE(count.covered, 17);
   // Few names: what most likely does not act is left out (set_aside.h).
   EXPECT_GE(count.small_right, 0.8 * count.small);
+  EXPECT_EQ(count.differ, 0);
   // An interval that holds everything says nothing.
   EXPECT_LE(count.width / count.rigs, 0.01);
 }

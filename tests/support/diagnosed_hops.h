@@ -154,6 +154,15 @@ inline DiagnosisOptions OptionsWith(std::vector<std::string> candidates) {
   return options;
 }
 
+/// How many sizes are told to differ between trials.
+inline int SizesToldToDiffer(const Diagnosis& d) {
+  int told = 0;
+  if (!d.extension) return told;
+  for (const CauseReport* c : d.extension->ToldCauses())
+    for (std::size_t k = 0; k < c->sizes.size(); ++k) told += d.extension->TellsSizesOf(*c, k);
+  return told;
+}
+
 /// Names of the first group: the leading cause first.
 inline std::vector<std::string> GroupNames(const Naming& naming, std::size_t group = 0) {
   std::vector<std::string> names;
