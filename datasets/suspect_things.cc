@@ -47,15 +47,6 @@ double Quantile(std::vector<double> values, double fraction) {
   return *at;
 }
 
-// Of the straight line through points, by the median of all pairs half of them apart.
-double MedianSlope(const std::vector<double>& t, const std::vector<double>& y) {
-  std::vector<double> slopes;
-  const std::size_t apart = t.size() / 2;
-  for (std::size_t i = 0; i + apart < t.size(); ++i)
-    slopes.push_back((y[i + apart] - y[i]) / (t[i + apart] - t[i]));
-  return Quantile(slopes, 0.5);
-}
-
 // Curvature (second derivative) of the parabola through the samples [first, last) by least squares.
 double Curvature(const std::vector<double>& t, const std::vector<double>& y, std::size_t first,
                  std::size_t last) {
@@ -278,6 +269,14 @@ std::string UnreadableTimes(const Dataset& dataset) {
   return dataset.trials.empty() ? ""
                                 : "every trial falls at a millionth of gravity: time_s looks like "
                                   "milliseconds; divide it by 1000";
+}
+
+double MedianSlope(const std::vector<double>& t, const std::vector<double>& y) {
+  std::vector<double> slopes;
+  const std::size_t apart = t.size() / 2;
+  for (std::size_t i = 0; i + apart < t.size(); ++i)
+    slopes.push_back((y[i + apart] - y[i]) / (t[i + apart] - t[i]));
+  return Quantile(slopes, 0.5);
 }
 
 std::vector<std::string> SuspectThings(const Dataset& dataset) {

@@ -22,6 +22,9 @@ std::string UnreadableTimes(const Dataset& dataset);
 /// motion is quick against the sample rate; NaN below 20 usable samples.
 double HighFrequencyNoise(const std::vector<double>& times_s, const std::vector<double>& values);
 
+/// Slope of the straight line through points, by the median of all pairs half of them apart.
+double MedianSlope(const std::vector<double>& t, const std::vector<double>& y);
+
 /// Downward acceleration in flight that a trace of heights shows [m/s^2 if its columns hold what
 /// they say]: the curvature of parabolas laid through short windows, the tenth percentile from
 /// below. NaN if there are fewer than 10 samples.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/text.h"
+#include "datasets/suspect_things.h"
 #include "fitting/fit.h"
 #include "fitting/trial_evaluator.h"
 
@@ -15,29 +16,20 @@ constexpr double kFirst_s = 0.02;
 constexpr std::size_t kFewestRows = 4;
 constexpr double kOff = 0.5;             // of the larger of two rates
 constexpr double kLeastOff_rad_s = 5.0;  // a loaded leg may give way at some rad/s
-constexpr double kSureOff = 8.0;         // standard errors of the logged rate
+constexpr double kSureOff = 8.0;         // sigmas, over that time
 
-struct Rate {
-  double value, std_error;  // rad/s
-};
-
-// The slope of a channel's line over the rows it has.
-std::optional<Rate> RateOf(const TrialProblem& trial, const std::vector<double>& cells,
-                           std::size_t width, std::size_t channel, double sigma) {
-  double n = 0.0, t = 0.0, y = 0.0, tt = 0.0, ty = 0.0;
+// Of the line through the rows that a channel has [rad/s].
+std::optional<double> RateOf(const TrialProblem& trial, const std::vector<double>& cells,
+                             std::size_t width, std::size_t channel) {
+  std::vector<double> times, values;
   for (std::size_t row = 0; row < trial.row_times.size(); ++row) {
     const double value = cells[row * width + channel];
     if (!std::isfinite(value)) continue;
-    const double time = trial.row_times[row];
-    n += 1.0;
-    t += time;
-    y += value;
-    tt += time * time;
-    ty += time * value;
+    times.push_back(trial.row_times[row]);
+    values.push_back(value);
   }
-  const double spread = tt - t * t / n;
-  if (n < static_cast<double>(kFewestRows) || !(spread > 0.0)) return std::nullopt;
-  return Rate{(ty - t * y / n) / spread, sigma / std::sqrt(spread)};
+  if (times.size() < kFewestRows) return std::nullopt;
+  return MedianSlope(times, values);
 }
 
 // What is seen of one leg that begins otherwise.
@@ -56,13 +48,13 @@ std::optional<Otherwise> BeginsOtherwise(const FitProblem& problem, const TrialP
   for (std::size_t c = 0; c < width; ++c) {
     const ChannelProblem& channel = problem.channels[c];
     if (!IsAngleOfLeg(channel.channel)) continue;
-    const auto logged = RateOf(trial, trial.data, width, c, channel.sigma);
-    const auto own = RateOf(trial, simulated.samples, width, c, channel.sigma);
+    const auto logged = RateOf(trial, trial.data, width, c);
+    const auto own = RateOf(trial, simulated.samples, width, c);
     if (!logged || !own) continue;
-    const double off = std::abs(logged->value - own->value);
-    const double larger = std::max(std::abs(logged->value), std::abs(own->value));
-    if (off > std::max({kOff * larger, kLeastOff_rad_s, kSureOff * logged->std_error}))
-      return Otherwise{ChannelName(channel.channel), logged->value, own->value};
+    const double off = std::abs(*logged - *own);
+    const double larger = std::max(std::abs(*logged), std::abs(*own));
+    if (off > std::max({kOff * larger, kLeastOff_rad_s, kSureOff * channel.sigma / kFirst_s}))
+      return Otherwise{ChannelName(channel.channel), *logged, *own};
   }
   return std::nullopt;
 }
@@ -83,11 +75,11 @@ std::vector<std::string> LegStarts(const FitProblem& problem) {
   if (!first) return {};
   return {first->leg + " of " + trials.front().file + " begins to turn at " +
           FormatDouble(std::round(first->logged)) +
-          " rad/s, where the clock as it is stated turns it at " +
-          FormatDouble(std::round(first->simulated)) +
-          " rad/s, and a leg of every other train trial likewise. State the clock's phases, duty, "
-          "period and sweep as they "
-          "were: from the other piece of a turn no fit leads back"};
+          " rad/s, where the clock as stated turns it at " +
+          FormatDouble(std::round(first->simulated)) + " rad/s" +
+          (trials.size() > 1 ? ", and so in every train trial" : "") +
+          "; check the clock's phases, duty, period and sweep: a fit hardly finds back from the "
+          "other piece of a turn"};
 }
 
 }  // namespace hoplab

@@ -24,7 +24,7 @@ TEST(LegStarts, AClockThatIsStatedOnItsOtherPieceIsTold) {
   const std::vector<std::string> said = LegStartsOf(walk);
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(said[0].find("leg_angle_1_rad of train-1.csv begins to turn at -3 rad/s, where the "
-                         "clock as it is stated turns it at -"),
+                         "clock as stated turns it at -"),
             0U)
       << said[0];
   const std::vector<std::string> warnings = DataWarnings(walk, MakeProblem(walk, {}));
