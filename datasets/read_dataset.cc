@@ -245,7 +245,8 @@ Dataset ReadDataset(const fs::path& folder) {
   const std::string shown = folder.string();
   const fs::path yaml = folder / kYamlName;
   if (!fs::exists(folder, error))
-    throw InputError({shown, "", "there is no such folder", "Check the path."});
+    throw InputError(
+        {shown, "", "there is no such folder", NearestPath(folder, "Check the path.")});
   if (!fs::is_directory(folder, error))
     throw InputError({shown, "", "must be a folder with a dataset.yaml, and is a file",
                       folder.filename() == kYamlName ? "Give the folder it lies in."

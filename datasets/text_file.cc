@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <system_error>
+#include <vector>
 
 #include "base/input_error.h"
+#include "base/text.h"
 
 namespace hoplab {
 namespace {
@@ -56,11 +59,27 @@ std::string_view CheckText(std::string_view bytes, const std::string& place) {
   return bytes;
 }
 
+std::string NearestPath(const fs::path& absent, const char* remedy) {
+  // A path with an end of its own, "rig-drop/", names a folder.
+  const fs::path path = absent.has_filename() ? absent : absent.parent_path();
+  const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::vector<std::string> beside;
+  std::error_code error;
+  for (fs::directory_iterator entry(parent, error), end; !error && entry != end;
+       entry.increment(error))
+    beside.push_back(entry->path().filename().string());
+  std::sort(beside.begin(), beside.end());
+  const std::optional<std::string> nearest = NearestWord(path.filename().string(), beside);
+  if (!nearest) return remedy;
+  return "Did you mean " + (path.parent_path() / *nearest).string() + "?";
+}
+
 std::string ReadFileBytes(const fs::path& file, std::uint64_t max_bytes, const char* shrink) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status))
-    throw InputError({file.string(), "", "there is no such file", "Check the name."});
+    throw InputError(
+        {file.string(), "", "there is no such file", NearestPath(file, "Check the name.")});
   if (!fs::is_regular_file(status))
     throw InputError(
         {file.string(), "", "must be a file, and is a folder or a device", "Name a text file."});

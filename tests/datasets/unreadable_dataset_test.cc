@@ -169,6 +169,15 @@ TEST_F(BadDatasetFolder, AFolderThatIsNotThereIsReported) {
             absent.string() + ": there is no such folder. Check the path.");
 }
 
+TEST_F(BadDatasetFolder, AMisspeltFolderIsGuessed) {
+  const std::string remedy = ". Did you mean " + folder_.string() + "?";
+  for (const char* misspelt : {"hpos", "hops1", "hpos/"}) {
+    const fs::path absent = temp_.path() / misspelt;
+    EXPECT_EQ(InputErrorOf([&] { ReadDataset(absent); }),
+              absent.string() + ": there is no such folder" + remedy);
+  }
+}
+
 TEST_F(BadDatasetFolder, TheYamlItselfIsNoFolder) {
   EXPECT_EQ(InputErrorOf([&] { ReadDataset(yaml_); }),
             yaml_ +

@@ -18,7 +18,6 @@
 namespace hoplab::testing {
 namespace {
 
-constexpr double kRow = 2e-3;
 constexpr double kWidth = 0.03, kThickness = 0.003658;
 
 struct Drop {
@@ -35,19 +34,20 @@ constexpr std::array<Drop, 9> kDrops = {{{22, 0.30, 1.0},
                                          {38, 0.31, 1.4}}};
 constexpr std::size_t kTrain = 6;
 
-// Of the body the first two joints, then the hip: the order of Dof.
+// Of the body the first two joints, then the hip: the order of BeamDof.
 std::string ModelText(const BeamRig& rig) {
-  return BeamWorldText(rig,
-                       fmt::format("<joint name='x' type='slide' axis='1 0 0'/>"
-                                   "<joint name='y' type='slide' axis='0 0 1'/>"
-                                   "<inertial pos='0 0 0' mass='{}' diaginertia='0.001 0.001 "
-                                   "0.001'/>{}",
-                                   rig.body_mass, BeamLegText(rig, "hip", kBeamHingeInertia)),
-                       "<motor joint='hip' gear='-1'/>");
+  return BeamWorldText(
+      rig,
+      fmt::format("<joint name='x' type='slide' axis='1 0 0'/>"
+                  "<joint name='y' type='slide' axis='0 0 1'/>"
+                  "<inertial pos='0 0 0' mass='{}' diaginertia='0.001 0.001 "
+                  "0.001'/>{}{}",
+                  rig.body_mass - rig.extras.load, BeamLegText(rig, "hip", kBeamHingeInertia),
+                  BeamLoadText(rig.extras)),
+      "<motor joint='hip' gear='-1'/>");
 }
 
-// The body and the hip of a model: the first three degrees of freedom.
-enum Dof { kX, kY, kHip };
+constexpr int kHip = kThird;
 
 // Whether the hip is free. A foot that lands or slides leaves the ground for a step and another;
 // a rig's switch does not see it.
@@ -67,11 +67,14 @@ class Stance {
 void Push(const BeamRig& rig, double angle, bool stands, mjModel& model, mjData& data) {
   const double vx = data.qvel[kX], vy = data.qvel[kY];
   const double drag = rig.drag * std::hypot(vx, vy);
+  mju_zero(data.qfrc_applied, model.nv);
+  mju_zero(data.xfrc_applied, 6 * model.nbody);
   data.qfrc_applied[kX] = -drag * vx;
   data.qfrc_applied[kY] = -drag * vy;
   model.dof_damping[kHip] = stands ? rig.hip_damping : rig.hold_damping;
   data.ctrl[0] = stands ? rig.hip_gain * (rig.desired_speed - vx)
                         : -rig.hold_stiffness * (angle - data.qpos[kHip]);
+  if (rig.extras.push) rig.extras.push(stands, model, data);
 }
 
 void RecordDrop(const BeamRig& rig, mjModel& model, const Drop& drop, RandomStream& noise,
@@ -88,9 +91,10 @@ void RecordDrop(const BeamRig& rig, mjModel& model, const Drop& drop, RandomStre
   double rising = 0.0;
   Stance stance;
   for (int row = 0; hops < rig.hops && row < 2000;) {
-    if (data->time * rig.clock >= row * kRow - 1e-9) {
-      const double x = data->qpos[kX], y = data->qpos[kY];
-      csv << fmt::format("{:.4f},{:.6f},{:.6f}\n", row * kRow,
+    if (data->time * rig.clock >= row * kBeamRow - 1e-9) {
+      double x = data->qpos[kX], y = data->qpos[kY], pitch = 0.0;
+      if (rig.extras.seen) rig.extras.seen(data->time, x, y, pitch);
+      csv << fmt::format("{:.4f},{:.6f},{:.6f}\n", row * kBeamRow,
                          rig.scale_x * (x * cosine + y * sine) + rig.noise * noise.Normal(),
                          rig.scale_y * (y * cosine - x * sine) + rig.noise * noise.Normal());
       ++row;

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "tests/support/beam_extras.h"
+
 namespace hoplab::testing {
 
 /// A hopper in MuJoCo that shares nothing with the program but the laws of nature: its leg is a
@@ -34,6 +36,7 @@ struct BeamRig {
   double noise = 5e-4;
   double told_modulus = 20e9;  // the dataset's start
   int seed = 1;
+  BeamExtras extras = {};
 };
 
 /// The section that the dataset states: E I = E times this [m^4].

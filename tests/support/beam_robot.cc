@@ -19,10 +19,8 @@
 namespace hoplab::testing {
 namespace {
 
-constexpr double kRow = 2e-3;                                      // s
 constexpr double kPosition = 5e-4, kAngle = 1e-3, kTorque = 5e-3;  // noise [m], [rad], [N m]
-// The first degrees of freedom.
-enum Dof { kX, kY, kPitch };
+constexpr int kPitch = kThird;
 
 // How many runs, and how long.
 struct Plan {
@@ -136,8 +134,8 @@ void MakeDry(mjModel& model, int dof, double torque) {
   model.dof_solimp[mjNIMP * dof] = model.dof_solimp[mjNIMP * dof + 1] = 0.99;
 }
 
-void RecordRun(const Parameters<double>& p, mjModel& model, const Run& run, RandomStream& noise,
-               const std::filesystem::path& file) {
+void RecordRun(const Parameters<double>& p, const BeamExtras& extras, mjModel& model,
+               const Run& run, RandomStream& noise, const std::filesystem::path& file) {
   const RobotParameters<double>& robot = *p.robot;
   const MujocoData data = NewData(model);
   std::array<int, kMaxLegs> motor = {};
@@ -171,11 +169,17 @@ void RecordRun(const Parameters<double>& p, mjModel& model, const Run& run, Rand
           -robot.torque_limit, robot.torque_limit);
       data->ctrl[i] = motors.Give(i, told[i], model.opt.timestep);
     }
-    if (data->time >= row * kRow - 1e-9) {
-      csv << fmt::format("{:.4f},{:.6f},{:.6f},{:.6f}", row * kRow,
-                         data->qpos[kX] + kPosition * noise.Normal(),
-                         data->qpos[kY] + kPosition * noise.Normal(),
-                         data->qpos[kPitch] + kAngle * noise.Normal());
+    if (extras.push) {
+      mju_zero(data->qfrc_applied, model.nv);
+      mju_zero(data->xfrc_applied, 6 * model.nbody);
+      extras.push(data->ncon > 0, model, *data);
+    }
+    if (data->time >= row * kBeamRow - 1e-9) {
+      double x = data->qpos[kX], y = data->qpos[kY], pitch = data->qpos[kPitch];
+      if (extras.seen) extras.seen(data->time, x, y, pitch);
+      csv << fmt::format("{:.4f},{:.6f},{:.6f},{:.6f}", row * kBeamRow,
+                         x + kPosition * noise.Normal(), y + kPosition * noise.Normal(),
+                         pitch + kAngle * noise.Normal());
       for (int i = 0; i < robot.legs; ++i)
         csv << fmt::format(",{:.6f}", read[i] + kAngle * noise.Normal());
       for (int i = 0; i < robot.legs; ++i)
@@ -235,10 +239,11 @@ std::string ControllerText(const RobotParameters<double>& p, const RobotParamete
 }  // namespace
 
 void RecordRobot(const Parameters<double>& p, const Parameters<double>& told, int seed,
-                 bool compares_torque, const std::filesystem::path& folder) {
+                 bool compares_torque, const std::filesystem::path& folder,
+                 const BeamExtras& extras) {
   std::filesystem::create_directories(folder);
   MeetEllipsoidsAsArcs();
-  const MujocoModel model = CompileMujoco(BeamRobotText(p));
+  const MujocoModel model = CompileMujoco(BeamRobotText(p, extras));
   for (int i = 0; i < p.robot->legs; ++i) {
     const int hip = DofOf(*model, "hip", i);
     model->dof_damping[hip] = p.robot->hip_viscous[i];
@@ -253,7 +258,7 @@ void RecordRobot(const Parameters<double>& p, const Parameters<double>& told, in
     const Run run = by_clock ? RandomGait(p, random) : RandomDrop(p, random);
     const char* role = i < plan.train ? "train" : "test";
     const std::string name = fmt::format("{}-{}.csv", role, i + 1);
-    RecordRun(p, *model, run, random, folder / name);
+    RecordRun(p, extras, *model, run, random, folder / name);
     // What is stated of a start is off by its sigma.
     constexpr std::array<double, 6> kSigma = {0.002, 0.002, 0.02, 0.02, 0.005, 0.05};
     std::array<double, 6> start;

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "model/parameters.h"
+#include "tests/support/beam_extras.h"
 
 namespace hoplab::testing {
 
@@ -12,6 +13,7 @@ namespace hoplab::testing {
 /// Angles, heights, speeds, periods, sweeps and noise by `seed`. The torques motors are told are
 /// columns; the dataset compares them where `compares_torque` says so.
 void RecordRobot(const Parameters<double>& p, const Parameters<double>& told, int seed,
-                 bool compares_torque, const std::filesystem::path& folder);
+                 bool compares_torque, const std::filesystem::path& folder,
+                 const BeamExtras& extras = {});
 
 }  // namespace hoplab::testing

@@ -11,11 +11,12 @@ constexpr double kStopSoftness = 2e-4;  // of a gear's teeth [s]
 
 }  // namespace
 
-std::string BeamRobotText(const Parameters<double>& p) {
+std::string BeamRobotText(const Parameters<double>& p, const BeamExtras& extras) {
   const RobotParameters<double>& robot = *p.robot;
   BeamRig ground;
   ground.friction = robot.friction;
   ground.slope = p.slope;
+  ground.extras = extras;
   std::string legs, motors, gears;
   for (int i = 0; i < robot.legs; ++i) {
     BeamRig leg = ground;
@@ -49,8 +50,8 @@ std::string BeamRobotText(const Parameters<double>& p) {
   const std::string body = fmt::format(
       "<joint name='x' type='slide' axis='1 0 0'/><joint name='y' type='slide' axis='0 0 1'/>"
       "<joint name='pitch' type='hinge' axis='0 -1 0'/>"
-      "<inertial pos='{0} 0 {1}' mass='{2}' diaginertia='{3} {3} {3}'/>{4}",
-      robot.com_x, robot.com_y, p.m, robot.pitch_inertia, legs);
+      "<inertial pos='{0} 0 {1}' mass='{2}' diaginertia='{3} {3} {3}'/>{4}{5}",
+      robot.com_x, robot.com_y, p.m - extras.load, robot.pitch_inertia, legs, BeamLoadText(extras));
   return BeamWorldText(ground, body, motors, gears);
 }
 

@@ -40,13 +40,23 @@ std::string FeetText(const BeamRig& rig, int i, const std::array<double, 2>& beg
 
 }  // namespace
 
+void StickToFloor(double force, const mjModel& model, mjData& data) {
+  for (int i = 0; i < data.ncon; ++i) {
+    const int body = model.geom_bodyid[data.contact[i].geom2];
+    data.xfrc_applied[6 * body + 2] -= force / data.ncon;
+  }
+}
+
 // The chain from the hip, hinge by hinge; the tip is half a turn from the hip.
 std::string BeamLegText(const BeamRig& rig, std::string_view hip, double rotor_inertia) {
   const double length = rig.radius * kTurn;
   const double mass = rig.leg_mass / kArcs, inertia = mass * length * length / 12.0;
   const double stiffness = rig.bending_stiffness / length;
-  const std::string bend = fmt::format("<joint class='bend' stiffness='{}' damping='{}'/>",
-                                       stiffness, rig.relaxation * stiffness);
+  // Dry hinges stick: they creep by a thousandth of a radian a second at most.
+  const std::string bend = fmt::format(
+      "<joint class='bend' stiffness='{}' damping='{}' frictionloss='{}' "
+      "solreffriction='2e-4 1' solimpfriction='0.99 0.99 0.001'/>",
+      stiffness, rig.relaxation * stiffness, rig.extras.joint_friction);
   std::string text;
   std::array<double, 2> before = {0.0, 0.0};
   for (int i = 0; i < kArcs; ++i) {
@@ -64,6 +74,15 @@ std::string BeamLegText(const BeamRig& rig, std::string_view hip, double rotor_i
   }
   for (int i = 0; i < kArcs; ++i) text += "</body>";
   return text;
+}
+
+std::string BeamLoadText(const BeamExtras& extras) {
+  if (extras.load == 0.0) return "";
+  return fmt::format(
+      "<body><joint name='load' type='slide' axis='0 0 1' stiffness='{}' damping='{}' "
+      "springref='{}'/><inertial pos='0 0 0' mass='{}' diaginertia='1e-6 1e-6 1e-6'/></body>",
+      extras.load_stiffness, extras.load_damping,
+      extras.load * kBeamGravity / extras.load_stiffness, extras.load);
 }
 
 std::string BeamWorldText(const BeamRig& rig, std::string_view body, std::string_view actuators,
