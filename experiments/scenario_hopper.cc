@@ -14,7 +14,7 @@ Hopper HopperOfScenario(const Scenario& scenario, const IntegratorOptions& integ
   hopper.effects = ResolveEffects(
       scenario.effects,
       ResolveLaw(scenario.law.value_or(""), scenario.mechanism.type, scenario.law_origin.place),
-      LegMassOfSpec(scenario.mechanism));
+      LegMassOfSpec(scenario.mechanism), 0, RobotLegsOfSpec(scenario.mechanism));
   hopper.request = RequestOfScenario(stopping, hopper.effects);
   hopper.request.effects = {};  // the hopper's own are put in place where it runs
   hopper.request.integrator = integrator;
@@ -32,6 +32,12 @@ Hopper LeggedHopperOfScenario(const Scenario& scenario, const IntegratorOptions&
     throw InputError({scenario.origin.place, "controller.type",
                       "a robot whose motors stand still makes no strides: nothing drives it",
                       "Use type: clock, or look at its runs with simulate and sweep."});
+  }
+  for (const EffectSpec& effect : scenario.effects) {
+    if (effect.name == "gait_period_scale")
+      throw InputError({scenario.origin.place, "effects.gait_period_scale",
+                        "a stride is one period of the clock as it is stated",
+                        "Give controller.clock.period_s the period that the clock has."});
   }
   if (LegMassOfSpec(scenario.mechanism) == LegMass::kAtToe) {
     throw InputError(

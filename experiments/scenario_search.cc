@@ -68,7 +68,7 @@ constexpr ConstraintName kConstraints[] = {
     {"min_legs_apart", &SearchConstraints::min_legs_apart, true, false},
     {"min_flight_share", &SearchConstraints::min_flight_share, true, false}};
 
-SearchConstraints ConstraintsOf(const std::vector<NamedNumber>& numbers, bool robot) {
+SearchConstraints ConstraintsOf(const std::vector<NamedNumber>& numbers, bool robot, Law law) {
   SearchConstraints constraints;
   for (const NamedNumber& number : numbers) {
     const auto known = std::find_if(
@@ -85,6 +85,9 @@ SearchConstraints ConstraintsOf(const std::vector<NamedNumber>& numbers, bool ro
     }
     if (robot && !known->of_strides) refuse("is that of a hopper's hops", "Leave it out.");
     if (!robot && !known->of_hops) refuse("is that of a robot's stride", "Leave it out.");
+    if (known->field == &SearchConstraints::max_deflection_ratio && law != Law::kLargeDeflection)
+      refuse("bounds the expansion of law large_deflection; others have none",
+             "Leave it out, or say law: large_deflection.");
     constraints.*known->field = number.value;
   }
   return constraints;
@@ -118,7 +121,8 @@ SearchProblem SearchProblemOfScenario(const ScenarioDocument& document, const Sc
   SearchProblem problem;
   problem.objective = scenario.search->objective;
   problem.constraints =
-      ConstraintsOf(scenario.search->constraints, scenario.mechanism.type == MechanismKind::kRobot);
+      ConstraintsOf(scenario.search->constraints, scenario.mechanism.type == MechanismKind::kRobot,
+                    HopperOfScenario(scenario, integrator).request.law);
   CheckProblem(problem, scenario);
   std::vector<OverOption> wanted = over;
   if (wanted.empty()) {

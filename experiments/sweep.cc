@@ -30,6 +30,21 @@ std::vector<double> HypercubeColumn(const KeyRange& range, int samples, RandomSt
   return values;
 }
 
+// An output that the mechanism has.
+void CheckOutput(const SweepOutput& output, const Scenario& scenario) {
+  const auto refuse = [&](const char* rule) {
+    throw InputError({scenario.sweep->origin.place, std::string(output.name), rule,
+                      "Remove it from sweep.outputs."});
+  };
+  const MechanismKind kind = scenario.mechanism.type;
+  if (kind == MechanismKind::kBall && output.needs_fixed_point) refuse("does not exist for a ball");
+  if (kind != MechanismKind::kRobot) return;
+  if (output.needs_fixed_point && scenario.controller->motors->kind != MotorControl::kClock)
+    refuse("does not exist for a robot whose motors follow no clock");
+  if (output.name == "energy_percent")
+    refuse("is not told of a robot, whose pitch and motors hold energy, too");
+}
+
 }  // namespace
 
 SweepPlan::SweepPlan(const ScenarioDocument& document, const IntegratorOptions& integrator,
@@ -43,12 +58,7 @@ SweepPlan::SweepPlan(const ScenarioDocument& document, const IntegratorOptions& 
   }
   for (const OutputName& output : scenario.sweep->outputs)
     outputs_.push_back(&ResolveSweepOutput(output.name, output.origin.place));
-  const bool ball = scenario.mechanism.type == MechanismKind::kBall;
-  const auto gait = std::find_if(outputs_.begin(), outputs_.end(),
-                                 [](const SweepOutput* o) { return o->needs_fixed_point; });
-  if (ball && gait != outputs_.end())
-    throw InputError({scenario.sweep->origin.place, std::string((*gait)->name),
-                      "does not exist for a ball", "Remove it from sweep.outputs."});
+  for (const SweepOutput* output : outputs_) CheckOutput(*output, scenario);
   law_ = HopperOfScenario(scenario, integrator).request.law;
   reading_ = scenario.mechanism.reading;
   Layout(*scenario.sweep, seed);

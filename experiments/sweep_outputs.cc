@@ -70,6 +70,12 @@ double EnergyPercent(const Results& r) {
   return 100.0 * EnergyAt(r, apex->y, apex->vx, apex->vy) / EnergyAt(r, s[1], s[2], s[3]);
 }
 
+// The state of a hopper's apex begins with vx and y, that of a robot's section with y and vx.
+bool IsOfARobot(const Results& r) { return static_cast<bool>(r.request.parameters.robot); }
+double SteadyState(const Results& r, Eigen::Index i) {
+  return r.steady->found() ? r.steady->state[i] : kNaN;
+}
+
 double BandPercent(const Results& r) {
   if (!r.convergence.converged()) return kNaN;
   return r.convergence.band == ConvergenceTime::Band::kOnePercent ? 1.0 : 2.0;
@@ -102,9 +108,9 @@ const std::vector<Column>& Columns() {
       {{"stiffness_max_N_per_m", "N/m", true}, [](R r) { return r.stiffness_max; }},
       {{"max_torque_N_m", "N m", true}, [](R r) { return r.torque_max; }},
       {{"fixed_point_vx_m_per_s", "m/s", false, true},
-       [](R r) { return r.steady->found() ? r.steady->state[0] : kNaN; }},
+       [](R r) { return SteadyState(r, IsOfARobot(r) ? 1 : 0); }},
       {{"fixed_point_y_m", "m", false, true},
-       [](R r) { return r.steady->found() ? r.steady->state[1] : kNaN; }},
+       [](R r) { return SteadyState(r, IsOfARobot(r) ? 0 : 1); }},
       {{"period_s", "s", false, true},
        [](R r) { return r.steady->found() ? r.steady->hop.period : kNaN; }},
       {{"spectral_radius", "", false, true}, [](R r) { return r.steady->spectral_radius; }}};

@@ -12,7 +12,7 @@ namespace hoplab {
 namespace {
 
 // By how much the constraints are broken, relative to their size; names the worst.
-double Violation(const SearchProblem& problem, Law law, SearchPoint& point) {
+double Violation(const SearchProblem& problem, SearchPoint& point) {
   double sum = 0.0, worst = 0.0;
   const auto add = [&](const char* name, double excess, double size) {
     if (!(excess > 0.0)) return;
@@ -27,7 +27,7 @@ double Violation(const SearchProblem& problem, Law law, SearchPoint& point) {
   if (c.min_speed) add("min_speed", *c.min_speed - point.speed, *c.min_speed);
   if (c.max_torque) add("max_torque", point.torque - *c.max_torque, *c.max_torque);
   if (c.min_clearance) add("min_clearance", *c.min_clearance - point.clearance, *c.min_clearance);
-  if (law == Law::kLargeDeflection && c.max_deflection_ratio)
+  if (c.max_deflection_ratio)
     add("max_flexure", point.deflection_ratio - *c.max_deflection_ratio, *c.max_deflection_ratio);
   return sum;
 }
@@ -80,6 +80,7 @@ void ScoreRadius(const SearchProblem& problem, const Hopper& hopper, SearchPoint
   point.spectral_radius = steady.spectral_radius;
   point.speed = steady.state[0];
   SimulationRequest hop = RequestOf(hopper);
+  hop.parameters.start_angle = kNaN;  // the leg is placed, as after every hop
   hop.initial = {0.0, steady.state[1], steady.state[0], 0.0};
   hop.horizon = steady.hop.period;
   hop.max_hops = 1;
@@ -88,7 +89,7 @@ void ScoreRadius(const SearchProblem& problem, const Hopper& hopper, SearchPoint
     SetVerdict(point, PointVerdict::kNoConvergence, Squash(point.spectral_radius - 1.0));
     return;
   }
-  if (const double broken = Violation(problem, hopper.request.law, point); broken > 0.0) {
+  if (const double broken = Violation(problem, point); broken > 0.0) {
     SetVerdict(point, PointVerdict::kConstraint, Squash(broken));
     return;
   }
@@ -110,7 +111,7 @@ void ScoreTime(const SearchProblem& problem, const Hopper& hopper, SearchPoint& 
     SetVerdict(point, PointVerdict::kNoConvergence, Squash(point.convergence.spread));
     return;
   }
-  if (const double broken = Violation(problem, hopper.request.law, point); broken > 0.0) {
+  if (const double broken = Violation(problem, point); broken > 0.0) {
     SetVerdict(point, PointVerdict::kConstraint, Squash(broken));
     return;
   }

@@ -27,7 +27,7 @@ class Library {
       Impacts();
     } else {
       ChordForces();
-      if (IsDriven()) HipTorques();
+      HipTorques();
       Landings();
     }
     Readings();
@@ -163,16 +163,17 @@ class Library {
     AddSigned(vx, "vx", "m/s", s_.speed, "the speed forward");
     AddPlain(t, "t", "s", s_.time, "time");
     AddPlain(angle, "angle", "1", 1.0, "the leg's angle");
-    const Factor motor{"motor", "N m", s_.force * s_.length, "the motor's torque", "motor", {}};
-    const Factor sign{"sign(motor)", "1", 1.0, "the direction of the motor's torque", "motor", {}};
     Add("hip_torque", torque, kOne);
     for (const Factor& f : rate) Add("hip_torque", torque, f);
     for (const Factor& f : vx) Add("hip_torque", torque, f);
     for (const Factor& f : angle) Add("hip_torque", torque, f);
+    Add("hip_torque", torque, t[0]);
+    if (!IsDriven()) return;
+    const Factor motor{"motor", "N m", s_.force * s_.length, "the motor's torque", "motor", {}};
+    const Factor sign{"sign(motor)", "1", 1.0, "the direction of the motor's torque", "motor", {}};
     Add("hip_torque", torque, motor);
     Add("hip_torque", torque, sign);
     Add("hip_torque", torque, motor, {}, t[0]);
-    Add("hip_torque", torque, t[0]);
   }
 
   void Landings() {
@@ -217,6 +218,9 @@ class Library {
       Add(place, length, own[0]);
       Add(place, length, own[1]);
       Add(place, length, other[0]);
+      // A picture that is not square, and one whose rows are taken one after the other.
+      Add(place, length, own[0], {}, other[0]);
+      Add(place, length, y[0], {}, forward ? vx[1] : vy[1]);
       Add(place, length, forward ? vx[1] : vy[1]);
       Add(place, length, t[0]);
       Add(place, length, t[1]);
@@ -282,7 +286,7 @@ class Library {
     if (has_stance_) add("chord_force", "s", 2.0 * force, {0.0, 0.2}, "the compression");
   }
 
-  // Something shakes the body, in step with the start of each trial.
+  // Something shakes the body or the camera, in step with the start of each trial.
   void Vibrations() {
     if (!has_stance_) return;
     constexpr int kMostPeriods = 12;  // in a trial
@@ -294,10 +298,20 @@ class Library {
                      lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2),
                      lengths.end());
     const double step = 0.5 / RoundedToOneDigit(lengths[lengths.size() / 2]);
-    for (const std::string place : {"body_force_x", "body_force_y"}) {
+    struct Shaken {
+      std::string place, unit;
+      double size;
+    };
+    std::vector<Shaken> shaken;
+    for (const std::string along : {"x", "y"}) {
+      shaken.push_back({"body_force_" + along, "N", kExpected * s_.force});
+      if (Measures(along == "x" ? Channel::kBodyX : Channel::kBodyY))
+        shaken.push_back({"reading_" + along, "m", 0.1 * kExpected * s_.length});
+    }
+    for (const auto& [place, unit, size] : shaken) {
       for (int k = 2; k <= 2 * kMostPeriods; ++k) {
         for (const double phase : {0.0, 0.5 * std::numbers::pi}) {
-          AddShaped(place, kExpected * s_.force, "N", "sin(2 * pi * frequency * t + phase)",
+          AddShaped(place, size, unit, "sin(2 * pi * frequency * t + phase)",
                     {{"frequency", "Hz", k * step, 0.5 * step, (2 * kMostPeriods + 2) * step, step},
                      {"phase", "1", phase, -2.0 * std::numbers::pi, 2.0 * std::numbers::pi,
                       2.0 * std::numbers::pi}},

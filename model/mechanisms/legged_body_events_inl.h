@@ -212,7 +212,12 @@ ResetResult LeggedBody<T, LegT>::Land(const T& theta, const T& t, T* z, const T&
   inputs_.Seek(Value(t));
   if (lagged_) z[kMotorTorque] = CommandedTorque(t, z);
   slides_ = 0.0;
-  if (has_leg_mass_) TakeLegAlong(Load(stance, t, z), z);
+  if (has_leg_mass_) {
+    TakeLegAlong(Load(stance, t, z), z);
+    // The blow changes the speed that the motor follows.
+    controller_.Enter(Value(z[kVx]));
+    if (lagged_) z[kMotorTorque] = CommandedTorque(t, z);
+  }
   // What the leg itself presses brings an unloaded foot into its cone at once; a torque does not.
   if (foot_has_inertia_ && slides_ == 0.0 && Pushes(stance, t, z) && !HoldsWithin(stance, t, z))
     BeginSlide(stance, t, z);

@@ -18,9 +18,12 @@ inline ProcessResult RunHoplab(const std::vector<std::string>& arguments,
   return RunProcess(request);
 }
 
-inline std::string ShippedDataset(const std::string& name) {
-  return std::string(HOPLAB_SOURCE_DIR) + "/datasets/" + name;
+/// A file or folder of the project.
+inline std::string Shipped(const std::string& name) {
+  return (std::filesystem::path(HOPLAB_SOURCE_DIR) / name).string();
 }
+
+inline std::string ShippedDataset(const std::string& name) { return Shipped("datasets/" + name); }
 
 /// A short, exactly known scenario of three trials for `generate`.
 inline const char* const kScenario =

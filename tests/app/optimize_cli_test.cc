@@ -73,6 +73,10 @@ TEST_F(OptimizeCli, WhatCannotBeSearchedIsRefused) {
   const ProcessResult stride = Optimize({"--set", "search.constraints.min_flight_share=0.1"});
   EXPECT_EQ(stride.exit_code, 65);
   EXPECT_NE(stride.err.find("is that of a robot's stride"), std::string::npos) << stride.err;
+  const ProcessResult flexure =
+      Optimize({"--set", "law=elastica", "--set", "search.constraints.max_flexure=0.2"});
+  EXPECT_EQ(flexure.exit_code, 65);
+  EXPECT_NE(flexure.err.find("law large_deflection"), std::string::npos) << flexure.err;
   EXPECT_EQ(Optimize({"--set", "search=null"}).exit_code, 65);
   EXPECT_EQ(CountEntries(temp_.path()), 1);
 }

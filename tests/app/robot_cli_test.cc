@@ -9,10 +9,6 @@
 namespace hoplab::testing {
 namespace {
 
-std::string Shipped(const std::string& name) {
-  return (std::filesystem::path(HOPLAB_SOURCE_DIR) / name).string();
-}
-
 class RobotCli : public ::testing::Test {
  protected:
   ProcessResult Hoplab(const std::vector<std::string>& arguments) {

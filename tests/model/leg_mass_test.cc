@@ -73,6 +73,26 @@ TEST(LegMass, OnAStraightLegIsABarOnASpring) {
   EXPECT_NEAR(run.events[1].vy_after, landed * (m - 0.5 * m_leg) / m, 1e-9);
 }
 
+TEST(LegMass, ABlowThatTakesTheBodyPastItsMotorsLimitLeavesItAtTheLimit) {
+  SimulationRequest q = ExcitedRequest(Law::kConsistent);
+  q.parameters.v_des = 0.4;
+  const std::array effects = {Setting("leg_mass", 0.1 * q.parameters.m)};
+  q.effects = effects;
+  const Event landing = Simulate(q).events.at(0);
+  ASSERT_EQ(landing.kind, EventKind::kTouchdown);
+  const auto asked = [&](double vx) {
+    return std::abs(q.parameters.kp * (q.parameters.v_des - vx));
+  };
+  ASSERT_GT(asked(landing.vx_after), asked(landing.vx) * 1.01);
+  q.parameters.torque_limit = 0.5 * (asked(landing.vx) + asked(landing.vx_after));
+  const std::array rows = {landing.time + 1e-6, landing.time + 1e-4, landing.time + 1e-3};
+  const std::array channels = {Channel::kHipTorque};
+  q.row_times = rows;
+  q.channels = channels;
+  for (const double torque : Simulate(q).samples)
+    EXPECT_LE(std::abs(torque), q.parameters.torque_limit * (1.0 + 1e-12));
+}
+
 TEST(LegMass, TakesTheCentreOfMassThroughLiftOffUnmoved) {
   SimulationRequest q = ExcitedRequest(Law::kLargeDeflection);
   q.parameters.kp = 0.0;

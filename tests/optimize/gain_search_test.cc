@@ -132,6 +132,21 @@ TEST(SearchPoint, TheTorqueLimitIsSeenInTheTorque) {
   EXPECT_NEAR(EvaluatePoint(problem, x).torque, 0.5 * free, 1e-9);
 }
 
+// Where the first landing of a run is, a steady hop does not know.
+TEST(SearchPoint, TheSteadyHopThatIsMeasuredLandsAsEveryHop) {
+  SearchProblem problem = GainProblem(SearchObjective::kSpectralRadius);
+  problem.constraints.max_torque = 100.0;
+  const std::vector<double> x = {25.0, 8.0};
+  const double torque = EvaluatePoint(problem, x).torque;
+  ASSERT_GT(torque, 0.0);
+  problem.hopper_at = [inner = problem.hopper_at](std::span<const double> at) {
+    Hopper hopper = inner(at);
+    hopper.request.parameters.start_angle = testing::Degrees(40.0);
+    return hopper;
+  };
+  EXPECT_EQ(EvaluatePoint(problem, x).torque, torque);
+}
+
 TEST(Robustness, CountsRunsAndKeepsTheWorst) {
   const SearchProblem problem = SmallProblem();
   const std::vector<double> x = {25.0, 8.0};
