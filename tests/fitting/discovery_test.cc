@@ -140,6 +140,33 @@ TEST(Discover, AnImbalanceWithItsFrequency) {
   ExpectValue(found, 1, "frequency", 4.3);
 }
 
+TEST(Discover, ACameraThatShakes) {
+  const Discovery d =
+      Discover(HopsWith("reading_y", "a * sin(2 * pi * f * t + 0.4)",
+                        "  a: {unit: m, null: 0, lower: -1, upper: 1, typical: 0.002}\n"
+                        "  f: {unit: Hz, value: 7.1, lower: 0, upper: 50}\n"),
+               LargeDeflection());
+  ASSERT_EQ(d.verdict, DiscoveryVerdict::kFound) << d.reason;
+  const FoundTerm& found = d.found.front();
+  EXPECT_EQ(found.source.acts_as, "reading_y");
+  ASSERT_EQ(found.values.size(), 3u);
+  EXPECT_NEAR(std::abs(found.values[0].value), 0.002, 2e-4);
+  ExpectValue(found, 1, "frequency", 7.1);
+}
+
+// No motor turns it: a spring at the hip of a leg that stands.
+TEST(Discover, ASpringAtAPassiveHip) {
+  const Discovery d =
+      Discover(HopsWith("hip_torque", "-k * angle",
+                        "  k: {unit: N m, null: 0, lower: 0, upper: 100, typical: 0.3}\n", 0.0002),
+               LargeDeflection());
+  ASSERT_EQ(d.verdict, DiscoveryVerdict::kFound) << d.reason;
+  const FoundTerm& found = d.found.front();
+  EXPECT_EQ(found.source.acts_as, "hip_torque");
+  EXPECT_EQ(found.source.formula, "c * angle");
+  ExpectValue(found, 0, "c", -0.3);
+}
+
 TEST(Discover, ACubicDamperWithItsExponentAndTheCurveFreeOfTheFormula) {
   const Discovery d =
       Discover(HopsWith("chord_force", "-c * rate^3",
