@@ -87,11 +87,16 @@ FolderPlace PlaceOfFolder(const fs::path& folder_or_slash, const OverwriteOption
 
 }  // namespace
 
-void WriteFileAtomically(const fs::path& file, std::string_view content,
-                         const OverwriteOptions& options) {
+void CheckFileIsFree(const fs::path& file, const OverwriteOptions& options) {
   std::error_code error;
   if (fs::is_directory(file, error)) FailToWrite(file, "it is a folder");
   if (!options.force && fs::exists(file, error)) RefuseToOverwrite(file);
+}
+
+void WriteFileAtomically(const fs::path& file, std::string_view content,
+                         const OverwriteOptions& options) {
+  std::error_code error;
+  CheckFileIsFree(file, options);
   MakeFoldersAbove(file);
   const fs::path staged = NameBeside(file, "partial");
   RemoveOnExit cleanup(staged);

@@ -20,6 +20,9 @@ struct OverwriteOptions {
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view content,
                          const OverwriteOptions& options = {});
 
+/// Throws the InputError with which WriteFileAtomically would refuse what stands at `file`.
+void CheckFileIsFree(const std::filesystem::path& file, const OverwriteOptions& options = {});
+
 /// Throws the InputError with which WriteFolderAtomically would refuse `folder`, so that a long job
 /// can find out before it does its work.
 void CheckFolderIsFree(const std::filesystem::path& folder, const OverwriteOptions& options = {});

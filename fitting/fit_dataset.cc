@@ -10,6 +10,7 @@
 #include "fitting/discrepancy/estimate_discrepancy.h"
 #include "fitting/followed_part.h"
 #include "fitting/trial_evaluator.h"
+#include "fitting/uncertainty.h"
 #include "model/mechanism_traits.h"
 
 namespace hoplab {
@@ -39,19 +40,53 @@ namespace {
 // error, not the value.
 constexpr double kDisagreement = 0.25;
 
-std::string Disagreement(const FitProblem& problem, const FitResult& fit) {
-  if (!fit.ok) return "";
-  const Eigen::VectorXd& hops = fit.records[fit.best_start].hops;
-  for (int k = 0; k < hops.size(); ++k) {
-    const SharedParameter& s = problem.shared[k];
-    // What may be zero has no ratio.
-    if (s.lower <= 0.0 || std::abs(fit.shared[k] / hops[k] - 1.0) <= kDisagreement) continue;
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "single hops alone say %s = %.3g %s, whole traces %.3g: this law does not carry "
-                  "from hop to hop",
-                  s.name.c_str(), hops[k], s.unit.c_str(), fit.shared[k]);
-    return text;
+// Whether whole traces and hops tell value k otherwise. What may be zero has no ratio.
+bool Differ(const SharedParameter& s, double whole, double hops) {
+  return s.lower > 0.0 && std::abs(whole / hops - 1.0) > kDisagreement;
+}
+
+std::string DisagreementText(const SharedParameter& s, double whole, double hops,
+                             const char* which) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "%s say %s = %.3g %s, whole traces %.3g: this law does not carry from hop to hop",
+                which, s.name.c_str(), hops, s.unit.c_str(), whole);
+  return text;
+}
+
+// Whether a fit knows each of its values by much less than they are told to differ.
+std::vector<bool> KnownValues(const FitProblem& problem, const FitResult& fit, int jobs) {
+  const Uncertainty u = AssessUncertainty(problem, TrialsOf(problem, TrialRole::kTrain), fit.shared,
+                                          fit.initial_states, {}, jobs);
+  std::vector<bool> known;
+  for (Eigen::Index k = 0; k < fit.shared.size(); ++k) {
+    const std::optional<double>& error = u.parameters[static_cast<std::size_t>(k)].std_error;
+    known.push_back(error && *error < 0.5 * kDisagreement * std::abs(fit.shared[k]));
+  }
+  return known;
+}
+
+// The first value that whole traces and hops both know and tell otherwise. `hops`: null, those that
+// the search began with, each from the apex that the data show; else hops with starts of their own.
+std::string Disagreement(const DatasetFit& whole, const DatasetFit* hops, int jobs) {
+  if (!whole.result.ok) return "";
+  const Eigen::VectorXd& a = whole.result.shared;
+  const Eigen::VectorXd& b =
+      hops ? hops->result.shared : whole.result.records[whole.result.best_start].hops;
+  const auto differs = [&](int k) { return Differ(whole.problem.shared[k], a[k], b[k]); };
+  const int count = static_cast<int>(b.size());
+  int k = 0;
+  while (k < count && !differs(k)) ++k;
+  if (k == count) return "";
+  const std::vector<bool> by_whole = KnownValues(whole.problem, whole.result, jobs);
+  const std::vector<bool> by_hops =
+      hops ? KnownValues(hops->problem, hops->result, jobs) : by_whole;
+  for (; k < count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (differs(k) && by_whole[at] && by_hops[at])
+      return DisagreementText(
+          whole.problem.shared[k], a[k], b[k],
+          hops ? "single hops alone" : "hops that start at the apexes of the traces");
   }
   return "";
 }
@@ -150,7 +185,7 @@ DatasetFit FitUnderWhiteNoise(FitProblem problem, const FitOptions& fit_options,
   fit.problem = std::move(problem);
   if (span != Segmentation::kHops) {
     fit.result = Fit(fit.problem, fit_options);
-    fit.note = Disagreement(fit.problem, fit.result);
+    fit.note = Disagreement(fit, nullptr, fit_options.jobs);
     // Where whole traces pull a value far from what their hops say, they fit the model's error.
     const bool done = fit.result.ok && fit.result.stop.IsMinimum() && fit.note.empty();
     if (done || fit.result.interrupted || span == Segmentation::kWhole) return fit;
@@ -168,6 +203,10 @@ DatasetFit FitUnderWhiteNoise(FitProblem problem, const FitOptions& fit_options,
   const bool usable = pieces.result.ok && pieces.result.stop.IsMinimum();
   const bool whole_is_better = fit.result.ok && (fit.result.stop.IsMinimum() || !pieces.result.ok);
   if (!usable && span != Segmentation::kHops && whole_is_better) return fit;
+  if (usable && pieces.by_hop && fit.result.ok && fit.result.stop.IsMinimum()) {
+    fit.note = Disagreement(fit, &pieces, fit_options.jobs);
+    if (fit.note.empty()) return fit;
+  }
   if (pieces.by_hop) pieces.note = WhyByHop(fit, span);
   return pieces;
 }

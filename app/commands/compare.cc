@@ -1,14 +1,30 @@
 #include <ostream>
+#include <set>
 
 #include "app/records/law_comparison_record.h"
 #include "app/reports/law_comparison_report.h"
 #include "app/runs/compare_settings.h"
 #include "app/terminal/command.h"
 #include "app/terminal/progress.h"
+#include "base/input_error.h"
+#include "base/text.h"
 #include "datasets/read_dataset.h"
 
 namespace hoplab {
 namespace {
+
+// What is known from elsewhere is a value that some model fits.
+void CheckTruth(const std::map<std::string, double>& truth, const LawComparison& comparison) {
+  std::set<std::string> fitted;
+  for (const ModelResult& row : comparison.rows)
+    for (const SharedParameter& s : row.fit.problem.shared) fitted.insert(s.name);
+  const std::vector<std::string> known(fitted.begin(), fitted.end());
+  for (const auto& [name, value] : truth) {
+    if (!fitted.contains(name))
+      throw InputError(
+          {"--true", Printable(name), "is no value that was fitted", DidYouMean(name, known)});
+  }
+}
 
 ExitCode RunCompare(const CompareSettings& settings, Console& console) {
   const Dataset dataset = ReadDataset(settings.problem.dataset);
@@ -25,11 +41,12 @@ ExitCode RunCompare(const CompareSettings& settings, Console& console) {
             done, static_cast<long>(models.size()));
       });
   progress.Clear();
+  CheckTruth(truth, comparison);
   if (!settings.json) {
     console.out << LawComparisonReport(comparison, truth);
     return ExitCode::kDone;
   }
-  console.out << TextOf(LawComparisonRecord(dataset.name, comparison));
+  console.out << TextOf(LawComparisonRecord(dataset.name, comparison, truth));
   return ExitCode::kDone;
 }
 

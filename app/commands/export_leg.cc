@@ -15,6 +15,8 @@ namespace {
 ExitCode RunExport(const ExportSettings& settings, Console& console) {
   if (settings.c_file.empty() && settings.mjcf_file.empty())
     throw UsageError("say what to write: --c leg.c, --mujoco leg.xml");
+  if (settings.c_file == settings.mjcf_file)
+    throw UsageError("--c and --mujoco name the same file; give each its own");
   const StoredRun run = ReadRunFolder(settings.folder);
   const ExportedModel model = ModelOfRun(settings.folder, run);
   const std::string place =
@@ -24,6 +26,8 @@ ExitCode RunExport(const ExportSettings& settings, Console& console) {
   if (!settings.c_file.empty()) c_text = CSourceOf(model, place);
   if (!settings.mjcf_file.empty()) mjcf_text = MjcfOf(model, settings.mjcf, place);
   const OverwriteOptions options{.force = settings.force};
+  for (const std::string& file : {settings.c_file, settings.mjcf_file})
+    if (!file.empty()) CheckFileIsFree(file, options);
   if (!settings.c_file.empty()) WriteFileAtomically(settings.c_file, c_text, options);
   if (!settings.mjcf_file.empty()) WriteFileAtomically(settings.mjcf_file, mjcf_text, options);
   if (settings.json) {

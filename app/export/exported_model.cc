@@ -150,6 +150,13 @@ ExportedModel ModelOfRun(const std::filesystem::path& folder, const StoredRun& r
   const std::string place = Printable((folder / "run.json").string(), 200);
   const Json& json = run.record;
   const std::string command = json.value("command", Json("")).get<std::string>();
+  const std::string status = json.value("status", Json("ok")).get<std::string>();
+  const bool estimates = command == "fit" || command == "diagnose" || command == "optimize";
+  if (estimates && (status == "failed" || status == "stuck")) {
+    throw InputError({place, "status = " + Printable(status),
+                      "must be a run with a result: its values are no estimate",
+                      "Give the folder of a fit, a diagnosis or a simulation that succeeded."});
+  }
   const bool extended = TakesExtension(json);
   const Json& source = extended ? json.at("extension") : json;
   const auto found = source.find("mechanism");
@@ -178,7 +185,9 @@ ExportedModel ModelOfRun(const std::filesystem::path& folder, const StoredRun& r
         {place, "law = ball", "must be the law of a leg: a ball has none to export", ""});
   }
   if (!IsWritten(model.law)) {
-    throw InputError({place, "law = " + law, "cannot be exported: there is no C text for it", ""});
+    throw InputError({place, "law = " + law,
+                      "cannot be exported: it is of a robot with several legs",
+                      "Export a leg that hops alone."});
   }
   model.liftoff = mechanism.Text("liftoff") == "rest_length" ? LiftoffRule::kRestLength
                                                              : LiftoffRule::kZeroForce;

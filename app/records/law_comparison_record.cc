@@ -25,11 +25,13 @@ Json RowRecord(const ModelResult& row) {
 
 }  // namespace
 
-Json LawComparisonRecord(const std::string& dataset, const LawComparison& comparison) {
+Json LawComparisonRecord(const std::string& dataset, const LawComparison& comparison,
+                         const std::map<std::string, double>& truth) {
   RecordHeader header;
   header.command = "compare";
   header.dataset = dataset;
   Json record = NewRecord(header);
+  record["true"] = truth;
   record["rows"] = Json::array();
   for (const ModelResult& row : comparison.rows) record["rows"].push_back(RowRecord(row));
   return record;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "app/records/run_record.h"
@@ -8,6 +9,7 @@
 namespace hoplab {
 
 /// What `hoplab compare --json` prints; `dataset` is its name.
-Json LawComparisonRecord(const std::string& dataset, const LawComparison& comparison);
+Json LawComparisonRecord(const std::string& dataset, const LawComparison& comparison,
+                         const std::map<std::string, double>& truth);
 
 }  // namespace hoplab

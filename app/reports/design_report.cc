@@ -85,7 +85,7 @@ std::string BestTable(const DesignRun& run, bool colours) {
       cells.push_back(std::isfinite(tried.half_width)
                           ? Significant(tried.half_width * unit.factor, 3)
                           : "not seen");
-      cells.push_back(fmt::format("{:.0f} %", 100.0 * tried.worth));
+      cells.push_back(fmt::format("{:.0f} %", std::floor(100.0 * tried.worth)));
     }
     table.AddRow(cells);
   }

@@ -38,6 +38,15 @@ std::string BranchReport(const GaitRun& run) {
                   EndText(branch.first_end, branch.first_outcome),
                   Significant(branch.points.back().parameter, 4),
                   EndText(branch.last_end, branch.last_outcome));
+  // A branch that turns back goes beyond its ends.
+  const auto [least, most] = std::minmax_element(
+      branch.points.begin(), branch.points.end(),
+      [](const BranchPoint& a, const BranchPoint& b) { return a.parameter < b.parameter; });
+  const auto [lower, upper] =
+      std::minmax(branch.points.front().parameter, branch.points.back().parameter);
+  if (least->parameter < lower || most->parameter > upper)
+    text += fmt::format("  it turns, and reaches from {} to {}\n", Significant(least->parameter, 4),
+                        Significant(most->parameter, 4));
   // A stride has some twenty events: where their order changes is told, not how.
   const bool strides = HasStrides(run.hopper);
   std::string orders;
@@ -132,7 +141,9 @@ std::string RateTable(const GaitRun& run, bool colours) {
     const double value = ValueOf(run.hopper, GaitDirection(run.hopper, run.parameters[i]));
     const double rate = run.rates[i].value;
     table.AddRow({run.parameters[i], Significant(value, 5),
-                  std::isnan(rate) ? "does not exist" : fmt::format("{:+.5e}", rate),
+                  !run.computed[i]   ? "not computed"
+                  : std::isnan(rate) ? "does not exist"
+                                     : fmt::format("{:+.5e}", rate),
                   std::isnan(rate) ? "" : fmt::format("{:+.6f}", 0.01 * value * rate)});
   }
   const std::vector<std::string> lines = table.Lines();

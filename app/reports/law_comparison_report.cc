@@ -11,7 +11,7 @@ namespace hoplab {
 namespace {
 
 std::string TextOf(const ComparedModel& model) {
-  std::string text = model.law;
+  std::string text = model.law.empty() ? "default" : model.law;
   for (const std::string& effect : model.with_effects) text += " + " + effect;
   return text;
 }
@@ -23,7 +23,7 @@ std::string ValueText(const ModelResult& row, int k, const std::map<std::string,
   const ReadableUnit unit = ReadableUnitOf(value, s.unit);
   std::string text = s.name + " " + Significant(value * unit.factor, 4);
   if (!unit.unit.empty()) text += " " + unit.unit;
-  if (const auto known = truth.find(s.name); known != truth.end())
+  if (const auto known = truth.find(s.name); known != truth.end() && known->second != 0.0)
     text += fmt::format(" ({:+.1f} %)", 100.0 * (value / known->second - 1.0));
   return text;
 }

@@ -52,11 +52,23 @@ std::optional<ParameterId> ClockParameter(std::string name) {
   return std::nullopt;
 }
 
+// Of the phase of a leg that a robot of so many legs does not have.
+bool IsOfAbsentLeg(ParameterId id, int legs) {
+  const std::string_view name = InfoOf(id).name;
+  return name.starts_with("clock_phase_") && name.back() - '0' > legs;
+}
+
 }  // namespace
 
 SensitivityDirection GaitDirection(const Hopper& hopper, const std::string& name) {
   if (HasStrides(hopper)) {
-    if (const auto clock = ClockParameter(name)) return SensitivityDirection::Parameter(*clock);
+    const std::optional<ParameterId> clock = ClockParameter(name);
+    if (clock && !IsOfAbsentLeg(*clock, hopper.request.parameters.robot->legs))
+      return SensitivityDirection::Parameter(*clock);
+    if (clock)
+      throw InputError({"--along", name, "is of a leg that this robot does not have",
+                        "Name the phase of one of its " +
+                            std::to_string(hopper.request.parameters.robot->legs) + " legs."});
     if (name.starts_with("clock"))
       throw InputError(
           {"--along", name, "is no value of a clock",
@@ -66,7 +78,7 @@ SensitivityDirection GaitDirection(const Hopper& hopper, const std::string& name
       throw InputError({"--along", name, "is not followed: the section turns with the ground",
                         "Give the slope in the scenario."});
   }
-  return ResolveDirection(name, hopper.request, LegMass::kNone, hopper.effects);
+  return ResolveDirection(name, hopper.request, LegMass::kNone, hopper.effects, "--along");
 }
 
 AlongRange ParseAlong(const std::string& text) {
@@ -82,6 +94,8 @@ AlongRange ParseAlong(const std::string& text) {
 }
 
 std::string GaitRun::Failure() const {
+  if (interrupted && branch.points.empty())
+    return "interrupted; what was not computed yet is left out";
   if (interrupted) return "interrupted; the branch ends where it was stopped";
   if (!HasStrides(hopper) && point.status == FixedPointStatus::kHopFails)
     return "no hop can be made from the start: " + std::string(SentenceOf(point.hop.outcome));
@@ -128,9 +142,12 @@ std::optional<SensitivityDirection> DirectionAlong(const Hopper& hopper,
                                                    const std::optional<AlongRange>& along) {
   if (!along) return std::nullopt;
   const SensitivityDirection direction = GaitDirection(hopper, along->name);
+  if (direction.of == SensitivityDirection::Of::kInitialState)
+    throw InputError({"--along", along->name,
+                      "is where a run starts, which a steady hop does not know of",
+                      "Follow a parameter, as E or kp."});
   const double here = ValueOf(hopper, direction);
-  if (direction.of == SensitivityDirection::Of::kInitialState || here < along->low ||
-      here > along->high) {
+  if (here < along->low || here > along->high) {
     throw InputError({"--along", along->name + " = " + FormatDouble(here),
                       "must be a parameter whose value in the scenario lies in the range",
                       "Widen the range."});
@@ -161,11 +178,13 @@ GaitRun RunGait(const Hopper& hopper, const GaitOptions& options) {
   // A stride takes longer than a hop, and three levels tell six digits.
   const int levels = strides ? 3 : kRadiusLevels;
   run.rates.resize(run.parameters.size());
+  run.computed.resize(run.parameters.size());
   ParallelFor(static_cast<int>(run.parameters.size()), options.jobs, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     if (options.stop && *options.stop) return;
     run.rates[at] = DifferentiateSpectralRadius(*run.map, run.point,
                                                 GaitDirection(hopper, run.parameters[at]), levels);
+    run.computed[at] = 1;
   });
   if (along) {
     stage("following the fixed point along " + options.along->name);

@@ -35,6 +35,7 @@ struct GaitRun {
   HopPrediction prediction;
   std::vector<std::string> parameters;  // names of what the spectral radius is differentiated by
   std::vector<SpectralRadiusRate> rates;
+  std::vector<char> computed;              // one a rate: an interruption leaves some out
   std::optional<ConvergenceTime> counted;  // in the scenario's own run, where it runs to its end
   std::vector<ApexSpeed> apexes;           // of that run
   std::optional<AlongRange> along;

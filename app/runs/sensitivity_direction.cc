@@ -11,7 +11,8 @@ constexpr std::array<const char*, 4> kStartNames = {"x0", "y0", "vx0", "vy0"};
 }  // namespace
 
 SensitivityDirection ResolveDirection(const std::string& name, const SimulationRequest& of,
-                                      LegMass mass, const std::vector<EffectSetting>& effects) {
+                                      LegMass mass, const std::vector<EffectSetting>& effects,
+                                      const char* option) {
   std::vector<std::string> known;
   for (std::size_t i = 0; i < kStartNames.size(); ++i) {
     if (name == kStartNames[i]) return SensitivityDirection::InitialState(static_cast<int>(i));
@@ -34,8 +35,8 @@ SensitivityDirection ResolveDirection(const std::string& name, const SimulationR
       known.push_back(whole);
     }
   }
-  throw InputError({"--sensitivities", Printable(name),
-                    "is nothing this run can be differentiated by", DidYouMean(name, known)});
+  throw InputError({option, Printable(name), "is nothing this run can be differentiated by",
+                    DidYouMean(name, known)});
 }
 
 }  // namespace hoplab

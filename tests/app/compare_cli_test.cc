@@ -16,6 +16,16 @@ TEST(CompareCli, PrintsEveryLawAgainstTheTruth) {
   EXPECT_NE(run.out.find("(+4."), std::string::npos) << run.out;
 }
 
+TEST(CompareCli, ATruthOfWhatIsNotFittedIsRefused) {
+  const TempFolder temp;
+  const ProcessResult run = RunHoplab(
+      {"compare", ShippedDataset("rig-drops"), "--variant", "consistent", "--true", "e_Pa=21e9"},
+      temp.path());
+  EXPECT_EQ(run.exit_code, 65);
+  EXPECT_NE(run.err.find("--true: e_Pa; is no value that was fitted"), std::string::npos)
+      << run.err;
+}
+
 TEST(CompareCli, TheElasticaWithItsLegsDampingAndMassBringsTheModulusWithinOnePercent) {
   const TempFolder temp;
   const ProcessResult run = RunHoplab({"compare", ShippedDataset("rig-drops"), "--variant",

@@ -46,6 +46,9 @@ TEST_F(ExportCli, WritesWhatIsAskedForAndNothingOverAnother) {
   EXPECT_EQ(ReadText(temp_.path() / "leg.c").find("/* The compliant leg of "), 0u);
   EXPECT_NE(ReadText(temp_.path() / "leg.xml").find("<mujoco"), std::string::npos);
   Refused({"export", "run", "--c", "leg.c"}, {"leg.c"});
+  Refused({"export", "run", "--c", "new.c", "--mujoco", "leg.xml"}, {"leg.xml"});
+  EXPECT_FALSE(std::filesystem::exists(temp_.path() / "new.c")) << "one of two is none";
+  Refused({"export", "run", "--c", "both", "--mujoco", "both"}, {"the same file"}, 64);
   const ProcessResult again =
       Hoplab({"export", "run/", "--c", "leg.c", "--force", "--json", "--quiet"});
   EXPECT_EQ(again.exit_code, 0) << again.err;
@@ -93,6 +96,10 @@ TEST_F(ExportCli, WhatCannotBeExportedIsRefusedWithPlaceAndRemedy) {
   Refused({"export", "sweep", "--c", "leg.c"}, {"command = sweep; must be a run with a model"});
   ASSERT_EQ(Hoplab({"simulate", shipped + "toe-mass.yaml", "--out", "toe"}).exit_code, 0);
   Refused({"export", "toe", "--c", "leg.c"}, {"m_toe = ", "leg_mass"});
+  Change("run", "/command", "fit");
+  Change("run", "/status", "stuck");
+  Refused({"export", "run", "--c", "leg.c"}, {"status = stuck", "its values are no estimate"});
+  Change("run", "/command", "simulate");
   Change("run", "/mechanism/law", "elastika");
   Refused({"export", "run", "--c", "leg.c"}, {"law = elastika; is no law of this hoplab"});
   Change("run", "/mechanism/law", "elastica");

@@ -92,7 +92,12 @@ TEST_F(GaitCli, BadRangesAndBallsAreRefused) {
   const std::string scenario = WriteScenario(temp_.path(), kController);
   EXPECT_EQ(Hoplab({"gait", scenario, "--along", "kp"}).exit_code, 64);
   EXPECT_EQ(Hoplab({"gait", scenario, "--along", "kp=5:3"}).exit_code, 64);
-  EXPECT_EQ(Hoplab({"gait", scenario, "--along", "kq=3:5"}).exit_code, 65);
+  const ProcessResult misspelt = Hoplab({"gait", scenario, "--along", "kq=3:5"});
+  EXPECT_EQ(misspelt.exit_code, 65);
+  EXPECT_NE(misspelt.err.find("--along: kq"), std::string::npos) << misspelt.err;
+  const ProcessResult start = Hoplab({"gait", scenario, "--along", "x0=-1:1"});
+  EXPECT_EQ(start.exit_code, 65);
+  EXPECT_NE(start.err.find("where a run starts"), std::string::npos) << start.err;
   EXPECT_EQ(Hoplab({"gait", scenario, "--along", "kp=5:6"}).exit_code, 65) << "4 lies outside";
   WriteText(temp_.path() / "ball.yaml",
             "format: hoplab-scenario/1\nname: ball\nmechanism: {type: ball, body_mass_kg: 0.2, "

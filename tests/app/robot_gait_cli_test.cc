@@ -52,6 +52,13 @@ TEST_F(RobotGaitCli, AnotherPeriodThanTheClocksIsRefused) {
       << gait.err;
 }
 
+TEST_F(RobotGaitCli, ThePhaseOfALegThatIsNotThereIsNotFollowed) {
+  const ProcessResult gait = Hoplab({"gait", pronk_, "--along", "clock.phase_3=0:0.5"});
+  EXPECT_EQ(gait.exit_code, 65);
+  EXPECT_NE(gait.err.find("is of a leg that this robot does not have"), std::string::npos)
+      << gait.err;
+}
+
 TEST_F(RobotGaitCli, AnEffectOfALegThatIsNotThereIsRefused) {
   const ProcessResult gait = Gait("effects={motor_gain_3: {gamma: 0.1}}");
   EXPECT_EQ(gait.exit_code, 65);

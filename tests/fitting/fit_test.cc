@@ -119,7 +119,25 @@ TEST(FitDataset, SaysWhenWholeTracesAndSingleHopsDisagree) {
   const Dataset d = ReadDataset(std::filesystem::path(HOPLAB_SOURCE_DIR) / "datasets/rig-drops");
   const DatasetFit fit = FitDataset(d, {.law = "no_slip"}, {}, Segmentation::kWhole);
   ASSERT_TRUE(fit.result.ok) << fit.result.message;
-  EXPECT_NE(fit.note.find("single hops alone say E"), std::string::npos) << fit.note;
+  EXPECT_NE(fit.note.find("hops that start at the apexes of the traces say E"), std::string::npos)
+      << fit.note;
+}
+
+TEST(FitDataset, TellsOfSingleHopsWhatItsOwnFitOfThemSays) {
+  const Dataset d = ReadDataset(std::filesystem::path(HOPLAB_SOURCE_DIR) / "datasets/rig-drops");
+  const DatasetFit fit = FitDataset(d, {.law = "no_slip"}, {});
+  ASSERT_TRUE(fit.by_hop) << fit.note;
+  char told[60];
+  std::snprintf(told, sizeof told, "single hops alone say E = %.3g Pa", fit.result.shared[0]);
+  EXPECT_NE(fit.note.find(told), std::string::npos) << fit.note;
+}
+
+// Only E over m and d over m are seen of hops: none of the three is known, and the law is right.
+TEST(FitDataset, DoesNotBlameALawForValuesThatItDoesNotKnow) {
+  const DatasetFit fit = FitDataset(testing::HopDataset(3, 2), {.free = {"E", "d", "m", "g"}}, {});
+  ASSERT_TRUE(fit.result.ok) << fit.result.message;
+  EXPECT_GT(std::abs(fit.result.shared[0] / 22e9 - 1.0), 0.25) << "a case that shows nothing";
+  EXPECT_EQ(fit.note.find("does not carry"), std::string::npos) << fit.note;
 }
 
 TEST(FitDataset, HopByHopFindsTheSameModulus) {
