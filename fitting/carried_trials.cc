@@ -1,5 +1,6 @@
 #include "fitting/carried_trials.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "fitting/trial_evaluator.h"
@@ -10,6 +11,7 @@ namespace {
 // Leaves out the train trials that a fit's values do not let be simulated.
 void LeaveOut(const FitResult& fit, FitProblem& problem, std::vector<std::string>& left_out) {
   std::vector<TrialProblem> kept;
+  std::vector<SharedPrior> priors;
   std::size_t train = 0;
   for (TrialProblem& trial : problem.trials) {
     bool carried = true;
@@ -18,11 +20,14 @@ void LeaveOut(const FitResult& fit, FitProblem& problem, std::vector<std::string
       TrialEvaluator(problem, trial).Evaluate({fit.shared, fit.initial_states[train++]}, e);
       carried = e.complete;
     }
-    if (carried)
+    if (carried) {
       kept.push_back(std::move(trial));
-    else
-      left_out.push_back(trial.file);
+      continue;
+    }
+    left_out.push_back(trial.file);
+    priors.insert(priors.end(), trial.shared_priors.begin(), trial.shared_priors.end());
   }
+  KeepPriors(priors, kept);
   problem.trials = std::move(kept);
 }
 
@@ -38,6 +43,14 @@ FitResult FitCarriedTrials(FitProblem& problem, const FitOptions& options, int r
     fit.ok = false;
     return fit;
   }
+}
+
+void KeepPriors(const std::vector<SharedPrior>& of_left_out, std::vector<TrialProblem>& trials) {
+  const auto first = std::find_if(trials.begin(), trials.end(), [](const TrialProblem& t) {
+    return t.role == TrialRole::kTrain;
+  });
+  if (first == trials.end()) return;
+  first->shared_priors.insert(first->shared_priors.end(), of_left_out.begin(), of_left_out.end());
 }
 
 }  // namespace hoplab

@@ -14,4 +14,8 @@ namespace hoplab {
 FitResult FitCarriedTrials(FitProblem& problem, const FitOptions& options, int rounds,
                            std::vector<std::string>& left_out);
 
+/// Gives the priors on shared values of trials that are left out to the first train trial of those
+/// that stay.
+void KeepPriors(const std::vector<SharedPrior>& of_left_out, std::vector<TrialProblem>& trials);
+
 }  // namespace hoplab

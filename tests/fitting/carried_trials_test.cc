@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/nan.h"
 #include "fitting/apex_segments.h"
 #include "tests/support/fit_cases.h"
 
@@ -38,6 +39,55 @@ TEST(CarriedTrials, TheLastFitIsOfTheTrialsThatAreLeft) {
     EXPECT_EQ(problem.trials.size(), 3 - left_out.size());
     EXPECT_EQ(fit.initial_states.size(), problem.trials.size());
   }
+}
+
+TEST(CarriedTrials, APriorOfATrialThatIsLeftOutStays) {
+  FitProblem problem = WithATrialThatNothingCarries();
+  const std::vector<SharedPrior> priors = problem.trials[0].shared_priors;
+  ASSERT_EQ(priors.size(), 1u);
+  std::vector<std::string> left_out;
+  const FitResult fit = FitCarriedTrials(problem, {}, 2, left_out);
+  ASSERT_EQ(left_out.size(), 1u);
+  ASSERT_EQ(problem.trials[0].shared_priors.size(), 1u);
+  EXPECT_EQ(problem.trials[0].shared_priors[0].shared, priors[0].shared);
+  EXPECT_EQ(problem.trials[0].shared_priors[0].sigma, 0.002);
+  EXPECT_TRUE(problem.trials[1].shared_priors.empty());
+}
+
+// It lifts off within the first row and is at its apex after six, fewer than a piece may have.
+TEST(CarriedTrials, APriorOfAFirstPieceThatIsLeftOutStays) {
+  FitProblem problem = WithATrialThatNothingCarries();
+  TrialProblem& trial = problem.trials[0];
+  constexpr double kStep = 0.0255, kSpeed = 1.5, kGround = 0.18, kInStance = 0.12;
+  constexpr int kRows = 60, kHop = 18, kFlight = 12;
+  const std::size_t width = problem.channels.size();
+  trial.row_times.clear();
+  trial.data.assign(kRows * width, 0.0);
+  for (int row = 0; row < kRows; ++row) {
+    const double u = kStep * (row % kHop);
+    trial.row_times.push_back(kStep * row);
+    trial.data[static_cast<std::size_t>(row) * width + 1] =
+        row % kHop == 0 || row % kHop > kFlight ? kInStance
+                                                : kGround + kSpeed * u - 0.5 * 9.81 * u * u;
+  }
+  trial.contact = {};
+  const std::vector<TrialProblem> pieces = CutAtApexes(problem, trial);
+  ASSERT_GE(pieces.size(), 2u);
+  EXPECT_GT(pieces[0].begin_s, trial.begin_s);
+  EXPECT_EQ(pieces[0].shared_priors.size(), 1u);
+  EXPECT_TRUE(pieces[1].shared_priors.empty());
+}
+
+// A sensor that begins a few rows after the others.
+TEST(CarriedTrials, AFirstFlightIsTheStartsWhereItsFirstHeightsAreBlank) {
+  FitProblem problem = MakeProblem(testing::HopDataset(3, 1), {});
+  TrialProblem& trial = problem.trials[0];
+  const std::vector<TrialProblem> whole = CutAtApexes(problem, trial);
+  for (std::size_t row = 0; row < 3; ++row) trial.data[row * problem.channels.size() + 1] = kNaN;
+  const std::vector<TrialProblem> blank = CutAtApexes(problem, trial);
+  ASSERT_EQ(blank.size(), whole.size());
+  EXPECT_EQ(blank[0].begin_s, trial.begin_s);
+  EXPECT_EQ(blank[0].row_times, whole[0].row_times);
 }
 
 }  // namespace

@@ -95,6 +95,15 @@ TEST(DrivenFit, ADelayWithASigmaIsFreeWithItsPriorCountedOnce) {
   EXPECT_TRUE(fixed.trials[0].shared_priors.empty());
 }
 
+TEST(DrivenFit, APriorOfADelayActsInATrialWithoutThatInput) {
+  Dataset dataset = Driven();
+  for (Trial& t : dataset.trials) t.inputs[0].delay_sigma_s = 0.002;
+  dataset.trials[0].inputs.clear();
+  const FitProblem p = MakeProblem(dataset, {});
+  ASSERT_EQ(p.trials[0].shared_priors.size(), 1u);
+  ExpectJacobian(p, p.trials[0]);
+}
+
 TEST(DrivenFit, ADelayThatDiffersBetweenTheTrialsCannotBeShared) {
   Dataset dataset = Driven();
   dataset.trials[1].inputs[0].delay_s = 0.003;
