@@ -3,7 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "fitting/carried_trials.h"
 #include "fitting/trial_evaluator.h"
 #include "model/leg_compliance.h"
 #include "model/mechanism_traits.h"
@@ -45,6 +47,24 @@ bool FitLine(const TrialProblem& trial, int column, int width, int a, int b, dou
   return true;
 }
 
+std::vector<TrialProblem> PiecesBetween(const FitProblem& problem, const TrialProblem& trial,
+                                        const std::vector<Apex>& apexes) {
+  std::vector<TrialProblem> pieces;
+  int first = 0;
+  for (std::size_t i = 0; i <= apexes.size(); ++i) {
+    const int last = i < apexes.size() ? apexes[i].row : static_cast<int>(trial.row_times.size());
+    if (last - first >= 8) {
+      TrialProblem piece = CutTrial(problem, trial, first, last);
+      if (i > 0) piece.start.head<4>() = apexes[i - 1].state;
+      if (piece.sample_count > 0) pieces.push_back(std::move(piece));
+    }
+    if (i < apexes.size()) first = apexes[i].row;
+  }
+  // Those of a first piece that is left out, too.
+  if (!pieces.empty()) pieces.front().shared_priors = trial.shared_priors;
+  return pieces;
+}
+
 }  // namespace
 
 std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProblem& trial) {
@@ -64,8 +84,10 @@ std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProb
   // A flight is a stretch of rows above contact height by a margin; lift-off happens somewhat
   // above that height, so only the upper two thirds of each arc are trusted to be parabolas.
   std::vector<Apex> apexes;
+  bool begun = false;  // the first flight is the start's
   for (int row = 0; row < rows;) {
     if (!(y(row) > contact + 4.0 * sigma)) {
+      begun = begun || !std::isnan(y(row));
       ++row;
       continue;
     }
@@ -88,22 +110,26 @@ std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProb
       FitLine(trial, x_column, width, a, b, at, 0.0, apex.state[0], apex.state[2]);
     else
       apex.state[2] = trial.start[2];
-    if (seen && falls_after && row > 0) apexes.push_back(apex);
+    if (seen && falls_after && begun) apexes.push_back(apex);
+    begun = true;
     row = end;
   }
 
-  std::vector<TrialProblem> pieces;
-  int first = 0;
-  for (std::size_t i = 0; i <= apexes.size(); ++i) {
-    const int last = i < apexes.size() ? apexes[i].row : rows;
-    if (last - first >= 8) {
-      TrialProblem piece = CutTrial(problem, trial, first, last);
-      if (i > 0) piece.start.head<4>() = apexes[i - 1].state;
-      if (piece.sample_count > 0) pieces.push_back(std::move(piece));
-    }
-    if (i < apexes.size()) first = apexes[i].row;
+  return PiecesBetween(problem, trial, apexes);
+}
+
+std::vector<TrialProblem> CutAllAtApexes(const FitProblem& problem,
+                                         const std::vector<TrialProblem>& trials) {
+  std::vector<TrialProblem> all;
+  std::vector<SharedPrior> priors;
+  for (const TrialProblem& trial : trials) {
+    std::vector<TrialProblem> pieces = CutAtApexes(problem, trial);
+    if (pieces.empty())
+      priors.insert(priors.end(), trial.shared_priors.begin(), trial.shared_priors.end());
+    std::move(pieces.begin(), pieces.end(), std::back_inserter(all));
   }
-  return pieces;
+  KeepPriors(priors, all);
+  return all;
 }
 
 FitProblem SplitIntoHops(const FitProblem& problem) {

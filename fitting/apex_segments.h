@@ -13,6 +13,11 @@ namespace hoplab {
 /// The pieces share no row.
 std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProblem& trial);
 
+/// The pieces of all trials. Priors on shared values of a trial without apexes go over to the first
+/// train piece.
+std::vector<TrialProblem> CutAllAtApexes(const FitProblem& problem,
+                                         const std::vector<TrialProblem>& trials);
+
 /// The problem with every trial replaced by its hops, each a trial with a start of its own: what
 /// can be fitted when no parameters let a whole trace be simulated. Trials that show no apexes stay
 /// whole.

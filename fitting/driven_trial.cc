@@ -66,12 +66,85 @@ SharedParameter SharedOf(const std::string& name, const char* unit, SensitivityD
   return {name, unit, direction, initial - reach, initial + reach, initial, scale};
 }
 
+// What every trial states of its own; as a shared value it would be the first one's.
+void CheckIsAlike(const FitProblem& problem, const SharedParameter& s, const std::string& place) {
+  if (s.direction.of != Of::kInput) return;
+  for (const TrialProblem& t : problem.trials) {
+    for (const DrivenColumn& c : t.inputs) {
+      if (c.kind != static_cast<InputKind>(s.direction.index)) continue;
+      if ((s.direction.component == 0 ? c.delay : c.scale) == s.initial) continue;
+      throw InputError({place, s.name,
+                        "differs between the trials of this dataset, so it cannot be one shared "
+                        "value",
+                        "Fix it, state one value for all trials, or split the dataset."});
+    }
+  }
+}
+
+using InputSigma = std::optional<double> InputSpec::*;
+
+// How well all trials say an input's delay or scale is known.
+std::optional<double> SigmaOf(const Dataset& dataset, InputKind kind, InputSigma sigma) {
+  const InputSpec* first = nullptr;
+  for (const Trial& trial : dataset.trials) {
+    for (const InputSpec& input : trial.inputs) {
+      if (input.id != kind) continue;
+      if (first == nullptr) first = &input;
+      if (input.*sigma == first->*sigma) continue;
+      const bool delay = sigma == &InputSpec::delay_sigma_s;
+      throw InputError({input.origin.place, delay ? "delay_sigma_s" : "scale_sigma",
+                        "differs between the trials of this dataset, so it cannot be of one shared "
+                        "value",
+                        "State one for all trials, or split the dataset."});
+    }
+  }
+  return first == nullptr ? std::nullopt : first->*sigma;
+}
+
 [[noreturn]] void NotThere(const std::string& place, const std::string& name,
                            const std::vector<std::string>& known, const std::string& what) {
   throw InputError(
       {place, Printable(name),
        known.empty() ? "this dataset has no " + what + "s" : "is no " + what + " here",
        known.empty() ? "Name it under `" + what + "s` of the dataset." : DidYouMean(name, known)});
+}
+
+std::optional<SharedParameter> FindDriven(const FitProblem& problem, const std::string& name,
+                                          const std::string& place) {
+  if (name.starts_with("input.")) {
+    std::vector<std::string> known;
+    for (int k = 0; k < kInputKinds; ++k) {
+      const auto kind = static_cast<InputKind>(k);
+      const DrivenColumn* column = FindColumn(problem, kind);
+      if (column == nullptr) continue;
+      for (const bool delay : {true, false}) {
+        known.push_back(InputParameter(kind, delay));
+        if (known.back() != name) continue;
+        return delay ? SharedOf(name, "s", SensitivityDirection::InputDelay(k), column->delay,
+                                kLongestDelay, kTimeScale)
+                     : SharedOf(name, "-", SensitivityDirection::InputScale(k), column->scale,
+                                std::max(10.0, 10.0 * std::abs(column->scale)), kGainScale);
+      }
+    }
+    NotThere(place, name, known, "input");
+  }
+  if (name.starts_with("clock.")) {
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < problem.clocks.size(); ++i) {
+      const ClockProblem& clock = problem.clocks[i];
+      known.push_back(ClockParameter(clock.name));
+      if (known.back() != name) continue;
+      if (clock.per_trial)
+        throw InputError({place, name, "is each trial's own (per: trial), not one shared value",
+                          "Leave it out: it is fitted with its sigma already."});
+      const double reach = std::max(kClockReach * clock.sigma, 0.02);
+      return SharedOf(name, "s", SensitivityDirection::ClockOffset(static_cast<int>(i)),
+                      clock.offset, reach,
+                      clock.sigma > 0 ? std::min(kTimeScale, clock.sigma) : kTimeScale);
+    }
+    NotThere(place, name, known, "clock");
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -115,40 +188,9 @@ void AddDriven(const Trial& trial, const FitProblem& problem, TrialProblem& t) {
 
 std::optional<SharedParameter> DrivenParameter(const FitProblem& problem, const std::string& name,
                                                const std::string& place) {
-  if (name.starts_with("input.")) {
-    std::vector<std::string> known;
-    for (int k = 0; k < kInputKinds; ++k) {
-      const auto kind = static_cast<InputKind>(k);
-      const DrivenColumn* column = FindColumn(problem, kind);
-      if (column == nullptr) continue;
-      for (const bool delay : {true, false}) {
-        known.push_back(InputParameter(kind, delay));
-        if (known.back() != name) continue;
-        return delay ? SharedOf(name, "s", SensitivityDirection::InputDelay(k), column->delay,
-                                kLongestDelay, kTimeScale)
-                     : SharedOf(name, "-", SensitivityDirection::InputScale(k), column->scale,
-                                std::max(10.0, 10.0 * std::abs(column->scale)), kGainScale);
-      }
-    }
-    NotThere(place, name, known, "input");
-  }
-  if (name.starts_with("clock.")) {
-    std::vector<std::string> known;
-    for (std::size_t i = 0; i < problem.clocks.size(); ++i) {
-      const ClockProblem& clock = problem.clocks[i];
-      known.push_back(ClockParameter(clock.name));
-      if (known.back() != name) continue;
-      if (clock.per_trial)
-        throw InputError({place, name, "is each trial's own (per: trial), not one shared value",
-                          "Leave it out: it is fitted with its sigma already."});
-      const double reach = std::max(kClockReach * clock.sigma, 0.02);
-      return SharedOf(name, "s", SensitivityDirection::ClockOffset(static_cast<int>(i)),
-                      clock.offset, reach,
-                      clock.sigma > 0 ? std::min(kTimeScale, clock.sigma) : kTimeScale);
-    }
-    NotThere(place, name, known, "clock");
-  }
-  return std::nullopt;
+  std::optional<SharedParameter> driven = FindDriven(problem, name, place);
+  if (driven) CheckIsAlike(problem, *driven, place);
+  return driven;
 }
 
 void FreeWhatIsUncertain(const Dataset& dataset, const std::map<std::string, double>& fixed,
@@ -168,14 +210,13 @@ void FreeWhatIsUncertain(const Dataset& dataset, const std::map<std::string, dou
     s.scale = std::min(s.scale, sigma);
     train->shared_priors.push_back({index, s.initial, sigma});
   };
-  std::vector<InputKind> done;
-  for (const Trial& trial : dataset.trials) {
-    for (const InputSpec& input : trial.inputs) {
-      const InputKind kind = input.id;
-      if (std::find(done.begin(), done.end(), kind) != done.end()) continue;
-      done.push_back(kind);
-      if (input.delay_sigma_s) free(InputParameter(kind, true), *input.delay_sigma_s);
-      if (input.scale_sigma) free(InputParameter(kind, false), *input.scale_sigma);
+  for (int k = 0; k < kInputKinds; ++k) {
+    const auto kind = static_cast<InputKind>(k);
+    for (const bool delay : {true, false}) {
+      const std::string name = InputParameter(kind, delay);
+      if (fixed.count(name)) continue;
+      const InputSigma of = delay ? &InputSpec::delay_sigma_s : &InputSpec::scale_sigma;
+      if (const auto sigma = SigmaOf(dataset, kind, of)) free(name, *sigma);
     }
   }
   for (const ClockProblem& clock : problem.clocks)
@@ -183,7 +224,7 @@ void FreeWhatIsUncertain(const Dataset& dataset, const std::map<std::string, dou
 }
 
 bool FixDriven(const std::string& name, double value, FitProblem& problem) {
-  const std::optional<SharedParameter> s = DrivenParameter(problem, name, "--fix");
+  const std::optional<SharedParameter> s = FindDriven(problem, name, "--fix");
   if (!s) return false;
   if (s->direction.of == Of::kClock) {
     problem.clocks[static_cast<std::size_t>(s->direction.index)].offset = value;

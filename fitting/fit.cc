@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "fitting/apex_segments.h"
+#include "fitting/carried_trials.h"
 #include "fitting/following_start.h"
 #include "fitting/growing_horizon.h"
 #include "fitting/threshold.h"
@@ -105,20 +106,23 @@ std::vector<TrialProblem> Spread(const std::vector<TrialProblem>& pieces) {
 Eigen::VectorXd ShootApexes(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                             const Eigen::VectorXd& shared, const FitOptions& options,
                             int start_number) {
-  std::vector<TrialProblem> pieces;
-  for (const TrialProblem& trial : trials) {
-    for (TrialProblem& piece : CutAtApexes(problem, trial)) pieces.push_back(std::move(piece));
-  }
+  std::vector<TrialProblem> pieces = CutAllAtApexes(problem, trials);
   if (pieces.empty()) return shared;
   Eigen::VectorXd values = BestRung(problem, Spread(pieces), shared, options.jobs);
   // Pieces that fail there tell nothing yet; two rounds let them come back.
   for (int round = 0; round < 2 && !options.IsStopped(); ++round) {
     const std::vector<double> costs = CostsAt(problem, pieces, values, options.jobs);
     std::vector<TrialProblem> usable;
+    std::vector<SharedPrior> priors;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (!std::isnan(costs[i])) usable.push_back(pieces[i]);
+      const std::vector<SharedPrior>& own = pieces[i].shared_priors;
+      if (std::isnan(costs[i]))
+        priors.insert(priors.end(), own.begin(), own.end());
+      else
+        usable.push_back(pieces[i]);
     }
     if (usable.empty()) return shared;
+    KeepPriors(priors, usable);
     SolveRequest request = RequestFor(problem, usable, options, start_number, "single hops");
     request.shared = values;
     request.hold_initial_states = true;

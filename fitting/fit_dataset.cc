@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "fitting/apex_segments.h"
+#include "fitting/carried_trials.h"
 #include "fitting/discrepancy/estimate_discrepancy.h"
 #include "fitting/followed_part.h"
-#include "fitting/trial_evaluator.h"
 #include "fitting/uncertainty.h"
 #include "model/mechanism_traits.h"
 
@@ -39,6 +39,7 @@ namespace {
 // Whole traces that pull a value this far from what their single hops say are fitting the model's
 // error, not the value.
 constexpr double kDisagreement = 0.25;
+constexpr int kRounds = 4;  // in which hops that cannot be simulated are left out
 
 // Whether whole traces and hops tell value k otherwise. What may be zero has no ratio.
 bool Differ(const SharedParameter& s, double whole, double hops) {
@@ -99,38 +100,6 @@ DatasetFit FitDataset(const Dataset& dataset, const ProblemOptions& problem_opti
 }
 
 namespace {
-
-// Fits the trials of a problem (whole traces or hops). Train trials that no values found let be
-// simulated are left out and named, and the rest is fitted again.
-FitResult FitWhatCanBeSimulated(FitProblem& problem, const FitOptions& options,
-                                std::vector<std::string>& left_out) {
-  constexpr int kRounds = 4;
-  FitResult fit;
-  for (int round = 0; round < kRounds; ++round) {
-    fit = Fit(problem, options);
-    if (!fit.ok || fit.stop.complete || fit.interrupted) return fit;
-    std::vector<TrialProblem> kept;
-    std::size_t train = 0;
-    for (TrialProblem& trial : problem.trials) {
-      bool carried = true;
-      if (trial.role == TrialRole::kTrain) {
-        TrialEvaluation e;
-        TrialEvaluator(problem, trial).Evaluate({fit.shared, fit.initial_states[train++]}, e);
-        carried = e.complete;
-      }
-      if (carried)
-        kept.push_back(std::move(trial));
-      else
-        left_out.push_back(trial.file);
-    }
-    problem.trials = std::move(kept);
-    if (TrialsOf(problem, TrialRole::kTrain).empty()) {
-      fit.ok = false;
-      return fit;
-    }
-  }
-  return fit;
-}
 
 std::string WhyNotWhole(const DatasetFit& whole) {
   const FitResult& r = whole.result;
@@ -199,7 +168,7 @@ DatasetFit FitUnderWhiteNoise(FitProblem problem, const FitOptions& fit_options,
   // Without apexes to cut at a trial is the only piece of itself.
   if (!pieces.by_hop && span != Segmentation::kHops && fit.result.ok && fit.result.stop.complete)
     return fit;
-  pieces.result = FitWhatCanBeSimulated(pieces.problem, fit_options, pieces.left_out);
+  pieces.result = FitCarriedTrials(pieces.problem, fit_options, kRounds, pieces.left_out);
   const bool usable = pieces.result.ok && pieces.result.stop.IsMinimum();
   const bool whole_is_better = fit.result.ok && (fit.result.stop.IsMinimum() || !pieces.result.ok);
   if (!usable && span != Segmentation::kHops && whole_is_better) return fit;

@@ -13,6 +13,7 @@
 #include "fitting/robot_problem.h"
 #include "fitting/shared_parameters.h"
 #include "fitting/trial_start.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
@@ -113,16 +114,17 @@ class Builder {
     }
   }
 
-  // Switching times of a contact column.
-  static void ReadContact(const Trial& trial, TrialProblem& t) {
+  // Switching times of a contact column. What bounces has left the ground as soon as it meets it.
+  void ReadContact(const Trial& trial, TrialProblem& t) const {
     const std::vector<double>* contact = trial.trace.Find(Channel::kContact);
     if (!contact) return;
     int last = -1;
     for (std::size_t row = 0; row < contact->size(); ++row) {
       if (std::isnan((*contact)[row])) continue;
-      if (last >= 0 && (*contact)[row] != (*contact)[last]) {
+      const bool down = (*contact)[row] > 0.5;
+      const bool compared = down || TraitsOf(problem_.law).has_stance;
+      if (last >= 0 && (*contact)[row] != (*contact)[last] && compared) {
         const double a = t.row_times[last], b = t.row_times[row];
-        const bool down = (*contact)[row] > 0.5;
         (down ? t.contact.touchdown_s : t.contact.liftoff_s).push_back(0.5 * (a + b));
         (down ? t.contact.touchdown_sigma_s : t.contact.liftoff_sigma_s)
             .push_back((b - a) / std::sqrt(12.0));

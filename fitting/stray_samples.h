@@ -9,7 +9,7 @@ namespace hoplab {
 struct Samples {
   std::vector<double> t, y;      // [s], the channel's unit
   std::vector<std::size_t> row;  // of the trace
-  double step = 0.0;             // median time from row to row [s]
+  double step = 0.0;             // median time from one to the next [s]
   std::size_t size() const { return t.size(); }
   Samples Without(const std::vector<bool>& left_out) const;
   /// Without the first ones.

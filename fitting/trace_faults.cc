@@ -31,6 +31,7 @@ double BlowOf(const Trial& trial) {
   return trial.mechanism.type == MechanismKind::kBall ? 4.5 : 2.0;
 }
 
+// It may be sampled more coarsely than the trace has rows.
 double MedianStep(const std::vector<double>& times) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
@@ -47,7 +48,7 @@ Samples SamplesOf(const Trial& trial, const std::vector<double>& values) {
     s.y.push_back(values[row]);
     s.row.push_back(row);
   }
-  if (s.size() > 1) s.step = MedianStep(trial.trace.time_s);
+  if (s.size() > 1) s.step = MedianStep(s.t);
   return s;
 }
 
@@ -59,9 +60,8 @@ void FindEnds(const Trial& trial, std::size_t place, const ChannelSpec& channel,
   const bool waits = !trial.controller || !trial.controller->motors ||
                      trial.controller->motors->kind == MotorControl::kHeld;
   if (!values || !waits) return;
-  Samples s = SamplesOf(trial, *values);
+  const Samples s = SamplesOf(trial, *values);
   if (s.size() < 2) return;
-  s.step = MedianStep(s.t);  // it may have been sampled more coarsely than others
   const double noise = HighFrequencyNoise(s.t, s.y);
   if (std::isnan(noise)) return;
   const double sigma = std::max({noise, channel.sigma.value_or(0.0), kLeastNoise_m});
@@ -112,9 +112,10 @@ void FindIn(const Trial& trial, std::size_t place, const ChannelSpec& channel,
   }
   if (!held.rows.empty()) faults.push_back(held);
 
-  const Samples rest = s.Without(again);
+  Samples rest = s.Without(again);
   const double sigma = HighFrequencyNoise(rest.t, rest.y);
   if (!(sigma > 0.0)) return;
+  rest.step = MedianStep(rest.t);
   const auto [low, high] = std::minmax_element(rest.y.begin(), rest.y.end());
   const double least = std::max(kRounding * (*high - *low), kStated * channel.sigma.value_or(0.0));
   const OffMotion off = FindOffMotion(rest, sigma, least, BlowOf(trial));

@@ -269,11 +269,11 @@ void TrialEvaluator::ClearCut(const EvaluationRequest& request, int rows,
   }
 }
 
-// The rows from `next` on, and with them the columns of what does not act in the trial.
+// The rows from `next` on. What does not act in the trial moves none of the rows before.
 void TrialEvaluator::AddPriors(const EvaluationRequest& request, int next,
                                TrialEvaluation& out) const {
   const ColumnRange columns = ColumnsOf(request);
-  const int shared = problem_->shared_count();
+  const int shared = problem_->shared_count(), data = next;
   // A prior is not a measurement with outliers: no loss on it.
   const auto add = [&](double residual, int column, double sigma) {
     out.residuals[next] = residual;
@@ -294,7 +294,7 @@ void TrialEvaluator::AddPriors(const EvaluationRequest& request, int next,
   for (int k = 0; request.want_jacobian && k < columns.count; ++k) {
     const int place = columns.first + k;
     if (place < shared && !ActsIn(problem_->shared[static_cast<std::size_t>(place)], *trial_))
-      out.jacobian.col(k).setZero();
+      out.jacobian.col(k).head(data).setZero();
   }
   out.evaluated = next == residual_count_;
 }

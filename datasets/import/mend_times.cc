@@ -73,13 +73,14 @@ MendedTimes MendTimes(std::vector<StampedRow>& rows,
       kept.push_back(std::move(row));
   }
   rows = std::move(kept);
+  double step_before = 1e-3;  // s, from one stamp to the next, as the log has them
   for (std::size_t first = 0; first < rows.size();) {
     std::size_t last = first + 1;
     while (last < rows.size() && rows[last].time_s == rows[first].time_s) ++last;
     const std::size_t shared = last - first - 1;
+    // The last stamp of a log is followed by as much time as the one before it was.
+    if (last < rows.size()) step_before = rows[last].time_s - rows[first].time_s;
     if (shared > 0) {
-      // The last stamp of a log is followed by as much time as the one before it was.
-      const double step_before = first > 0 ? rows[first].time_s - rows[first - 1].time_s : 1e-3;
       Spread(rows, first, last,
              last < rows.size() ? rows[last].time_s : rows[first].time_s + step_before);
       mended.spread += shared;

@@ -73,8 +73,8 @@ Glance GlanceAt(const FitProblem& problem, const std::vector<TrialProblem>& tria
     const std::size_t k = i * trials.size() / n;
     whole.trials.push_back(trials[k]);
     whole.initial_states.push_back(initial_states[k]);
-    for (TrialProblem& hop : CutAtApexes(problem, trials[k])) hops.trials.push_back(std::move(hop));
   }
+  hops.trials = CutAllAtApexes(problem, whole.trials);
   if (hops.trials.empty()) return whole;
   hops.initial_states = NominalInitialStates(hops.trials);
   hops.of_hops = true;

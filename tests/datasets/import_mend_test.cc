@@ -56,6 +56,14 @@ TEST_F(MendTimesTest, TheLastRowsAreSpreadByTheStepBeforeThem) {
             "time_s,body_y_m\n0.000,0.300\n0.002,0.299\n0.003,0.298\n");
 }
 
+TEST_F(MendTimesTest, TheLastRowsAreSpreadAsThoseThatShareTheStampBefore) {
+  std::string rows;
+  for (int i = 0; i < 12; ++i)
+    rows += std::to_string(10 * (i / 4)) + "," + std::to_string(300 - i) + "\n";
+  const std::string csv = Csv(rows);
+  EXPECT_TRUE(csv.ends_with("0.020,0.292\n0.0225,0.291\n0.025,0.290\n0.0275,0.289\n")) << csv;
+}
+
 TEST_F(MendTimesTest, TimeMayBeginAtTheFirstRowKept) {
   EXPECT_EQ(Import("12,299\n10,300\n14,298\n", true).files.at("log.csv"),
             "time_s,body_y_m\n0.000,0.300\n0.002,0.299\n0.004,0.298\n");

@@ -95,6 +95,48 @@ TEST(DrivenFit, ADelayWithASigmaIsFreeWithItsPriorCountedOnce) {
   EXPECT_TRUE(fixed.trials[0].shared_priors.empty());
 }
 
+TEST(DrivenFit, APriorOfADelayActsInATrialWithoutThatInput) {
+  Dataset dataset = Driven();
+  for (Trial& t : dataset.trials) t.inputs[0].delay_sigma_s = 0.002;
+  dataset.trials[0].inputs.clear();
+  const FitProblem p = MakeProblem(dataset, {});
+  ASSERT_EQ(p.trials[0].shared_priors.size(), 1u);
+  ExpectJacobian(p, p.trials[0]);
+}
+
+TEST(DrivenFit, ADelayThatDiffersBetweenTheTrialsCannotBeShared) {
+  Dataset dataset = Driven();
+  dataset.trials[1].inputs[0].delay_s = 0.003;
+  EXPECT_EQ(MakeProblem(dataset, {}).trials[1].inputs[0].delay, 0.003);
+  const std::string rule =
+      "input.hip_torque.delay; differs between the trials of this dataset, so it cannot be one "
+      "shared value";
+  const std::string freed = InputErrorOf([&] {
+    MakeProblem(dataset, {.free = {"E", "input.hip_torque.delay"}});
+  });
+  EXPECT_NE(freed.find("--free: " + rule), std::string::npos) << freed;
+  for (Trial& t : dataset.trials) t.inputs[0].delay_sigma_s = 0.002;
+  const std::string uncertain = InputErrorOf([&] { MakeProblem(dataset, {}); });
+  EXPECT_NE(uncertain.find(rule), std::string::npos) << uncertain;
+  const FitProblem fixed = MakeProblem(dataset, {.fix = {{"input.hip_torque.delay", 0.004}}});
+  EXPECT_EQ(fixed.trials[1].inputs[0].delay, 0.004);
+}
+
+TEST(DrivenFit, AScalesSigmaThatDiffersBetweenTheTrialsIsRefused) {
+  Dataset dataset = Driven();
+  dataset.trials[1].inputs[0].scale_sigma = 0.02;
+  const std::string rule = "scale_sigma; differs between the trials of this dataset";
+  const std::string absent = InputErrorOf([&] { MakeProblem(dataset, {}); });
+  EXPECT_NE(absent.find(rule), std::string::npos) << absent;
+  for (Trial& t : dataset.trials) t.inputs[0].scale_sigma = &t == &dataset.trials[2] ? 0.03 : 0.02;
+  const std::string other = InputErrorOf([&] { MakeProblem(dataset, {}); });
+  EXPECT_NE(other.find(rule), std::string::npos) << other;
+  EXPECT_EQ(InputErrorOf([&] {
+              MakeProblem(dataset, {.fix = {{"input.hip_torque.scale", 1.1}}});
+            }),
+            "(no error)");
+}
+
 TEST(DrivenFit, AClockIsSharedOrATrialsOwn) {
   Dataset dataset = Driven();
   dataset.clocks = {{"camera", 0.0013, 0.002}};

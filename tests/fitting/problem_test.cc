@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fitting/model_of_spec.h"
+#include "fitting/trial_evaluator.h"
 #include "tests/support/fit_cases.h"
 #include "tests/support/input_error_of.h"
 
@@ -157,6 +158,47 @@ TEST(Problem, ContactColumnsGiveSwitchingTimes) {
   EXPECT_NEAR(p.trials[0].contact.touchdown_s[0], 0.095, 1e-12);  // rows 9 and 10 at 100 Hz
   EXPECT_NEAR(p.trials[0].contact.liftoff_s[0], 0.145, 1e-12);
   EXPECT_NEAR(p.trials[0].contact.touchdown_sigma_s[0], 0.01 / std::sqrt(12.0), 1e-12);
+}
+
+// Dropped from 0.5 m above its touch-down; its switch closes for a row at each bounce.
+TEST(Problem, ABallsContactColumnGivesItsBouncesOnly) {
+  constexpr double kG = 9.81, kRestitution = 0.8, kRadius = 0.05, kDrop = 0.5;
+  Dataset d = SmallDataset(1, 0);
+  Trial& trial = d.trials[0];
+  trial.mechanism = {};
+  trial.mechanism.type = MechanismKind::kBall;
+  trial.mechanism.body_mass_kg = 0.1;
+  trial.mechanism.gravity_m_per_s2 = kG;
+  trial.mechanism.ball = {kRadius, kRestitution, 0.1};
+  d.mechanism = trial.mechanism;
+  d.channels = {{Channel::kBodyY, 0.001}, {Channel::kContact, 1.0}};
+  trial.initial = StateSpec{0.0, kRadius + kDrop, 0.0, 0.0};
+  trial.trace = {};
+  trial.trace.columns = {{"body_y_m", {}}, {"contact", {}}};
+  double meets = std::sqrt(2.0 * kDrop / kG), speed = 0.0, left = 0.0, from = kRadius + kDrop;
+  for (int row = 0; row < 180; ++row) {
+    const double t = 0.005 * row;
+    const bool bounced = t > meets;
+    if (bounced) {
+      speed = kRestitution * (left == 0.0 ? kG * meets : speed);
+      left = meets;
+      from = kRadius;
+      meets += 2.0 * speed / kG;
+    }
+    const double since = t - left;
+    trial.trace.time_s.push_back(t);
+    trial.trace.columns[0].values.push_back(from + speed * since - 0.5 * kG * since * since);
+    trial.trace.columns[1].values.push_back(bounced ? 1.0 : 0.0);
+  }
+  const FitProblem p = MakeProblem(d, {});
+  const TrialProblem& t = p.trials[0];
+  EXPECT_EQ(t.contact.touchdown_s.size(), 2u);
+  EXPECT_TRUE(t.contact.liftoff_s.empty());
+  EXPECT_EQ(t.sample_count, 182);
+  TrialEvaluation e;
+  TrialEvaluator(p, t).Evaluate({InitialShared(p), t.start}, e);
+  EXPECT_TRUE(e.complete);
+  EXPECT_LT(e.residuals.cwiseAbs().maxCoeff(), 3.0);
 }
 
 }  // namespace

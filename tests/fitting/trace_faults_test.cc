@@ -191,6 +191,21 @@ TEST(TraceFaults, AStraySampleIsFoundWhereverItLies) {
   }
 }
 
+// A camera beside a log that is eight times as fast: cells between its pictures are blank, or hold
+// the last one.
+TEST(TraceFaults, AreFoundInAChannelThatIsSlowerThanItsRows) {
+  for (const bool held : {false, true}) {
+    Dataset dataset = Recorded({.rows = 2400, .step = 0.0005});
+    std::vector<double>& heights = Heights(dataset);
+    heights[400] += 0.03;
+    for (std::size_t row = 1600; row < heights.size(); ++row) heights[row] -= 0.02;
+    for (std::size_t row = 0; row < heights.size(); ++row)
+      if (row % 8 != 0) heights[row] = held ? heights[row - 1] : std::nan("");
+    EXPECT_EQ(RowsOf(FindTraceFaults(dataset), Kind::kStray), Rows{400}) << held;
+    EXPECT_EQ(RowsOf(FindTraceFaults(dataset), Kind::kJump), Rows{1600}) << held;
+  }
+}
+
 TEST(TraceFaults, ABlowIsNotTakenForAStraySample) {
   // A ball that leaves the ground in another direction than it came, and one that is caught.
   const auto wall = [](double t) { return t < 0.2 ? 3.0 * t : 0.6 - 2.0 * (t - 0.2); };
