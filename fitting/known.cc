@@ -115,7 +115,7 @@ std::optional<EffectParameter> KnownCauses::Open(const Effect& effect, int param
   if (known->at_most == 0.0) return std::nullopt;
   p.lower = std::max(p.lower, p.null - known->at_most);
   p.upper = std::min(p.upper, p.null + known->at_most);
-  p.typical = std::min(p.typical, known->at_most);
+  p.typical = std::clamp(p.typical, -known->at_most, known->at_most);
   return p;
 }
 

@@ -297,6 +297,7 @@ FittedModel FitWith(const FittedModel& base, const Candidate& candidate, const N
   RefitSettings refit = settings;
   refit.forecast = score.predicted_gain;
   FittedModel best = Refit(base, added, score.size, refit);
+  RefitBeyondThresholds(best, base, refit);
   if (!best.ok()) return best;
   best.problem.noise = near;
   best.settled = false;

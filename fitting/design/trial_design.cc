@@ -266,6 +266,7 @@ TrialProblem TrialOf(const TrialDesign& design, const TrialProblem& like) {
     for (int leg = 0; leg < robot.legs; ++leg)
       robot.angle[static_cast<std::size_t>(leg)] = AngleOf(like, leg);
   }
+  trial.parameters.time_origin = trial.begin_s = 0.0;  // of a hop: it began within a trial
   trial.shared_priors.clear();
   const int states = like.parameters.robot ? 6 : 4;
   trial.own.resize(static_cast<std::size_t>(states));

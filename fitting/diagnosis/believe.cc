@@ -10,8 +10,6 @@ constexpr double kMostOthers = 2.0;      // no more causes were planted together
 constexpr double kMostNatsOfGap = 50.0;  // a gap beyond is no surer
 constexpr double kLeastChance = 1e-10, kLeastShare = 1e-4;
 constexpr double kPlainRarity = 3.0;  // trials that differ this plainly differ
-// Of a name in an extension with a size at its bound: less than even odds.
-constexpr double kMostAtBound = 0.49;
 // Sizes in the trials that spread by this share of the effect's own are not of one cause. A spread
 // of half a per cent is certain, too, where rows are many, and says nothing.
 constexpr double kUnlikeSizes = 0.5;

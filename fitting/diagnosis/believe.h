@@ -20,6 +20,9 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
 /// Tells main causes from those that stand in for something else (CauseReport::stands_in).
 void FindStandIns(std::vector<CauseReport>& causes);
 
+/// Of a name in an extension with a size at its bound: less than even odds.
+inline constexpr double kMostAtBound = 0.49;
+
 /// Where a told size lies on a physical bound the extension as a whole is not what acts, so none of
 /// its names has better than even odds.
 void BelieveLessAtBound(std::vector<CauseReport>& causes);

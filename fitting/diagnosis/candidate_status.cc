@@ -35,6 +35,19 @@ Remainder LeftBeside(const Naming& naming, const FittedModel& model, const std::
   return left;
 }
 
+// A column of a hypothesis less what its other columns, all at once, can do of it.
+Eigen::VectorXd BesideTheOthers(const Linearisation& at, const Hypothesis& hypothesis, int column) {
+  std::vector<int> others;
+  for (int k = hypothesis.first; k < hypothesis.first + hypothesis.count; ++k)
+    if (k != column && Information(at, k) > 0.0) others.push_back(k);
+  const Eigen::VectorXd s = at.columns.col(column);
+  if (others.empty()) return s;
+  Eigen::MatrixXd A(s.size(), static_cast<Eigen::Index>(others.size()));
+  for (std::size_t k = 0; k < others.size(); ++k)
+    A.col(static_cast<Eigen::Index>(k)) = at.columns.col(others[k]).normalized();
+  return s - A * A.colPivHouseholderQr().solve(s);
+}
+
 void Bound(const Remainder& left, int candidate, CandidateResult& c) {
   const Linearisation& at = left.at;
   const Hypothesis& hypothesis = left.hypotheses[left.places.at(candidate)];
@@ -42,12 +55,7 @@ void Bound(const Remainder& left, int candidate, CandidateResult& c) {
   for (int k = 0; k < hypothesis.count; ++k) {
     // Of several parameters each is bounded with the others free.
     const int column = hypothesis.first + k;
-    Eigen::VectorXd s = at.columns.col(column);
-    for (int other = hypothesis.first; other < hypothesis.first + hypothesis.count; ++other) {
-      const auto o = at.columns.col(other);
-      if (other != column && Information(at, other) > 0.0) s -= o * (o.dot(s) / o.squaredNorm());
-    }
-    const double V = s.squaredNorm();
+    const double V = BesideTheOthers(at, hypothesis, column).squaredNorm();
     if (Information(at, column) > 0.0 && V > kInseparable * at.length[column] * at.length[column])
       c.bound95[k] = std::abs(score.size[k]) + 1.96 / std::sqrt(V);
   }

@@ -111,7 +111,9 @@ class StageByStage {
   // Of the names, stand-ins aside: longer parts have more of them, and they are told in any case.
   // Where nothing is named, that nothing is there.
   static double Sureness(const Diagnosis& d) {
-    return d.extension ? d.extension->ToldProbability() : 1.0 - d.naming.unlisted_probability;
+    if (!d.extension) return 1.0 - d.naming.unlisted_probability;
+    const double told = d.extension->ToldProbability();
+    return d.extension->at_bound ? std::min(told, kMostAtBound) : told;
   }
   void Tell(const Diagnosis& d) const {
     if (!options_.stage) return;

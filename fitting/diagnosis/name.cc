@@ -276,9 +276,7 @@ class Search {
     if (all == set) return set;
     refits_.SettleAll({all});
     while (refits_.Settled(all) && all.size() > 1 && !Stopped()) {
-      CandidateSet best = all;
-      for (const CandidateSet& less : refits_.SettleParts(all))
-        if (refits_.Settled(less) && refits_.Worth(less) > refits_.Worth(best)) best = less;
+      const CandidateSet best = refits_.BestPart(all, options_.max_effects);
       if (best == all) break;
       all = best;
     }
@@ -294,9 +292,7 @@ class Search {
   // Backward elimination and swaps, until neither helps.
   CandidateSet Tidy(CandidateSet set) {
     for (int round = 0; round < kRounds && !set.empty() && !Stopped(); ++round) {
-      CandidateSet best = set;
-      for (const CandidateSet& less : refits_.SettleParts(set))
-        if (refits_.Settled(less) && refits_.Worth(less) > refits_.Worth(best)) best = less;
+      CandidateSet best = refits_.BestPart(set);
       best = refits_.Better(best, Swaps(best), 2 * kForwardWidth);
       if (best == set) break;
       set = best;

@@ -21,7 +21,7 @@ double LogOdds(const Candidate& candidate, const Score& score, const Eigen::Matr
   for (int i = 0; i < candidate.parameter_count(); ++i) {
     const EffectParameter& p = candidate.Parameter(i);
     sum += LogSizePrior(score.size[i] / p.typical, p.lower >= p.null || p.upper <= p.null) -
-           std::log(p.typical);
+           std::log(std::abs(p.typical));
   }
   return sum;
 }
@@ -47,7 +47,7 @@ bool Possible(const Candidate& candidate, const Eigen::VectorXd& size) {
 // against, and what it would do to the fitted values has no end.
 bool Shows(const Candidate& candidate, const Eigen::MatrixXd& covariance) {
   for (int i = 0; i < candidate.parameter_count(); ++i)
-    if (!(std::sqrt(covariance(i, i)) <= candidate.Parameter(i).typical)) return false;
+    if (!(std::sqrt(covariance(i, i)) <= std::abs(candidate.Parameter(i).typical))) return false;
   return true;
 }
 

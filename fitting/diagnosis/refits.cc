@@ -231,6 +231,16 @@ std::vector<CandidateSet> Refits::SettleParts(const CandidateSet& set) {
   return parts;
 }
 
+CandidateSet Refits::BestPart(const CandidateSet& set, int most) {
+  const bool too_many = static_cast<int>(set.size()) > most;
+  CandidateSet best = set;
+  for (const CandidateSet& less : SettleParts(set)) {
+    if (!Settled(less)) continue;
+    if ((too_many && best == set) || Worth(less) > Worth(best)) best = less;
+  }
+  return best;
+}
+
 bool Refits::TakeIfBetter(FittedModel found, const CandidateSet& set) {
   if (!found.ok()) return false;
   Entry& known = models_[set];

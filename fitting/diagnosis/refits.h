@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <mutex>
 #include <string>
@@ -56,6 +57,9 @@ class Refits {
   void SettleAll(const std::vector<CandidateSet>& sets);
   /// The parts of a model with one member less, from the whole and from what is known of them.
   std::vector<CandidateSet> SettleParts(const CandidateSet& set);
+  /// The part that is worth most, if that is more than the model is; a model with more than `most`
+  /// members has to give one up.
+  CandidateSet BestPart(const CandidateSet& set, int most = std::numeric_limits<int>::max());
 
   /// The same of members without which a model loses most of what it gains: such a part may just
   /// have lost its way, so the member is led out by small steps. Whether a better part came of it.

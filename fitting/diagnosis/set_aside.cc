@@ -27,6 +27,23 @@ void Erase(std::vector<T>& of_members, const std::vector<std::size_t>& descendin
     of_members.erase(of_members.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
+// What does as well in a member's place only if it can be fitted.
+void ForgetFailedRivals(Naming& naming, std::size_t member) {
+  std::vector<FittedModel>& rivals = naming.rivals[member];
+  std::vector<double>& weights = naming.group_weights[member];
+  for (std::size_t k = rivals.size(); k-- > 1;) {
+    if (rivals[k].ok()) continue;
+    const auto at = static_cast<std::ptrdiff_t>(k);
+    rivals.erase(rivals.begin() + at);
+    naming.groups[member].erase(naming.groups[member].begin() + at);
+    weights.erase(weights.begin() + at);
+  }
+  double sum = 0.0;
+  for (const double weight : weights) sum += weight;
+  if (sum > 0.0)
+    for (double& weight : weights) weight /= sum;
+}
+
 }  // namespace
 
 FittedModel Without(const FittedModel& model, const std::vector<SetAside>& members,
@@ -69,6 +86,7 @@ bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_proble
     FittedModel& other = *others[static_cast<std::size_t>(i)];
     other = Without(other, members, null_problem, settings);
   });
+  for (std::size_t m = 0; m < naming.rivals.size(); ++m) ForgetFailedRivals(naming, m);
   naming.best = best;
   for (const int i : as_good)
     if (!IsInAGroup(naming, i))

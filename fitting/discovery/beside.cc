@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "fitting/diagnosis/null_fit.h"
 #include "fitting/discovery/discover.h"
 
@@ -19,14 +21,20 @@ Diagnosis WithItsCauses(Diagnosis base, const DiagnosisOptions& options) {
   return base;
 }
 
-// Mean square of the held-out errors over the channels' noise.
-double HeldOutSquare(const Discovery& d) {
-  double sum = 0.0;
-  for (std::size_t c = 0; c < d.after.test.rmse.size(); ++c) {
-    const double ratio = d.after.test.rmse[c] / d.base.problem.channels[c].sigma;
-    sum += ratio * ratio;
+// Whether the held-out errors of `a`, each over its channel's noise, are less in the square than
+// `share` of those of `b`. A channel that neither tells of does not count; where one of the two
+// cannot be held against a channel, the other is the better.
+bool ErrsLess(const Discovery& a, const Discovery& b, double share) {
+  double of_a = 0.0, of_b = 0.0;
+  for (std::size_t c = 0; c < a.after.test.rmse.size() && c < b.after.test.rmse.size(); ++c) {
+    const double sigma = a.base.problem.channels[c].sigma;
+    const double in_a = a.after.test.rmse[c] / sigma, in_b = b.after.test.rmse[c] / sigma;
+    if (std::isfinite(in_a) != std::isfinite(in_b)) return std::isfinite(in_a);
+    if (!std::isfinite(in_a)) continue;
+    of_a += in_a * in_a;
+    of_b += in_b * in_b;
   }
-  return sum;
+  return of_a < share * of_b;
 }
 
 }  // namespace
@@ -41,7 +49,7 @@ Discovery DiscoverBeside(const Diagnosis& diagnosis, const DiagnosisOptions& opt
   if (found != (beside.verdict == DiscoveryVerdict::kFound)) return found ? instead : beside;
   if (instead.after.test.rmse.empty() || beside.after.test.rmse.empty()) return beside;
   // A few in a hundred decide nothing: then the simpler model does.
-  return HeldOutSquare(instead) < 1.05 * HeldOutSquare(beside) ? instead : beside;
+  return ErrsLess(instead, beside, 1.05) ? instead : beside;
 }
 
 }  // namespace hoplab
