@@ -61,6 +61,7 @@ class Builder {
     for (const ChannelSpec& spec : dataset_.channels) {
       if (spec.id == Channel::kContact) {
         problem_.uses_contact = true;
+        problem_.contact_clock = ClockOf(spec);
         continue;
       }
       if (IsContact(spec.id)) {
@@ -68,8 +69,7 @@ class Builder {
         continue;
       }
       ChannelProblem c{spec.id, spec.sigma.value_or(kNaN), !spec.sigma};
-      for (std::size_t i = 0; i < problem_.clocks.size(); ++i)
-        if (problem_.clocks[i].name == spec.clock) c.clock = static_cast<int>(i);
+      c.clock = ClockOf(spec);
       if (!spec.sigma) {
         std::vector<SampledColumn> columns;
         for (const Trial& trial : dataset_.trials) {
@@ -92,6 +92,12 @@ class Builder {
     if (problem_.channels.empty() && !problem_.uses_contact) {
       throw InputError({dataset_.origin.place, "channels", "names nothing to compare", ""});
     }
+  }
+
+  int ClockOf(const ChannelSpec& spec) const {
+    for (std::size_t i = 0; i < problem_.clocks.size(); ++i)
+      if (problem_.clocks[i].name == spec.clock) return static_cast<int>(i);
+    return -1;
   }
 
   void FillTrials() {

@@ -119,6 +119,7 @@ struct FitProblem {
   KnownCauses known;                     // what the set-up rules out or bounds
   std::vector<ChannelProblem> channels;  // without `contact`
   bool uses_contact = false;
+  int contact_clock = -1;  // of `clocks`; -1: the trial's own time
   std::vector<TrialProblem> trials;
   NoiseModel noise;  // white until it is estimated
   IntegratorOptions integrator;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fitting/contact_reading.h"
 #include "fitting/deviation.h"
 #include "fitting/driven_trial.h"
 #include "model/mechanism_traits.h"
@@ -143,10 +144,8 @@ TrialEvaluator::TrialEvaluator(const FitProblem& problem, const TrialProblem& tr
     c.rows.push_back(row++);
     c.times.push_back(trial.row_times[cell / channels_.size()]);
   }
-  horizon_ = trial.row_times.back();
+  horizon_ = LatestReading(problem.effects, trial.row_times.back()) + LatestClock(problem, trial);
   if (problem.uses_contact) horizon_ += kContactMargin;
-  horizon_ = std::max(horizon_, LatestReading(problem.effects, trial.row_times.back()));
-  horizon_ += LatestClock(problem, trial);
   if (std::any_of(problem.effects.begin(), problem.effects.end(), FiltersPose))
     horizon_ = std::max(horizon_, trial.row_times.back() + kFilterMargin);
   residual_count_ = static_cast<int>(trial.sample_count);
@@ -194,16 +193,15 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
   out.complete = out.evaluated = false;
   out.data_residuals = static_cast<int>(trial_->sample_count);
   out.residuals.resize(residual_count_);
-  const int columns_wanted = ColumnsOf(request).count;
-  const auto width = static_cast<std::size_t>(columns_wanted);
-  if (request.want_jacobian) out.jacobian.resize(residual_count_, columns_wanted);
-
+  const ColumnRange wanted = ColumnsOf(request);
+  const auto width = static_cast<std::size_t>(wanted.count);
+  if (request.want_jacobian) out.jacobian.resize(residual_count_, wanted.count);
   int next = 0;
   bool complete = true;
   const auto add = [&](double residual, const double* slopes, double scale) {
     out.residuals[next] = residual;
     if (request.want_jacobian) {
-      for (int k = 0; k < columns_wanted; ++k) out.jacobian(next, k) = scale * slopes[k];
+      for (int k = 0; k < wanted.count; ++k) out.jacobian(next, k) = scale * slopes[k];
     }
     ++next;
   };
@@ -218,7 +216,8 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
     add((trajectory.samples[cell] - trial_->data[cell]) * weight,
         request.want_jacobian ? &trajectory.sensitivities[cell * width] : nullptr, weight);
   }
-  const std::vector<double> no_slopes(width, 0.0);
+  const ContactReading contact(*problem_, *trial_, request);
+  std::vector<double> slopes(width);
   const auto add_times = [&](EventKind kind, const std::vector<double>& measured,
                              const std::vector<double>& sigma) {
     const std::vector<EventTime> simulated = TimesOf(trajectory, kind);
@@ -226,11 +225,11 @@ void TrialEvaluator::Evaluate(const EvaluationRequest& request, TrialEvaluation&
       const bool made = i < simulated.size();
       complete = complete && made;
       const double time = made ? simulated[i].time : horizon_;
-      const double* slopes = !request.want_jacobian ? nullptr
-                             : !made
-                                 ? no_slopes.data()
-                                 : &trajectory.event_time_sensitivities[simulated[i].index * width];
-      add((time - measured[i]) / sigma[i], slopes, 1.0 / sigma[i]);
+      for (std::size_t k = 0; request.want_jacobian && k < width; ++k)
+        slopes[k] =
+            (made ? trajectory.event_time_sensitivities[simulated[i].index * width + k] : 0.0) -
+            contact.Slope(measured[i], directions_[static_cast<std::size_t>(wanted.first) + k]);
+      add((time - contact.Time(measured[i])) / sigma[i], slopes.data(), 1.0 / sigma[i]);
     }
     return complete || request.fly_on;
   };

@@ -125,6 +125,7 @@ class TrialColumns {
     bare.clocks = model_.problem.clocks;
     bare.channels = model_.problem.channels;
     bare.uses_contact = model_.problem.uses_contact;
+    bare.contact_clock = model_.problem.contact_clock;
     bare.noise = model_.problem.noise;
     bare.integrator = model_.problem.integrator;
     return Extend(bare, part);

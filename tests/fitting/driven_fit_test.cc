@@ -153,6 +153,55 @@ TEST(DrivenFit, AClockIsSharedOrATrialsOwn) {
   ExpectJacobian(own, own.trials[0]);
 }
 
+// Hops whose switch is read 5 ms late, by a clock that stamps 4 ms too early.
+Dataset WithASwitch() {
+  Scenario s = testing::HopScenario(3);
+  s.dataset->sample_rate_hz = 2000.0;
+  s.dataset->channels = {{Channel::kContact, 1.0}};
+  EffectSpec delay;
+  delay.name = "sensor_delay";
+  delay.parameters = {{"tau", 0.005}};
+  s.effects = {delay};
+  Dataset dataset = GenerateDataset(s, {}).dataset;
+  constexpr std::ptrdiff_t kRows = 8;
+  for (Trial& t : dataset.trials) {
+    std::vector<double>& contact = t.trace.columns[0].values;
+    contact.erase(contact.begin(), contact.begin() + kRows);
+    contact.insert(contact.end(), kRows, contact.back());
+  }
+  dataset.clocks = {{"switch", 0.004, 0.002}};
+  dataset.channels[0].clock = "switch";
+  return dataset;
+}
+
+// The events lie within the rows between which the column turns.
+TEST(DrivenFit, ContactTimesAreReadAsOtherChannelsAre) {
+  const Dataset dataset = WithASwitch();
+  const FitProblem p =
+      MakeProblem(dataset, {.fix = {{"sensor_delay.tau", 0.005}, {"clock.switch.offset", 0.004}}});
+  const TrialProblem& trial = p.trials[0];
+  ASSERT_GE(trial.contact.liftoff_s.size(), 2u);
+  const Eigen::Vector2d truth(22e9, 3.0);
+  OwnValues start = trial.start;
+  const StateSpec& at = *testing::HopScenario(3).dataset->trials[0].initial;
+  start.head<4>() << at.x_m, at.y_m, at.vx_m_per_s, at.vy_m_per_s;
+  TrialEvaluation e;
+  TrialEvaluator(p, trial).Evaluate({truth, start}, e);
+  ASSERT_TRUE(e.complete);
+  EXPECT_LT(e.residuals.head(e.data_residuals).cwiseAbs().maxCoeff(), 1.01 * std::sqrt(3.0));
+}
+
+TEST(DrivenFit, ContactTimesMoveWithTheirClockAndDelay) {
+  Dataset dataset = WithASwitch();
+  const std::vector<std::string> names = {"E", "d", "sensor_delay.tau", "clock_scale.gamma_t"};
+  const FitProblem shared = MakeProblem(dataset, {.free = names});
+  ASSERT_EQ(shared.shared_names().back(), "clock.switch.offset");
+  ExpectJacobian(shared, shared.trials[0]);
+  dataset.clocks[0].per_trial = true;
+  const FitProblem own = MakeProblem(dataset, {.free = names});
+  ExpectJacobian(own, own.trials[0]);
+}
+
 TEST(DrivenFit, APieceKeepsTheAnglesOfItsOwnTouchdowns) {
   const FitProblem p = MakeProblem(Driven(), {});
   const TrialProblem& t = p.trials[0];
