@@ -88,6 +88,12 @@ inline std::string_view NameOf(Channel channel) { return InfoOf(channel).name; }
 /// "m"; empty for contact.
 inline const char* ChannelUnit(Channel channel) { return InfoOf(channel).range.unit; }
 inline Range ChannelRange(Channel channel) { return InfoOf(channel).range; }
+/// What a standard deviation of a channel's noise, stated or added, may be in any channel's unit.
+inline constexpr double kLeastSigma = 1e-12;  // squares of residuals over it stay far from overflow
+inline constexpr double kMostSigma = 1e9;
+inline Range SigmaRange(Channel channel) {
+  return {kLeastSigma, kMostSigma, false, false, ChannelUnit(channel)};
+}
 
 /// Those that a trace may have, in the order of the rows.
 std::vector<Channel> RecordedChannels();
