@@ -27,6 +27,9 @@ CLI::Validator OneOf(const std::vector<std::string>& words);
 /// A number from `least` to `most`.
 CLI::Validator NumberIn(double least, double most);
 
+/// A number above 0 from `least` to `most`.
+CLI::Validator NumberAbove0(double most, double least = 0.0);
+
 /// The words of OneOf, or none for an option that takes anything.
 std::vector<std::string> ChoicesOf(const CLI::Option& option);
 
