@@ -35,6 +35,31 @@ TEST_F(ScenarioCli, WhatIsGeneratedIsFittedBack) {
   EXPECT_NEAR(E.at("value").get<double>(), 22e9, 5.0 * E.at("std_error").get<double>());
 }
 
+TEST_F(ScenarioCli, NoiseThatNoDatasetCanStateIsRefused) {
+  const std::string scenario = WriteScenario(temp_.path());
+  for (const char* noise : {"nan", "inf", "1e308", "1e-160", "0", "-1", "0,001"}) {
+    const ProcessResult run = Hoplab({"generate", scenario, "--noise", noise, "--out", "made"});
+    EXPECT_EQ(run.exit_code, 64) << noise;
+    EXPECT_NE(run.err.find("; must be "), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(CountEntries(temp_.path()), 1);
+}
+
+TEST_F(ScenarioCli, NoiseThatTakesSamplesOutOfTheirRangeIsRefused) {
+  const std::string scenario = WriteScenario(temp_.path());
+  const ProcessResult given = Hoplab({"generate", scenario, "--noise", "1e8", "--out", "made"});
+  EXPECT_EQ(given.exit_code, 65);
+  EXPECT_NE(given.err.find("--noise: body_x_m: {sigma: 1e8}; train-1.csv would have body_x_m = "),
+            std::string::npos)
+      << given.err;
+  const ProcessResult stated = Hoplab(
+      {"generate", scenario, "--set",
+       "dataset={channels: {body_y_m: {sigma: 1e8}}, trials: [{role: train}]}", "--out", "made"});
+  EXPECT_EQ(stated.exit_code, 65);
+  EXPECT_NE(stated.err.find("a sample must be in [-1e6, 1e6] m"), std::string::npos) << stated.err;
+  EXPECT_EQ(CountEntries(temp_.path()), 1);
+}
+
 TEST_F(ScenarioCli, EveryCommandTakesQuiet) {
   const std::string scenario = WriteScenario(temp_.path());
   const ProcessResult run = Hoplab({"simulate", scenario, "--quiet"});
