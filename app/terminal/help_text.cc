@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "app/terminal/report_text.h"
@@ -78,6 +81,18 @@ CLI::Validator NumberAbove0(double most, double least) {
             return Printable(word) + "; must be " + rule + "." + NumberRemedy(word, "");
           },
           "", "NumberAbove0"};
+}
+
+CLI::Validator WholeNumber() {
+  return {[](std::string& word) {
+            std::uint64_t value = 0;
+            const char* const end = word.data() + word.size();
+            const auto [stop, error] = std::from_chars(word.data(), end, value);
+            if (error == std::errc() && stop == end) return std::string();
+            return Printable(word) + "; must be a whole number from 0 to " +
+                   std::to_string(std::numeric_limits<std::uint64_t>::max()) + ".";
+          },
+          "", "WholeNumber"};
 }
 
 std::vector<std::string> ChoicesOf(const CLI::Option& option) {

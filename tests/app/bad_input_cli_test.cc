@@ -216,6 +216,19 @@ TEST_F(BadInputCli, ANumberThatMustBeAboveZeroIsOneAndFinite) {
   }
 }
 
+TEST_F(BadInputCli, ASeedIsAWholeNumberOf64Bits) {
+  for (const char* seed : {"-1", "18446744073709551616", "1.5", "0x10", "", "seven"}) {
+    const ProcessResult run = Hoplab({"fit", "x", "--seed", seed});
+    EXPECT_EQ(run.exit_code, 64) << seed;
+    EXPECT_TRUE(Says(run.err, "must be a whole number from 0 to 18446744073709551615.")) << seed;
+  }
+  const std::string scenario = WriteScenario(temp_.path());
+  const ProcessResult most =
+      Hoplab({"generate", scenario, "--seed", "18446744073709551615", "--out", "made", "--json"});
+  EXPECT_EQ(most.exit_code, 0) << most.err;
+  EXPECT_EQ(nlohmann::json::parse(most.out).at("seed"), 18446744073709551615u);
+}
+
 TEST_F(BadInputCli, WithoutACommandOrWithAnUnknownOneHelpIsNear) {
   const ProcessResult none = Hoplab({});
   EXPECT_EQ(none.exit_code, 64);
