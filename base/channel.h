@@ -120,5 +120,12 @@ constexpr bool IsAngleOfLeg(Channel c) {
 constexpr Channel OfLeg(Channel first, int leg) {
   return static_cast<Channel>(static_cast<int>(first) + leg);
 }
+/// The leg, from 0, that a channel of the data format is of; -1 if it is of none.
+constexpr int LegOf(Channel c) {
+  for (const Channel first : {Channel::kLegAngle1, Channel::kHipTorque1, Channel::kContact1})
+    for (int leg = 0; leg < 4; ++leg)
+      if (c == OfLeg(first, leg)) return leg;
+  return -1;
+}
 
 }  // namespace hoplab

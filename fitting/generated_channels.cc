@@ -10,6 +10,16 @@
 namespace hoplab {
 namespace {
 
+void CheckLeg(const ChannelSpec& channel, const MechanismSpec& mechanism) {
+  const int leg = LegOf(channel.id);
+  const int legs = static_cast<int>(mechanism.robot.legs.size());
+  if (mechanism.type != MechanismKind::kRobot || leg < legs) return;
+  throw InputError({channel.origin.place, ChannelName(channel.id),
+                    "is of leg " + std::to_string(leg + 1) + ", and the robot has " +
+                        std::to_string(legs) + (legs == 1 ? " leg" : " legs"),
+                    "Remove the channel, or add the leg."});
+}
+
 void CheckSample(const ChannelSpec& channel, double value, const Trial& trial, bool for_all) {
   const Range range = ChannelRange(channel.id);
   if (range.Contains(value)) return;
@@ -29,6 +39,7 @@ std::vector<ChannelSpec> ChannelsToGenerate(const Scenario& scenario,
   if (scenario.dataset) channels = scenario.dataset->channels;
   if (channels.empty()) channels = {{Channel::kBodyX, 0.001}, {Channel::kBodyY, 0.001}};
   for (ChannelSpec& c : channels) {
+    CheckLeg(c, scenario.mechanism);
     if (noise) c.sigma = *noise;
     if (!c.sigma)
       throw InputError({c.origin.place, std::string(ChannelName(c.id)) + ": {sigma: estimate}",
@@ -39,14 +50,19 @@ std::vector<ChannelSpec> ChannelsToGenerate(const Scenario& scenario,
 
 void CheckGenerated(const Dataset& dataset, const std::optional<double>& noise) {
   for (const ChannelSpec& channel : dataset.channels) {
+    bool found = false;
     for (const Trial& trial : dataset.trials) {
       const std::vector<double>* const values = trial.trace.Find(channel.id);
       if (values == nullptr) continue;
       for (const double value : *values) {
         if (std::isnan(value)) continue;  // a gap
+        found = true;
         CheckSample(channel, value, trial, noise.has_value());
       }
     }
+    if (!found)
+      throw InputError({channel.origin.place, ChannelName(channel.id),
+                        "no trial would have a sample of it", "Remove the channel."});
   }
 }
 

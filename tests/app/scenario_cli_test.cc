@@ -60,6 +60,25 @@ TEST_F(ScenarioCli, NoiseThatTakesSamplesOutOfTheirRangeIsRefused) {
   EXPECT_EQ(CountEntries(temp_.path()), 1);
 }
 
+TEST_F(ScenarioCli, AChannelThatTheMechanismDoesNotHaveIsNotGenerated) {
+  const std::string shipped = std::string(HOPLAB_SOURCE_DIR) + "/experiments/";
+  const ProcessResult leg =
+      Hoplab({"generate", shipped + "robot-drop.yaml", "--set", "mechanism.legs=[{hip_m: [0, 0]}]",
+              "--set", "controller.angles_rad=[0.5]", "--set", "dataset.trials=[{role: train}]",
+              "--out", "made"});
+  EXPECT_EQ(leg.exit_code, 65);
+  EXPECT_NE(leg.err.find("leg_angle_2_rad; is of leg 2, and the robot has 1 leg."),
+            std::string::npos)
+      << leg.err;
+  const ProcessResult pitch =
+      Hoplab({"generate", shipped + "three-drops.yaml", "--set",
+              "dataset.channels.body_pitch_rad={sigma: 0.001}", "--out", "made"});
+  EXPECT_EQ(pitch.exit_code, 65);
+  EXPECT_NE(pitch.err.find("body_pitch_rad; no trial would have a sample of it"), std::string::npos)
+      << pitch.err;
+  EXPECT_EQ(CountEntries(temp_.path()), 0);
+}
+
 TEST_F(ScenarioCli, EveryCommandTakesQuiet) {
   const std::string scenario = WriteScenario(temp_.path());
   const ProcessResult run = Hoplab({"simulate", scenario, "--quiet"});
