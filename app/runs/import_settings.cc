@@ -93,7 +93,8 @@ void AddShift(const std::string& text, TraceOptions* options) {
     throw InputError({"--shift", Printable(text),
                       TargetName(target) + " is " + DimensionName(dimension),
                       "Units: " + Join(UnitNames(dimension)) + "."});
-  options->shifts[target] = ToSi(number, *unit);
+  if (!options->shifts.emplace(target, ToSi(number, *unit)).second)
+    throw InputError({"--shift", TargetName(target), "is given twice", "Remove one of the two."});
 }
 
 std::vector<std::string> TypeNames() {
