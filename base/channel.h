@@ -88,6 +88,12 @@ inline std::string_view NameOf(Channel channel) { return InfoOf(channel).name; }
 /// "m"; empty for contact.
 inline const char* ChannelUnit(Channel channel) { return InfoOf(channel).range.unit; }
 inline Range ChannelRange(Channel channel) { return InfoOf(channel).range; }
+/// What a standard deviation of a channel's noise, stated or added, may be in any channel's unit.
+inline constexpr double kLeastSigma = 1e-12;  // squares of residuals over it stay far from overflow
+inline constexpr double kMostSigma = 1e9;
+inline Range SigmaRange(Channel channel) {
+  return {kLeastSigma, kMostSigma, false, false, ChannelUnit(channel)};
+}
 
 /// Those that a trace may have, in the order of the rows.
 std::vector<Channel> RecordedChannels();
@@ -113,6 +119,13 @@ constexpr bool IsAngleOfLeg(Channel c) {
 /// The channel of a leg from that of leg 1.
 constexpr Channel OfLeg(Channel first, int leg) {
   return static_cast<Channel>(static_cast<int>(first) + leg);
+}
+/// The leg, from 0, that a channel of the data format is of; -1 if it is of none.
+constexpr int LegOf(Channel c) {
+  for (const Channel first : {Channel::kLegAngle1, Channel::kHipTorque1, Channel::kContact1})
+    for (int leg = 0; leg < 4; ++leg)
+      if (c == OfLeg(first, leg)) return leg;
+  return -1;
 }
 
 }  // namespace hoplab

@@ -111,7 +111,7 @@ std::vector<ChannelSpec> ReadChannels(const YamlCursor& cursor) {
     const std::optional<YamlCursor> sigma =
         may_be_absent ? block.Optional("sigma")
                       : block.Required("sigma", "1 standard deviation, or estimate");
-    const Range range = Positive(1e9, ChannelUnit(*id));
+    const Range range = SigmaRange(*id);
     const bool is_word =
         sigma && sigma->node().kind == YamlNode::Kind::kScalar && !ParseDouble(sigma->node().text);
     if (is_word && sigma->Text() != "estimate")

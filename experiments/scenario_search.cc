@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/input_error.h"
+#include "base/range.h"
 #include "base/text.h"
 #include "experiments/scenario_hopper.h"
 
@@ -88,6 +89,11 @@ SearchConstraints ConstraintsOf(const std::vector<NamedNumber>& numbers, bool ro
     if (known->field == &SearchConstraints::max_deflection_ratio && law != Law::kLargeDeflection)
       refuse("bounds the expansion of law large_deflection; others have none",
              "Leave it out, or say law: large_deflection.");
+    constexpr Range kBound = NonNegative(1e9, "");
+    if (!kBound.Contains(number.value))
+      throw InputError({number.origin.place,
+                        "search.constraints." + number.name + " = " + FormatDouble(number.value),
+                        "must be in " + kBound.Text(), RangeRemedy(number.value, kBound)});
     constraints.*known->field = number.value;
   }
   return constraints;

@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/random.h"
 #include "base/text.h"
+#include "fitting/generated_channels.h"
 #include "fitting/model_of_spec.h"
 #include "model/pose_filter.h"
 
@@ -13,19 +14,6 @@ namespace hoplab {
 namespace {
 
 constexpr double kDefaultRate = 500.0;  // Hz
-
-std::vector<ChannelSpec> ChannelsOf(const Scenario& scenario, const GenerateOptions& options) {
-  std::vector<ChannelSpec> channels;
-  if (scenario.dataset) channels = scenario.dataset->channels;
-  if (channels.empty()) channels = {{Channel::kBodyX, 0.001}, {Channel::kBodyY, 0.001}};
-  for (ChannelSpec& c : channels) {
-    if (options.noise) c.sigma = *options.noise;
-    if (!c.sigma)
-      throw InputError({c.origin.place, std::string(ChannelName(c.id)) + ": {sigma: estimate}",
-                        "a dataset to generate needs the noise itself", "State sigma."});
-  }
-  return channels;
-}
 
 std::vector<GenerateTrial> TrialsOfScenario(const Scenario& scenario) {
   if (scenario.dataset) return scenario.dataset->trials;
@@ -186,7 +174,7 @@ Recording RecordingOf(const Scenario& scenario, const GenerateOptions& options,
   r.effects =
       ResolveEffects(scenario.effects, r.law, any_toe_mass ? LegMass::kAtToe : LegMass::kNone,
                      KindsOf(r.inputs), RobotLegsOfSpec(scenario.mechanism));
-  r.channels = ChannelsOf(scenario, options);
+  r.channels = ChannelsToGenerate(scenario, options.noise);
   for (const ChannelSpec& c : r.channels) r.wanted.push_back(c.id);
   const double horizon = HorizonOf(scenario);
   const double rate =
@@ -343,6 +331,7 @@ GeneratedDataset GenerateDataset(const Scenario& scenario, const GenerateOptions
   out.dataset = HeadOf(recording);
   for (std::size_t i = 0; i < trials.size(); ++i)
     out.dataset.trials.push_back(RecordTrial(recording, trials[i], i, out.notes));
+  CheckGenerated(out.dataset, options.noise);
   return out;
 }
 

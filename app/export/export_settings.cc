@@ -19,7 +19,7 @@ void AddExportOptions(CLI::App& sub, ExportSettings& settings) {
       ->option_text("SECONDS");
   sub.add_option("--leg-mass", settings.mjcf.leg_mass,
                  "Of the MJCF leg [kg] where none was fitted (default a thousandth of the body)")
-      ->check(CLI::PositiveNumber)
+      ->check(NumberAbove0(1e6, 1e-12))
       ->option_text("KG");
   sub.add_flag("--force", settings.force, "Replace a file that stands there");
 }

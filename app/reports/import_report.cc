@@ -35,6 +35,8 @@ std::string ShellWord(const std::string& text) {
   return quoted + "'";
 }
 
+std::string UnusedColumns(const ImportResult& made) { return Printable(Join(made.unused), 400); }
+
 // "robot, 2 legs"; nothing of a hopper, which is what is taken for granted.
 std::string MechanismLine(const std::string& begin, const ImportResult& made) {
   if (made.legs == 0) return "";
@@ -47,7 +49,7 @@ std::string MechanismLine(const std::string& begin, const ImportResult& made) {
 std::string GuessesText(const ImportResult& made) {
   std::string text;
   for (const std::string& line : MapTable(made)) text += line + '\n';
-  if (!made.unused.empty()) text += "  not used: " + Printable(Join(made.unused), 400) + '\n';
+  if (!made.unused.empty()) text += "  not used: " + UnusedColumns(made) + '\n';
   text += MechanismLine("  mechanism: ", made);
   text += "  in words:";
   for (const std::string& word : made.map_texts) text += " --map " + ShellWord(word);
@@ -70,6 +72,7 @@ std::string ImportReport(const std::string& name, const std::string& out, const 
                    Fixed(log.trace.last_s - log.trace.first_s, 3), missing});
   }
   text += WithHeader(trials.Lines(), colours) + '\n';
+  if (!made.unused.empty()) text += "  not used    " + UnusedColumns(made) + '\n';
   text += MechanismLine("  mechanism   ", made);
   text += "  dataset     " + out + '\n';
   if (made.blanks.empty()) return text;

@@ -23,7 +23,7 @@ void AddFitOptions(CLI::App& sub, FitSettings& settings) {
       ->option_text("NAME");
   sub.add_option("--loss-scale", settings.loss_scale,
                  "Standard deviations from which pseudo_huber is linear (default 2)")
-      ->check(CLI::PositiveNumber)
+      ->check(NumberAbove0(1e6, 1e-6))
       ->option_text("NUMBER");
   AddDiscrepancyOption(sub, settings.discrepancy);
   sub.add_option("--profile", settings.profile, "Profile likelihood of these parameters, or all")

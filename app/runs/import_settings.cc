@@ -93,7 +93,8 @@ void AddShift(const std::string& text, TraceOptions* options) {
     throw InputError({"--shift", Printable(text),
                       TargetName(target) + " is " + DimensionName(dimension),
                       "Units: " + Join(UnitNames(dimension)) + "."});
-  options->shifts[target] = ToSi(number, *unit);
+  if (!options->shifts.emplace(target, ToSi(number, *unit)).second)
+    throw InputError({"--shift", TargetName(target), "is given twice", "Remove one of the two."});
 }
 
 std::vector<std::string> TypeNames() {
@@ -134,7 +135,7 @@ void AddImportOptions(CLI::App& sub, ImportSettings& settings) {
   sub.add_flag("--accept-guesses", settings.accept_guesses,
                "Take what --map does not say as guessed; without it the guesses are shown");
   sub.add_option("--rate", settings.rate_hz, "Samples a second, where the file has no times")
-      ->check(CLI::PositiveNumber)
+      ->check(NumberAbove0(1e6, 1e-6))
       ->option_text("HZ");
   list("--cut", settings.cut,
        "Keep these seconds of the log's clock; each repetition makes a trial", "[FILE=]FROM:TO");

@@ -58,7 +58,9 @@ int JobsOf(int jobs) {
 }
 
 void AddSeedOption(CLI::App& sub, std::uint64_t& seed, const std::string& of) {
-  sub.add_option("--seed", seed, fmt::format("{} (default {})", of, seed))->option_text("N");
+  sub.add_option("--seed", seed, fmt::format("{} (default {})", of, seed))
+      ->check(WholeNumber())
+      ->option_text("N");
 }
 
 }  // namespace hoplab

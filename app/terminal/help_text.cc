@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "app/terminal/report_text.h"
@@ -12,6 +15,17 @@ namespace hoplab {
 namespace {
 constexpr std::size_t kNameColumn = 25;
 constexpr char kSeparator = '|';
+
+// Behind a message: how "0,001" is to be written; else `other`.
+std::string NumberRemedy(const std::string& word, const std::string& other) {
+  std::string pointed = word;
+  const std::size_t comma = pointed.find(',');
+  if (comma == pointed.npos) return other;
+  pointed[comma] = '.';
+  if (!ParseDouble(pointed)) return other;
+  return " The decimal sign is a point: " + Printable(pointed) + ".";
+}
+
 }  // namespace
 
 HelpFormatter::HelpFormatter(std::size_t columns) : columns_(columns) { column_width(kNameColumn); }
@@ -50,10 +64,35 @@ CLI::Validator NumberIn(double least, double most) {
   return {[least, most](std::string& word) {
             const std::optional<double> value = ParseDouble(word);
             if (value && *value >= least && *value <= most) return std::string();
-            return Printable(word) +
-                   fmt::format(" is no number from {:g} to {:g}. Give one.", least, most);
+            return Printable(word) + fmt::format(" is no number from {:g} to {:g}.", least, most) +
+                   NumberRemedy(word, " Give one.");
           },
           "", "NumberIn"};
+}
+
+CLI::Validator NumberAbove0(double most, double least) {
+  return {[most, least](std::string& word) {
+            const std::optional<double> value = ParseDouble(word);
+            const bool above = value && *value > 0.0;
+            if (above && *value >= least && *value <= most) return std::string();
+            std::string rule = "a number above 0";
+            if (above) rule = "at most " + FormatDouble(most);
+            if (above && *value < least) rule = "at least " + FormatDouble(least);
+            return Printable(word) + "; must be " + rule + "." + NumberRemedy(word, "");
+          },
+          "", "NumberAbove0"};
+}
+
+CLI::Validator WholeNumber() {
+  return {[](std::string& word) {
+            std::uint64_t value = 0;
+            const char* const end = word.data() + word.size();
+            const auto [stop, error] = std::from_chars(word.data(), end, value);
+            if (error == std::errc() && stop == end) return std::string();
+            return Printable(word) + "; must be a whole number from 0 to " +
+                   std::to_string(std::numeric_limits<std::uint64_t>::max()) + ".";
+          },
+          "", "WholeNumber"};
 }
 
 std::vector<std::string> ChoicesOf(const CLI::Option& option) {

@@ -27,6 +27,12 @@ CLI::Validator OneOf(const std::vector<std::string>& words);
 /// A number from `least` to `most`.
 CLI::Validator NumberIn(double least, double most);
 
+/// A number above 0 from `least` to `most`.
+CLI::Validator NumberAbove0(double most, double least = 0.0);
+
+/// A number from 0 to 2^64 - 1, in digits.
+CLI::Validator WholeNumber();
+
 /// The words of OneOf, or none for an option that takes anything.
 std::vector<std::string> ChoicesOf(const CLI::Option& option);
 

@@ -136,12 +136,21 @@ void FindUnitOf(const Table& table, const std::string& said, ColumnMap* map, Map
   mapped->why += (mapped->why.empty() ? "" : "; ") + guess->why;
 }
 
-void CheckTwice(const ColumnMap& map) {
+void CheckTwice(const Table& table, const ColumnMap& map) {
   for (std::size_t i = 0; i < map.columns.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (map.columns[i].target == map.columns[j].target)
-        throw InputError({"--map", TargetName(map.columns[i].target), "is given twice",
-                          "Remove one of the two."});
+    for (std::size_t j = 0; j < i; ++j) {
+      const MappedColumn &one = map.columns[j], &other = map.columns[i];
+      if (other.target == one.target)
+        throw InputError(
+            {"--map", TargetName(other.target), "is given twice", "Remove one of the two."});
+      // A measured angle may be what the motor follows, too.
+      const bool drives = other.target.input.has_value() != one.target.input.has_value();
+      if (other.column == one.column && !drives)
+        throw InputError(
+            {"--map", "column " + Printable(table.columns[one.column].name),
+             "is taken for " + TargetName(one.target) + " and for " + TargetName(other.target),
+             "Name another column for one of the two, or leave it out."});
+    }
 }
 
 }  // namespace
@@ -211,7 +220,7 @@ ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entrie
       map.columns.push_back(guess);
     }
   }
-  CheckTwice(map);
+  CheckTwice(table, map);
   const auto channels =
       std::count_if(map.columns.begin(), map.columns.end(),
                     [](const MappedColumn& m) { return m.target.channel.has_value(); });

@@ -22,11 +22,7 @@ std::string_view ShortWord(Channel channel) { return InfoOf(channel).word; }
 
 int ColumnTarget::Leg() const {
   if (input) return MotorOf(*input);
-  if (!channel) return -1;
-  for (const Channel first : {Channel::kLegAngle1, Channel::kHipTorque1, Channel::kContact1})
-    for (int leg = 0; leg < 4; ++leg)
-      if (*channel == OfLeg(first, leg)) return leg;
-  return -1;
+  return channel ? LegOf(*channel) : -1;
 }
 
 ColumnTarget TargetOfWord(const std::string& word, const std::string& place) {

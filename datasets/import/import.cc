@@ -66,6 +66,19 @@ int LegsOf(const ColumnMap& map, const std::optional<int>& said) {
   return legs;
 }
 
+// A shift of what no column is taken for would be lost.
+void CheckShifts(const TraceOptions& options, const ColumnMap& map) {
+  for (const auto& [target, shift] : options.shifts) {
+    const bool mapped = std::any_of(map.columns.begin(), map.columns.end(),
+                                    [&](const MappedColumn& m) { return m.target == target; });
+    if (mapped) continue;
+    std::vector<std::string> known;
+    for (const MappedColumn& m : map.columns) known.push_back(WordOf(m.target));
+    throw InputError({"--shift", WordOf(target), "no column is taken for it",
+                      "There are: " + Join(known) + "."});
+  }
+}
+
 class Importer {
  public:
   explicit Importer(const ImportRequest& request) : request_(request), entries_(request.map) {}
@@ -85,6 +98,7 @@ class Importer {
     const ColumnMap map =
         ResolveColumns(table, entries_, request_.options.rate_hz.has_value(), request_.type);
     if (first) {
+      CheckShifts(request_.options, map);
       Describe(table, map);
       FindMechanism(map);
       entries_ = EntriesOf(table, map);

@@ -194,6 +194,41 @@ TEST_F(BadInputCli, OptionsThatDoNotExistOrDoNotFitAreWrongUse) {
   EXPECT_EQ(Hoplab({"fit", "x", "--strategy", "luck"}).exit_code, 64);
 }
 
+TEST_F(BadInputCli, ANumberThatMustBeAboveZeroIsOneAndFinite) {
+  struct Case {
+    std::vector<std::string> call;
+    const char* says;
+  };
+  for (const Case& c : std::vector<Case>{
+           {{"fit", "x", "--loss-scale", "nan"}, "--loss-scale: nan; must be a number above 0."},
+           {{"fit", "x", "--loss-scale", "0"}, "--loss-scale: 0; must be a number above 0."},
+           {{"fit", "x", "--loss-scale", "1e300"}, "1e300; must be at most 1e6."},
+           {{"fit", "x", "--loss-scale", "1e-300"}, "1e-300; must be at least 1e-6."},
+           {{"fit", "x", "--loss-scale", "1,5"}, "above 0. The decimal sign is a point: 1.5."},
+           {{"fit", "x", "--tolerance", "0,001"}, "0.001. The decimal sign is a point: 0.001."},
+           {{"import", "x", "--out", "d", "--rate", "nan"}, "--rate: nan; must be a number above"},
+           {{"import", "x", "--out", "d", "--rate", "1e300"}, "--rate: 1e300; must be at most 1e6"},
+           {{"export", "x", "--leg-mass", "0"}, "--leg-mass: 0; must be a number above 0."}}) {
+    const ProcessResult run = Hoplab(c.call);
+    EXPECT_EQ(run.exit_code, 64) << run.err;
+    EXPECT_TRUE(Says(run.err, c.says));
+    EXPECT_LT(run.err.size(), 150u) << run.err;
+  }
+}
+
+TEST_F(BadInputCli, ASeedIsAWholeNumberOf64Bits) {
+  for (const char* seed : {"-1", "18446744073709551616", "1.5", "0x10", "", "seven"}) {
+    const ProcessResult run = Hoplab({"fit", "x", "--seed", seed});
+    EXPECT_EQ(run.exit_code, 64) << seed;
+    EXPECT_TRUE(Says(run.err, "must be a whole number from 0 to 18446744073709551615.")) << seed;
+  }
+  const std::string scenario = WriteScenario(temp_.path());
+  const ProcessResult most =
+      Hoplab({"generate", scenario, "--seed", "18446744073709551615", "--out", "made", "--json"});
+  EXPECT_EQ(most.exit_code, 0) << most.err;
+  EXPECT_EQ(nlohmann::json::parse(most.out).at("seed"), 18446744073709551615u);
+}
+
 TEST_F(BadInputCli, WithoutACommandOrWithAnUnknownOneHelpIsNear) {
   const ProcessResult none = Hoplab({});
   EXPECT_EQ(none.exit_code, 64);

@@ -62,6 +62,21 @@ TEST_F(ImportCli, GuessesAreShownAndNothingIsWrittenUntilTheyAreConfirmed) {
             ReadText(temp_.path() / "drops" / "drop.csv"));
 }
 
+TEST_F(ImportCli, ColumnsThatAreNotUsedAreSaidWhetherAskedOrAccepted) {
+  std::string log = ReadText(temp_.path() / "drop.csv");
+  log.replace(0, log.find('\n'), "Time (ms),X,Z,battery");
+  for (std::size_t at = log.find('\n') + 1; at < log.size(); at = log.find('\n', at + 3) + 1)
+    log.insert(log.find('\n', at), ",7");
+  WriteText(temp_.path() / "drop.csv", log);
+  const ProcessResult asked = Hoplab({"import", "drop.csv", "--out", "a"});
+  EXPECT_TRUE(Says(asked.err, "  not used: battery\n")) << asked.err;
+  const ProcessResult accepted = Hoplab({"import", "drop.csv", "--accept-guesses", "--out", "a"});
+  EXPECT_TRUE(Says(accepted.out, "  not used    battery\n")) << accepted.out << accepted.err;
+  const ProcessResult said =
+      Hoplab({"import", "drop.csv", "--map", "t=Time (ms)", "--map", "y=Z:mm", "--out", "b"});
+  EXPECT_TRUE(Says(said.out, "  not used    X, battery\n")) << said.out << said.err;
+}
+
 TEST_F(ImportCli, CheckFitAndDiagnoseSayWhatIsMissing) {
   ASSERT_EQ(Hoplab({"import", "drop.csv", "--accept-guesses", "--out", "drops"}).exit_code, 0);
   for (const char* command : {"check", "fit", "diagnose"}) {
@@ -140,6 +155,10 @@ TEST_F(ImportCli, OptionsThatNameWhatIsNotThereAreBadInput) {
       {{"--map", "height=Z"}, "height; is no channel"},
       {{"--role", "dorp.csv=test"}, "dorp.csv; is none of the files to import. Did you mean drop"},
       {{"--cut", "9:10"}, "no row lies within the cut 9:10. The log spans 0 to 1.136 s"},
+      {{"--map", "x=Z:mm", "--map", "y=Z:mm"},
+       "column Z; is taken for body_y_m and for body_x_m. Name another column"},
+      {{"--shift", "leg_angle=1:deg"}, "leg_angle; no column is taken for it. There are: t, y, x"},
+      {{"--shift", "y=1", "--shift", "body_y=2"}, "--shift: body_y_m; is given twice"},
       {{"--shift", "y=3:kg"}, "body_y_m is a length. Units: m, mm"},
       {{"--set", "mechanism.leg.E_GPa=3"}, "Did you mean mechanism.leg.E_Pa?"},
       {{"--set", "mechanism.leg.E_Pa=3 GPa"}, "is not a number"},

@@ -81,6 +81,20 @@ TEST_F(OptimizeCli, WhatCannotBeSearchedIsRefused) {
   EXPECT_EQ(CountEntries(temp_.path()), 1);
 }
 
+TEST_F(OptimizeCli, AConstraintIsZeroOrMore) {
+  for (const char* value : {"-1", "-1e-3", "nan", ".inf", "1e300"}) {
+    const ProcessResult run =
+        Optimize({"--set", std::string("search.constraints.max_torque_N_m=") + value});
+    EXPECT_EQ(run.exit_code, 65) << value << run.err;
+    EXPECT_NE(run.err.find("search.constraints.max_torque_N_m = "), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(CountEntries(temp_.path()), 1);
+  EXPECT_EQ(Optimize({"--set", "search.constraints.min_speed_m_per_s=0", "--seeds", "1", "--map",
+                      "0", "--json"})
+                .exit_code,
+            0);
+}
+
 TEST_F(OptimizeCli, AConstraintNothingMeetsIsNoResult) {
   const ProcessResult run = Optimize(
       {"--set", "search.constraints.min_speed_m_per_s=50", "--seeds", "1", "--map", "0", "--json"});

@@ -35,6 +35,50 @@ TEST_F(ScenarioCli, WhatIsGeneratedIsFittedBack) {
   EXPECT_NEAR(E.at("value").get<double>(), 22e9, 5.0 * E.at("std_error").get<double>());
 }
 
+TEST_F(ScenarioCli, NoiseThatNoDatasetCanStateIsRefused) {
+  const std::string scenario = WriteScenario(temp_.path());
+  for (const char* noise : {"nan", "inf", "1e308", "1e-160", "0", "-1", "0,001"}) {
+    const ProcessResult run = Hoplab({"generate", scenario, "--noise", noise, "--out", "made"});
+    EXPECT_EQ(run.exit_code, 64) << noise;
+    EXPECT_NE(run.err.find("; must be "), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(CountEntries(temp_.path()), 1);
+}
+
+TEST_F(ScenarioCli, NoiseThatTakesSamplesOutOfTheirRangeIsRefused) {
+  const std::string scenario = WriteScenario(temp_.path());
+  const ProcessResult given = Hoplab({"generate", scenario, "--noise", "1e8", "--out", "made"});
+  EXPECT_EQ(given.exit_code, 65);
+  EXPECT_NE(given.err.find("--noise: body_x_m: {sigma: 1e8}; train-1.csv would have body_x_m = "),
+            std::string::npos)
+      << given.err;
+  const ProcessResult stated = Hoplab(
+      {"generate", scenario, "--set",
+       "dataset={channels: {body_y_m: {sigma: 1e8}}, trials: [{role: train}]}", "--out", "made"});
+  EXPECT_EQ(stated.exit_code, 65);
+  EXPECT_NE(stated.err.find("a sample must be in [-1e6, 1e6] m"), std::string::npos) << stated.err;
+  EXPECT_EQ(CountEntries(temp_.path()), 1);
+}
+
+TEST_F(ScenarioCli, AChannelThatTheMechanismDoesNotHaveIsNotGenerated) {
+  const std::string shipped = std::string(HOPLAB_SOURCE_DIR) + "/experiments/";
+  const ProcessResult leg =
+      Hoplab({"generate", shipped + "robot-drop.yaml", "--set", "mechanism.legs=[{hip_m: [0, 0]}]",
+              "--set", "controller.angles_rad=[0.5]", "--set", "dataset.trials=[{role: train}]",
+              "--out", "made"});
+  EXPECT_EQ(leg.exit_code, 65);
+  EXPECT_NE(leg.err.find("leg_angle_2_rad; is of leg 2, and the robot has 1 leg."),
+            std::string::npos)
+      << leg.err;
+  const ProcessResult pitch =
+      Hoplab({"generate", shipped + "three-drops.yaml", "--set",
+              "dataset.channels.body_pitch_rad={sigma: 0.001}", "--out", "made"});
+  EXPECT_EQ(pitch.exit_code, 65);
+  EXPECT_NE(pitch.err.find("body_pitch_rad; no trial would have a sample of it"), std::string::npos)
+      << pitch.err;
+  EXPECT_EQ(CountEntries(temp_.path()), 0);
+}
+
 TEST_F(ScenarioCli, EveryCommandTakesQuiet) {
   const std::string scenario = WriteScenario(temp_.path());
   const ProcessResult run = Hoplab({"simulate", scenario, "--quiet"});

@@ -39,7 +39,13 @@ TEST(BadDataset, AnAngleBeyondTheHalfTurnIsOutOfItsRange) {
 
 TEST(BadDataset, ASigmaOfZeroIsOutOfItsRange) {
   EXPECT_EQ(ErrorWithYaml("sigma: 0.001", "sigma: 0"),
-            "hops/dataset.yaml:15: channels.body_x_m.sigma = 0; must be in (0, 1e9] m. "
+            "hops/dataset.yaml:15: channels.body_x_m.sigma = 0; must be in [1e-12, 1e9] m. "
+            "Check the unit: m is meant.");
+}
+
+TEST(BadDataset, ASigmaNextToZeroIsOutOfItsRange) {
+  EXPECT_EQ(ErrorWithYaml("sigma: 0.001", "sigma: 1e-160"),
+            "hops/dataset.yaml:15: channels.body_x_m.sigma = 1e-160; must be in [1e-12, 1e9] m. "
             "Check the unit: m is meant.");
 }
 
@@ -119,10 +125,10 @@ TEST(BadDataset, AnUnknownRoleIsRefused) {
 }
 
 TEST(BadDataset, ASigmaMayBeANumberOrEstimateAndNothingElse) {
-  EXPECT_EQ(
-      ErrorWithYaml("sigma: estimate", "sigma: guess"),
-      "hops/dataset.yaml:16: channels.body_y_m.sigma = guess; must be a number in (0, 1e9] m or "
-      "the word estimate. Write 1 standard deviation, or estimate.");
+  EXPECT_EQ(ErrorWithYaml("sigma: estimate", "sigma: guess"),
+            "hops/dataset.yaml:16: channels.body_y_m.sigma = guess; must be a number in [1e-12, "
+            "1e9] m or "
+            "the word estimate. Write 1 standard deviation, or estimate.");
 }
 
 TEST(BadDataset, ATrialMayNotChangeTheTypeOfMechanism) {
