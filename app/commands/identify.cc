@@ -14,16 +14,26 @@
 namespace hoplab {
 namespace {
 
+// The other ranks, which wait for work: where none is begun they are told so.
+struct WaitingRanks {
+  MpiJob* job;
+  ~WaitingRanks() {
+    if (job) job->Share("");
+  }
+};
+
 ExitCode Lead(const IdentifySettings& settings, Console& console, MpiJob* job) {
   const Stopwatch watch;
   const InterruptGuard interrupt;
   IdentificationRequest request = IdentificationRequestOf(settings);
+  WaitingRanks waiting{job};
   const RunFolder folder(RunFolderOptionsOf(settings), "published", "identify");
   FitJournal journal(folder.Partial(), request.context, ProjectVersion(), settings.force);
   request.context.stop = interrupt.flag();
   Progress progress(console, settings.quiet);
   IdentificationResult result;
   {
+    waiting.job = nullptr;
     IdentifyWork work(request.context, journal,
                       {.jobs = JobsOf(settings.jobs), .job = job, .stop = interrupt.flag()},
                       progress, console);

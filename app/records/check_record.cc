@@ -26,6 +26,7 @@ Json CheckRecord(const Dataset& dataset, const CheckSettings& settings, const Ch
   header.command = "check";
   header.dataset = dataset.name;
   header.law = std::string(NameOf(problem.law));
+  header.reading = dataset.mechanism.reading;
   const ProblemOptions problem_options = ProblemOptionsOf(settings.problem);
   const FitOptions no_search;
   header.options =

@@ -33,14 +33,6 @@ bool SameRecordings(const ComparedSide& a, const ComparedSide& b) {
   return first.empty() || second.empty() || first == second;
 }
 
-std::string UnitOfChannel(const std::string& channel) {
-  const std::string bare = WithoutUnit(channel);
-  if (bare == channel) return "";
-  const std::string suffix = channel.substr(bare.size() + 1);
-  if (suffix == "m_per_s") return "m/s";
-  return suffix == "N_m" ? "N m" : suffix;
-}
-
 Json ErrorsRecord(const std::vector<ComparedSide>& sides) {
   Json out = Json::array();
   const auto add = [&](const std::string& what, const std::string& channel, const std::string& unit,

@@ -192,6 +192,7 @@ Json DesignRecord(const Dataset& dataset, const std::string& dataset_argument,
   header.command = "design";
   header.dataset = dataset.name;
   header.law = std::string(NameOf(run.problem.law));
+  header.reading = dataset.mechanism.reading;
   header.seed = options.fit.seed;
   header.options =
       OptionsRecord(run.problem, {dataset_argument, &options.problem, &options.fit, options.span});

@@ -216,6 +216,7 @@ Json DiagnosisRecord(const Dataset& dataset, const std::string& dataset_argument
   header.command = "diagnose";
   header.dataset = dataset.name;
   header.law = std::string(NameOf(d.problem.law));
+  header.reading = dataset.mechanism.reading;
   header.seed = options.fit.seed;
   header.options = ResolvedOptions(dataset_argument, options, d);
   Json record = NewRecord(header);

@@ -95,6 +95,7 @@ Json NewIdentifyRecord(const IdentifySettings& settings) {
                     {"readings", settings.readings},
                     {"keep", settings.keep},
                     {"keep_toe", settings.keep_toe},
+                    {"toe_budget", settings.toe_budget},
                     {"free_damping_scale", settings.free_damping_scale},
                     {"free_rolling_blend", settings.free_rolling_blend},
                     {"free_toe_mass", settings.free_toe_mass},

@@ -19,7 +19,7 @@ bool ReachedItsEnd(const SweepRow& row) { return row.reason.empty(); }
 
 std::string UnitOfKey(const std::string& key) {
   // The longest first: "_m" ends "_N_m" too.
-  constexpr std::array<std::pair<const char*, const char*>, 14> kSuffixes = {
+  constexpr std::array<std::pair<const char*, const char*>, 18> kSuffixes = {
       {{"_N_m_s_per_rad", "N m s/rad"},
        {"_N_m_per_rad", "N m/rad"},
        {"_N_s_per_m", "N s/m"},
@@ -28,13 +28,16 @@ std::string UnitOfKey(const std::string& key) {
        {"_N_per_m", "N/m"},
        {"_N_s", "N s"},
        {"_N_m", "N m"},
+       {"_rad_per_s", "rad/s"},
+       {"_rad", "rad"},
        {"_deg", "deg"},
        {"_Pa", "Pa"},
        {"_kg", "kg"},
+       {"_kg_m2", "kg m^2"},
        {"_m4", "m^4"},
        {"_m2", "m^2"},
-       {"_m", "m"}}};
-  if (key.ends_with("time_s")) return "s";
+       {"_m", "m"},
+       {"_s", "s"}}};
   for (const auto& [suffix, unit] : kSuffixes) {
     if (key.ends_with(suffix)) return unit;
   }

@@ -36,16 +36,6 @@ std::string Listed(const std::vector<std::string>& words) {
   return Join({words.begin(), words.end() - 1}) + " and " + words.back();
 }
 
-std::string UnitOfChannel(const std::string& channel) {
-  if (channel.ends_with("_m_per_s2")) return "m/s^2";
-  if (channel.ends_with("_m_per_s")) return "m/s";
-  if (channel.ends_with("_N_m")) return "N m";
-  if (channel.ends_with("_rad")) return "rad";
-  if (channel.ends_with("_m")) return "m";
-  if (channel.ends_with("_N")) return "N";
-  return "";
-}
-
 std::string WorstChannel(const Json& record, const std::string& errors) {
   std::string worst;
   double most = -1.0;

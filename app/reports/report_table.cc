@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -199,10 +200,15 @@ std::vector<std::size_t> ReportTable::Thinned(std::size_t most) const {
           series.begin() + static_cast<std::ptrdiff_t>(std::min(begin + stretch, series.size()));
       kept.push_back(*first);
       if (telling) {
+        // Among the cells that have a number; NaN is less than none and more than none.
+        std::vector<std::size_t> told;
+        std::copy_if(first, last, std::back_inserter(told),
+                     [&](std::size_t row) { return !std::isnan(telling->numbers[row]); });
+        if (told.empty()) continue;
         const auto less = [&](std::size_t a, std::size_t b) {
           return telling->numbers[a] < telling->numbers[b];
         };
-        const auto [low, high] = std::minmax_element(first, last, less);
+        const auto [low, high] = std::minmax_element(told.begin(), told.end(), less);
         kept.back() = *low;
         kept.push_back(*high);
       } else {

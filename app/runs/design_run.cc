@@ -61,15 +61,18 @@ class Run {
       run_.parameter = parameter;
       return;
     }
+    // They are told together with their probabilities, or not at all.
+    std::vector<FittedModel> rivals;
     for (const Candidate& cause : causes) {
       if (Stopped()) return;
       Stage("refitting with " + cause.Name());
-      run_.rivals.push_back(FitWith(plain_, cause, null.problem.noise, settings));
-      if (run_.rivals.back().ok()) continue;
+      rivals.push_back(FitWith(plain_, cause, null.problem.noise, settings));
+      if (rivals.back().ok()) continue;
       run_.failure = "the model with " + cause.Name() + " cannot be fitted to the recorded trials";
       return;
     }
-    if (run_.rivals.size() == 1) run_.rivals.push_back(std::move(null));
+    if (rivals.size() == 1) rivals.push_back(std::move(null));
+    run_.rivals = std::move(rivals);
     run_.probabilities = WeightsOf(run_.rivals);
   }
 

@@ -69,10 +69,20 @@ std::string ErrorText(double value, const std::string& unit) {
 
 std::string WithoutUnit(const std::string& channel) {
   // The longest first: "_m" ends "_N_m" too.
-  for (std::string_view suffix : {"_m_per_s", "_N_m", "_rad", "_m", "_N"}) {
+  for (std::string_view suffix : {"_m_per_s2", "_m_per_s", "_N_m", "_rad", "_m", "_N"}) {
     if (channel.ends_with(suffix)) return channel.substr(0, channel.size() - suffix.size());
   }
   return channel;
+}
+
+std::string UnitOfChannel(const std::string& channel) {
+  if (channel.ends_with("_m_per_s2")) return "m/s^2";
+  if (channel.ends_with("_m_per_s")) return "m/s";
+  if (channel.ends_with("_N_m")) return "N m";
+  if (channel.ends_with("_rad")) return "rad";
+  if (channel.ends_with("_m")) return "m";
+  if (channel.ends_with("_N")) return "N";
+  return "";
 }
 
 }  // namespace hoplab

@@ -30,4 +30,7 @@ std::string ErrorText(double value, const std::string& unit);
 /// "body_x" of "body_x_m": a column's name without its unit.
 std::string WithoutUnit(const std::string& channel);
 
+/// Its unit: "m", "N m"; empty of a column without one.
+std::string UnitOfChannel(const std::string& channel);
+
 }  // namespace hoplab

@@ -66,8 +66,14 @@ bool HasDecimalComma(const std::vector<TextLine>& lines, char delimiter) {
     with_point[comma] = '.';
     return ParseDouble(with_point).has_value();
   };
-  const Cells last = SplitCells(lines.back().text, delimiter);
-  return std::any_of(last.begin(), last.end(), is_one);
+  // Spreadsheets leave out zeros behind the comma: one row may have none.
+  constexpr std::size_t kRows = 200;
+  const std::size_t first = lines.size() > kRows ? lines.size() - kRows : 0;
+  return std::any_of(lines.begin() + static_cast<std::ptrdiff_t>(first), lines.end(),
+                     [&](const TextLine& line) {
+                       const Cells cells = SplitCells(line.text, delimiter);
+                       return std::any_of(cells.begin(), cells.end(), is_one);
+                     });
 }
 
 // Titles of the columns from the rows above the samples: a row of names, maybe with a row of units

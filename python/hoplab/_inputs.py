@@ -20,7 +20,8 @@ def text_of(value):
             return dict(other)
         raise TypeError(f"{type(other).__name__} cannot be part of a dataset or scenario")
 
-    return json.dumps(value, default=plain, allow_nan=False, indent=1)
+    # YAML reads no pairs of surrogates.
+    return json.dumps(value, default=plain, allow_nan=False, ensure_ascii=False, indent=1)
 
 
 def dataset_source(dataset):

@@ -24,17 +24,29 @@ class IdentifyCli : public ::testing::Test {
   TempFolder temp_;
 };
 
+// Through the launcher; what hangs is ended.
+ProcessResult OnTwoRanks(const std::vector<std::string>& arguments,
+                         const std::filesystem::path& folder) {
+  std::vector<std::string> command = {"/usr/bin/timeout", "100", kMpirun, "--allow-run-as-root",
+                                      "--oversubscribe",  "-n",  "2",     HOPLAB_BINARY};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return RunProcess({.command = command, .folder = folder});
+}
+
 TEST_F(IdentifyCli, RanksShareTheSearchesAndFindTheSame) {
   ASSERT_EQ(Identify({"--quiet", "--out", "alone"}).exit_code, 0);
-  std::vector<std::string> command = {kMpirun, "--allow-run-as-root", "--oversubscribe", "-n",
-                                      "2",     HOPLAB_BINARY};
-  const std::vector<std::string> arguments = Arguments({"--quiet", "--out", "shared"});
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  const ProcessResult shared = RunProcess({.command = command, .folder = temp_.path()});
+  const ProcessResult shared = OnTwoRanks(Arguments({"--quiet", "--out", "shared"}), temp_.path());
   ASSERT_EQ(shared.exit_code, 0) << shared.err;
   const std::string readings = Text("alone/readings.csv");
   EXPECT_EQ(std::count(readings.begin(), readings.end(), '\n'), 1 + 2 * 192);
   EXPECT_EQ(Text("shared/readings.csv"), readings);
+}
+
+TEST_F(IdentifyCli, RanksThatWaitEndWhereTheFirstCannotBegin) {
+  WriteText(temp_.path() / "taken" / "run.json", "{}");
+  const ProcessResult run = OnTwoRanks(Arguments({"--quiet", "--out", "taken"}), temp_.path());
+  EXPECT_EQ(run.exit_code, 65) << run.err;
+  EXPECT_NE(run.err.find("taken"), std::string::npos) << run.err;
 }
 
 TEST_F(IdentifyCli, GoesOnFromItsJournal) {

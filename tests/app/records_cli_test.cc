@@ -57,6 +57,18 @@ TEST_F(RecordsCli, WhatIsKnownIsToldByCheckFitAndDiagnose) {
                            [](const auto& c) { return c.at("effect") == "gravity_scale"; }));
 }
 
+TEST_F(RecordsCli, CheckTellsTheReadingOfTheLaw) {
+  Generate("drops", "");
+  const std::filesystem::path yaml = temp_.path() / "drops" / "dataset.yaml";
+  std::string text = ReadText(yaml);
+  const std::size_t leg = text.find("E_Pa:");
+  ASSERT_NE(leg, text.npos) << text;
+  WriteText(yaml, text.insert(leg, "variant: {torque_sign: printed}, "));
+  const ProcessResult check = Hoplab({"check", "drops", "--law", "thesis", "--json"});
+  ASSERT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_EQ(nlohmann::json::parse(check.out).at("law_variant").at("torque_sign"), "printed");
+}
+
 TEST_F(RecordsCli, WhatIsRuledOutIsRefusedWithTheReason) {
   Generate("drops", "known: {air_drag: none}\n");
   for (const std::vector<std::string>& command :

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "app/records/csv.h"
+#include "base/nan.h"
 #include "tests/support/input_error_of.h"
 
 namespace hoplab {
@@ -83,6 +85,19 @@ TEST(ReportTable, ThinningKeepsTheExtremesAndTheEndsOfEverySeries) {
   EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), 2u * kSpike + 1));
   EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), 2u * kRows - 2));
   EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), 2u * kRows - 1));
+}
+
+// A stretch may begin with a sample that is missing.
+TEST(ReportTable, ThinningKeepsTheExtremesBesideMissingCells) {
+  constexpr int kRows = 10'000, kHigh = 4321, kLow = 7654;
+  CsvText csv({"time_s", "whitened"});
+  for (int row = 0; row < kRows; ++row) {
+    const double value = row == kHigh ? 40.0 : row == kLow ? -40.0 : std::sin(row);
+    csv.Cell(0.01 * row).Cell(row % 2 == 0 && row != kLow ? kNaN : value).EndRow();
+  }
+  const std::vector<std::size_t> kept = ReportTable("residuals.csv", csv.text()).Thinned(1000);
+  for (const int row : {kHigh, kLow})
+    EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), static_cast<std::size_t>(row))) << row;
 }
 
 TEST(ReportTable, ManyShortSeriesAreThinnedToo) {

@@ -207,6 +207,13 @@ TEST_F(ImportFormats, SpreadsheetsOfOtherCountriesAreRead) {
   EXPECT_NE(result.notes[0].find("decimal commas"), std::string::npos);
 }
 
+// A spreadsheet leaves out the zeros behind the comma: 1,00 is written 1.
+TEST_F(ImportFormats, ALastRowOfWholeNumbersHidesNoDecimalComma) {
+  const auto file = Write("lauf.csv", "t [s];z [mm]\n0,5;300,5\n0,75;299,5\n1;299\n");
+  const ImportResult result = ImportFile(file, {"t=t", "y=z"});
+  EXPECT_EQ(CsvOf(result), "time_s,body_y_m\n0.5,0.3005\n0.75,0.2995\n1,0.299\n");
+}
+
 TEST_F(ImportFormats, LinesOfSettingsBeforeTheTitlesAreSkipped) {
   const auto file = Write("log.csv",
                           "Subject,rig\nRate [Hz],500\nMass [kg],1.2\n\nt [s],z [mm]\n0,300\n"
