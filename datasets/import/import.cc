@@ -68,7 +68,8 @@ int LegsOf(const ColumnMap& map, const std::optional<int>& said) {
 
 // A shift of what no column is taken for would be lost.
 void CheckShifts(const TraceOptions& options, const ColumnMap& map) {
-  for (const auto& [target, shift] : options.shifts) {
+  for (const auto& shift : options.shifts) {
+    const ColumnTarget& target = shift.first;
     const bool mapped = std::any_of(map.columns.begin(), map.columns.end(),
                                     [&](const MappedColumn& m) { return m.target == target; });
     if (mapped) continue;
