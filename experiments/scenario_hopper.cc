@@ -37,7 +37,7 @@ Hopper LeggedHopperOfScenario(const Scenario& scenario, const IntegratorOptions&
     if (effect.name == "gait_period_scale")
       throw InputError({scenario.origin.place, "effects.gait_period_scale",
                         "a stride is one period of the clock as it is stated",
-                        "Give controller.clock.period_s the period that the clock has."});
+                        "Give controller.period_s the period that the clock has."});
   }
   if (LegMassOfSpec(scenario.mechanism) == LegMass::kAtToe) {
     throw InputError(

@@ -88,7 +88,7 @@ void AddCurve(const FoundTerm& found, std::size_t place, const NaturalScales& sc
   const VariableInfo* variable = FindVariable(info, name);
   if (variable == nullptr) return;
   const Extent over = DrawnOver(*variable, scales);
-  constexpr int kPoints = 241;  // ten for each of the periods of a vibration
+  constexpr int kPoints = 241;  // some twenty for each period of a vibration
   for (int i = 0; i < kPoints; ++i) {
     const double at = over.least + (over.most - over.least) * i / (kPoints - 1);
     const auto with = [&](double c) { return FormulaAt(effect, name, at, c, scales); };

@@ -28,13 +28,14 @@ void Erase(std::vector<T>& of_members, const std::vector<std::size_t>& descendin
 }
 
 // What does as well in a member's place only if it can be fitted.
-void ForgetFailedRivals(Naming& naming, std::size_t member) {
+void ForgetFailedRivals(Naming& naming, std::size_t member, std::vector<int>& as_good) {
   std::vector<FittedModel>& rivals = naming.rivals[member];
   std::vector<double>& weights = naming.group_weights[member];
   for (std::size_t k = rivals.size(); k-- > 1;) {
     if (rivals[k].ok()) continue;
     const auto at = static_cast<std::ptrdiff_t>(k);
     rivals.erase(rivals.begin() + at);
+    as_good.push_back(naming.groups[member][k]);
     naming.groups[member].erase(naming.groups[member].begin() + at);
     weights.erase(weights.begin() + at);
   }
@@ -86,7 +87,7 @@ bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_proble
     FittedModel& other = *others[static_cast<std::size_t>(i)];
     other = Without(other, members, null_problem, settings);
   });
-  for (std::size_t m = 0; m < naming.rivals.size(); ++m) ForgetFailedRivals(naming, m);
+  for (std::size_t m = 0; m < naming.rivals.size(); ++m) ForgetFailedRivals(naming, m, as_good);
   naming.best = best;
   for (const int i : as_good)
     if (!IsInAGroup(naming, i))

@@ -50,6 +50,7 @@ TEST_F(RobotGaitCli, AnotherPeriodThanTheClocksIsRefused) {
   EXPECT_EQ(gait.exit_code, 65);
   EXPECT_NE(gait.err.find("one period of the clock as it is stated"), std::string::npos)
       << gait.err;
+  EXPECT_NE(gait.err.find("Give controller.period_s"), std::string::npos) << gait.err;
 }
 
 TEST_F(RobotGaitCli, ThePhaseOfALegThatIsNotThereIsNotFollowed) {

@@ -33,6 +33,16 @@ std::optional<DesignRange> RangeIn(const DesignSpace& space, DesignSetting setti
   return std::nullopt;
 }
 
+// A hop of a fit hop by hop begins within its trial; what is recorded next begins anew.
+TEST(TrialOf, BeginsItsOwnTime) {
+  const DesignSpace space = SpaceOf(2);
+  TrialProblem hop = space.like;
+  hop.parameters.time_origin = hop.begin_s = 0.4;
+  const TrialProblem trial = TrialOf({"next", 0.4, 0.3, 1.0, {}}, hop);
+  EXPECT_EQ(trial.parameters.time_origin, 0.0);
+  EXPECT_EQ(trial.begin_s, 0.0);
+}
+
 TEST(DefaultSpace, ReachesSomewhatBeyondTheTrainTrials) {
   const DesignSpace space = SpaceOf(2);
   ASSERT_EQ(space.ranges.size(), 5u);
