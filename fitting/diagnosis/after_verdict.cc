@@ -39,6 +39,15 @@ void NoteShapes(Diagnosis& d) {
                       "--free " + free + "` fits them, too");
 }
 
+// A model whose own noise was not sought is measured under that of the model without causes, which
+// it is compared with.
+HeldOutErrors ErrorsOf(const FittedModel& alone, const Diagnosis& d, int jobs) {
+  if (alone.settled) return MeasureHeldOut(alone, jobs, /*test_only=*/true, &d.before);
+  FittedModel alike = alone;
+  alike.problem.noise = d.null.problem.noise;
+  return MeasureHeldOut(alike, jobs, /*test_only=*/true, &d.before);
+}
+
 void MeasureCandidates(Diagnosis& d, const DiagnosisOptions& options) {
   d.candidate_gains.resize(d.naming.candidates.size());
   double most = 0.0;
@@ -48,10 +57,9 @@ void MeasureCandidates(Diagnosis& d, const DiagnosisOptions& options) {
     // What gained nothing on the fitted trials has nothing to show on the others.
     if (!c.alone.ok() || c.gain < std::max(1.0, kLeastGain * most) || options.fit.IsStopped())
       return;
-    const HeldOutErrors alone =
-        MeasureHeldOut(c.alone, options.fit.jobs, /*test_only=*/true, &d.before);
     d.candidate_gains[static_cast<std::size_t>(i)] =
-        CompareHeldOut(d.null, d.before, alone, options.Seed(Draws::kBootstrap), nullptr);
+        CompareHeldOut(d.null, d.before, ErrorsOf(c.alone, d, options.fit.jobs),
+                       options.Seed(Draws::kBootstrap), nullptr);
   });
 }
 

@@ -191,7 +191,8 @@ struct Diagnosis {
   Detection detection;
   Localisation localisation;
   Naming naming;
-  std::vector<std::optional<HeldOutGain>> candidate_gains;  // of each candidate added alone
+  /// Of each candidate added alone; one that is not settled under the noise of `null`.
+  std::vector<std::optional<HeldOutGain>> candidate_gains;
   HeldOutErrors before;
   std::optional<ExtensionReport> extension;
   std::vector<SetAside> set_aside;  // what the evidence wanted besides; without an extension, all

@@ -46,6 +46,29 @@ TEST(AfterVerdict, ATrialIsProposedWhereACauseIsTold) {
                           [](const auto& gain) { return gain && gain->nats_per_sample > 0.0; }));
 }
 
+// A model whose own noise was not sought is compared under the noise of that without causes: one
+// that changes nothing gains nothing.
+TEST(AfterVerdict, ACandidateIsMeasuredOnHeldOutTrialsAsTheModelWithoutIs) {
+  Diagnosis d = LookAlikes();
+  d.null.problem.noise.amplitude.assign(d.problem.channels.size(), 2.0);
+  d.null.problem.noise.time_scale = 0.05;
+  d.before = MeasureHeldOut(d.null, 1);
+  CandidateResult idle = d.naming.candidates.front();
+  const std::vector<Candidate> added = {idle.candidate};
+  idle.alone = d.plain;
+  idle.alone.members = added;
+  idle.alone.problem = Extend(d.plain.problem, added);
+  idle.alone.shared.resize(d.null.shared.size() + 1);
+  idle.alone.shared << d.null.shared, NullValues(added);
+  idle.alone.settled = false;
+  idle.gain = 10.0;
+  d.naming.candidates = {idle};
+  d.naming.rivals.clear();
+  TellBesides(d, LookAlikeOptions());
+  ASSERT_TRUE(d.candidate_gains.front());
+  EXPECT_NEAR(d.candidate_gains.front()->nats_per_sample, 0.0, 1e-6);
+}
+
 TEST(AfterVerdict, NothingIsAddedToADiagnosisThatIsStopped) {
   const std::atomic<bool> stop = true;
   DiagnosisOptions options = LookAlikeOptions();
