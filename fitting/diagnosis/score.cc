@@ -33,19 +33,31 @@ struct Basis {
   int side = 0;       // +1: only sizes above null, -1: only below, 0: both
 };
 
-Basis BasisOf(const Linearisation& at, const Hypothesis& h) {
-  Basis out;
+// Columns of a hypothesis that can be told from the fitted values.
+std::vector<int> SeenColumns(const Linearisation& at, const Hypothesis& h) {
   std::vector<int> seen;
   for (int k = h.first; k < h.first + h.count; ++k) {
     if (Information(at, k) > 0.0) seen.push_back(k);
   }
+  return seen;
+}
+
+// Of length one: parameters of one effect may differ by powers of ten.
+Eigen::MatrixXd Normalised(const Linearisation& at, const std::vector<int>& columns) {
+  Eigen::MatrixXd A(at.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    A.col(static_cast<Eigen::Index>(i)) = at.columns.col(columns[i]).normalized();
+  return A;
+}
+
+Basis BasisOf(const Linearisation& at, const Hypothesis& h) {
+  Basis out;
+  const std::vector<int> seen = SeenColumns(at, h);
   if (seen.empty()) {
     out.Q.resize(at.rows(), 0);
     return out;
   }
-  Eigen::MatrixXd A(at.rows(), static_cast<Eigen::Index>(seen.size()));
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    A.col(static_cast<Eigen::Index>(i)) = at.columns.col(seen[i]).normalized();
+  const Eigen::MatrixXd A = Normalised(at, seen);
   if (A.cols() == 1) {
     out.Q = A;
     const int k = seen.front() - h.first;
@@ -116,13 +128,15 @@ Score ScoreOf(const Linearisation& at, const Hypothesis& h) {
   const Eigen::VectorXd q = basis.Q.transpose() * at.r;
   out.score = StatisticOf(basis, q, out.p_value);
   out.predicted_gain = 0.5 * out.score;
-  const Eigen::MatrixXd A = at.columns.middleCols(h.first, h.count);
-  // Columns scaled to length one: parameters of one effect may differ by powers of ten.
-  Eigen::VectorXd scale(h.count);
-  for (int i = 0; i < h.count; ++i) scale[i] = A.col(i).norm() > 0.0 ? A.col(i).norm() : 1.0;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A * scale.cwiseInverse().asDiagonal());
-  qr.setThreshold(kScoreRankTolerance);
-  out.size = -qr.solve(at.r).cwiseQuotient(scale);
+  // Columns that are one seen twice share its size: where they differ there is rounding alone.
+  const std::vector<int> seen = SeenColumns(at, h);
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(kScoreRankTolerance);
+  solver.compute(Normalised(at, seen));
+  const Eigen::VectorXd along = solver.solve(at.r);
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    out.size[seen[i] - h.first] =
+        -along[static_cast<Eigen::Index>(i)] / at.columns.col(seen[i]).norm();
   return out;
 }
 

@@ -13,7 +13,8 @@ namespace hoplab {
 /// Score test of one hypothesis: some of the tested columns of a linearisation act. For one column
 /// score = (s'r)^2/V with V = s'Ms, the gain in chi-square a linear model would make.
 struct Score {
-  /// Expected size of each value, V^-1 (-s'r), own units; NaN where it cannot be told.
+  /// Expected size of each value, V^-1 (-s'r), own units; NaN where it cannot be told from the
+  /// fitted values. Values that cannot be told from each other share one size, scaled alike.
   Eigen::VectorXd size;
   double score = 0.0;           // 0 where the best size lies on the wrong side of a bound
   double p_value = 1.0;         // of this score alone, under noise

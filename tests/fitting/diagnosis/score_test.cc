@@ -129,6 +129,29 @@ TEST(Score, OfTwoCollinearColumnsHasRankOne) {
   EXPECT_NEAR(both.p_value, ScoreOf(at, Column(0)).p_value, 1e-10);
 }
 
+// Rounding tells two columns apart that are one, by sizes without end.
+TEST(Score, SizesOfColumnsThatCannotBeToldApartAreNotRounding) {
+  Linearisation at = Synthetic(50, 2);
+  const Eigen::VectorXd rounding = 1e-12 * Noise(50, 7);
+  at.columns.col(1) = -3.0 * at.columns.col(0) + rounding;
+  at.length[1] = 3.0 * at.length[0];
+  const double alone = ScoreOf(at, Column(0)).size[0];
+  const Score both = ScoreOf(at, Columns(0, 2));
+  EXPECT_EQ(both.rank, 1);
+  EXPECT_NEAR(both.size[0], alone / 2.0, 1e-9 * std::abs(alone));
+  EXPECT_NEAR(both.size[1], -alone / 6.0, 1e-9 * std::abs(alone));
+}
+
+// Beside one that can be told, what the fitted values explain has no size either.
+TEST(Score, OfColumnsThatAreExplainedInPartHasSizesOfTheOthers) {
+  Linearisation at = Synthetic(50, 2);
+  at.length[1] = 1e6 * at.columns.col(1).norm();
+  const Score both = ScoreOf(at, Columns(0, 2));
+  EXPECT_EQ(both.rank, 1);
+  EXPECT_NEAR(both.size[0], ScoreOf(at, Column(0)).size[0], 1e-12);
+  EXPECT_TRUE(std::isnan(both.size[1]));
+}
+
 TEST(Score, OfAColumnTheFittedValuesExplainIsNone) {
   Linearisation at = Synthetic(50, 1);
   at.length[0] = 1e6 * at.columns.col(0).norm();  // all but rounding was projected out
