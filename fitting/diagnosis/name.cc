@@ -321,7 +321,7 @@ class Search {
   void Judge(const CandidateSet& model) {
     std::set<int> looked_at;
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i)
-      if ((options_.slow_ones_only_beside && IsSlow(i)) || refits_.Usable(With(slow_beside_, i)))
+      if ((options_.slow_ones_only_beside && IsSlow(i)) || refits_.WasTried(i))
         looked_at.insert(i);
     SetStatuses(refits_.At(model), model, looked_at, train_, options_.jobs, naming_);
   }

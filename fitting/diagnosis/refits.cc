@@ -279,6 +279,13 @@ std::vector<std::pair<CandidateSet, double>> Refits::Visited() const {
   return visited;
 }
 
+bool Refits::WasTried(int candidate) const {
+  return std::any_of(models_.begin(), models_.end(), [&](const auto& model) {
+    const CandidateSet& set = model.first;
+    return model.second.white.ok() && std::find(set.begin(), set.end(), candidate) != set.end();
+  });
+}
+
 CandidateSet With(CandidateSet set, int i) {
   set.insert(std::upper_bound(set.begin(), set.end(), i), i);
   return set;

@@ -38,6 +38,8 @@ class Refits {
   bool Settled(const CandidateSet& set) const {
     return Has(set) && At(set).ok() && At(set).settled;
   }
+  /// Whether the candidate was fitted, alone or beside others.
+  bool WasTried(int candidate) const;
   /// Logarithm of the posterior weight of a settled model [nats], of all models' common constant.
   /// Where the data want more of a cause than it can be, its size ends at a physical bound; a true
   /// cause hardly ever does, and its set counts for less.

@@ -132,6 +132,19 @@ TEST(NameCauses, SeeksSlowCausesUnlessTheyAreKnownNotToBeNeeded) {
   EXPECT_EQ(known.candidates.at(0).status, CandidateStatus::kNotNeeded);
 }
 
+// A cause with a threshold is tried beside what was found before, and not alone.
+TEST(NameCauses, SaysThatACauseTriedBesideAnotherWasTested) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}});
+  const FittedModel given = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));
+  NamingOptions options;
+  options.begin = {&given, 1};
+  const Naming n = NameIn(
+      fit, testing::CandidatesOf({"touchdown_angle_bias", "foot_coulomb_friction"}), options);
+  ASSERT_EQ(MembersOf(n), std::vector<std::string>{"touchdown_angle_bias"});
+  EXPECT_FALSE(ResultOf(n, "foot_coulomb_friction").alone.ok());
+  EXPECT_EQ(ResultOf(n, "foot_coulomb_friction").status, CandidateStatus::kNotNeeded);
+}
+
 TEST(NameCauses, KeepsNoMemberThatDoesNotPay) {
   for (std::uint64_t seed : {1, 2, 3}) {
     const NullFit fit(
