@@ -236,8 +236,10 @@ class Search {
       together.push_back(With(tried.back(), *other));
       tried.push_back(With(set, *other));
     }
-    refits_.Try(tried);
-    refits_.Try(together);  // from the best of their parts
+    for (std::vector<CandidateSet>* of : {&tried, &together}) {
+      std::erase_if(*of, [&](const CandidateSet& grown) { return !refits_.MayBeTold(grown); });
+      refits_.Try(*of);  // those together from the best of their parts
+    }
     tried.insert(tried.end(), together.begin(), together.end());
     for (const CandidateSet& grown : tried) {
       const double gain = refits_.White(set).cost - refits_.White(grown).cost;
@@ -281,7 +283,7 @@ class Search {
       all = best;
     }
     const bool is_better = refits_.Settled(all) && refits_.Worth(all) > refits_.Worth(set);
-    return is_better && static_cast<int>(all.size()) <= options_.max_effects ? all : set;
+    return is_better && refits_.MayBeTold(all) ? all : set;
   }
 
   std::vector<CandidateSet> Pairs() const {
@@ -321,8 +323,7 @@ class Search {
   void Judge(const CandidateSet& model) {
     std::set<int> looked_at;
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i)
-      if ((options_.slow_ones_only_beside && IsSlow(i)) || refits_.WasTried(i))
-        looked_at.insert(i);
+      if ((options_.slow_ones_only_beside && IsSlow(i)) || refits_.WasTried(i)) looked_at.insert(i);
     SetStatuses(refits_.At(model), model, looked_at, train_, options_.jobs, naming_);
   }
 

@@ -53,18 +53,18 @@ double Refits::Worth(const CandidateSet& set) const {
 
 CandidateSet Refits::Better(CandidateSet current, const std::vector<CandidateSet>& sets, int width,
                             const std::vector<CandidateSet>& anyway) {
-  Try(sets);
-  std::vector<CandidateSet> promising;
-  for (const CandidateSet& set : sets) {
-    if (Usable(set)) promising.push_back(set);
-  }
+  std::vector<CandidateSet> promising = sets;
+  std::erase_if(promising, [&](const CandidateSet& set) { return !MayBeTold(set); });
+  Try(promising);
+  std::erase_if(promising, [&](const CandidateSet& set) { return !Usable(set); });
   std::stable_sort(
       promising.begin(), promising.end(),
       [&](const CandidateSet& a, const CandidateSet& b) { return White(a).cost < White(b).cost; });
   if (promising.size() > static_cast<std::size_t>(width))
     promising.resize(static_cast<std::size_t>(width));
   for (const CandidateSet& set : anyway) {
-    if (Usable(set) && std::find(promising.begin(), promising.end(), set) == promising.end())
+    if (MayBeTold(set) && Usable(set) &&
+        std::find(promising.begin(), promising.end(), set) == promising.end())
       promising.push_back(set);
   }
   SettleAll(promising);
@@ -274,7 +274,7 @@ bool Refits::SettleByLeadingOut(const CandidateSet& set) {
 std::vector<std::pair<CandidateSet, double>> Refits::Visited() const {
   std::vector<std::pair<CandidateSet, double>> visited = {{CandidateSet(), Worth({})}};
   for (const auto& [set, entry] : models_) {
-    if (Settled(set)) visited.emplace_back(set, Worth(set));
+    if (MayBeTold(set) && Settled(set)) visited.emplace_back(set, Worth(set));
   }
   return visited;
 }

@@ -47,8 +47,12 @@ class Refits {
   /// Log-likelihood a model gains over the null fit, both under white noise [nats].
   double Gain(const CandidateSet& set) const { return plain_.cost - White(set).cost; }
 
-  /// Tries the models, settles the `width` that gain most under white noise and those in `anyway`,
-  /// and gives the best of them and `current`.
+  /// Whether it has no more causes than are asked for.
+  bool MayBeTold(const CandidateSet& set) const {
+    return static_cast<int>(set.size()) <= options_.max_effects;
+  }
+  /// Of those that may be told: tries them, settles the `width` that gain most under white noise
+  /// and those in `anyway`, and gives the best of them and `current`.
   CandidateSet Better(CandidateSet current, const std::vector<CandidateSet>& sets, int width,
                       const std::vector<CandidateSet>& anyway = {});
   /// Takes in a model that was fitted elsewhere to the same trials; the set of its causes, empty
@@ -67,7 +71,8 @@ class Refits {
   /// have lost its way, so the member is led out by small steps. Whether a better part came of it.
   bool SettleByLeadingOut(const CandidateSet& set);
 
-  /// Every settled model with its worth.
+  /// Every settled model with its worth; not those with more causes than are asked for, which a
+  /// search may pass through.
   std::vector<std::pair<CandidateSet, double>> Visited() const;
 
  private:

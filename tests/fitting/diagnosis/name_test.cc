@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fitting/diagnosis/pool.h"
+#include "fitting/diagnosis/refits.h"
 #include "fitting/generate.h"
 #include "tests/support/diagnosed_hops.h"
 #include "tests/support/robot_drops.h"
@@ -245,6 +247,38 @@ TEST(NameCauses, AddsNoMoreEffectsThanAllowed) {
   EXPECT_TRUE(none.best.members.empty());
   EXPECT_EQ(none.refits, 0);
   EXPECT_EQ(none.best.cost, fit.settled.cost);
+}
+
+// What has a threshold is tried beside what is found, whatever came of it alone.
+TEST(NameCauses, AddsNoMoreEffectsWithAThresholdThanAllowed) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03),
+                                 EffectOfSize("sensor_delay", 0.006)}});
+  Effect late = *FindEffect("sensor_delay");
+  late.info.has_threshold = true;
+  const std::vector<Candidate> both = {CandidateOf("touchdown_angle_bias"), {&late}};
+  EXPECT_EQ(NameIn(fit, both).best.members.size(), 2u);
+  const Naming one = NameIn(fit, both, {.max_effects = 1});
+  EXPECT_EQ(one.best.members.size(), 1u);
+  for (const auto& [set, weight] : one.posterior) EXPECT_LE(set.size(), 1u);
+}
+
+// A search passes through sets with more causes than are asked for; they have no say.
+TEST(NameCauses, WeighsNoMoreEffectsThanAllowed) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03),
+                                 EffectOfSize("sensor_delay", 0.006)}});
+  const std::vector<Candidate> both =
+      testing::CandidatesOf({"touchdown_angle_bias", "sensor_delay"});
+  for (const int most : {1, 2}) {
+    const NamingOptions options{.max_effects = most};
+    Naming naming;
+    FillPool(naming, both, fit.Linearised(fit.settled, both), fit.train, options);
+    Refits refits(fit.null, fit.settled, fit.train, options, naming);
+    refits.Try({{0}, {0, 1}});
+    refits.SettleAll({{0}, {0, 1}});
+    ASSERT_TRUE(refits.Settled({0, 1}));
+    EXPECT_EQ(refits.Visited().size(), most == 1 ? 2u : 3u);
+    EXPECT_EQ(refits.Better({}, {{0}, {0, 1}}, 2).size(), static_cast<std::size_t>(most));
+  }
 }
 
 TEST(NameCauses, DoesNotDependOnTheNumberOfJobs) {
