@@ -86,10 +86,12 @@ Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& tri
   Json out = Json::array();
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const TrialErrors& trial = trials[i];
+    const double begin = problem.trials[i].begin_s;  // times are those of the trial's file
     Json hops = Json::array();
     for (const HopErrors& hop : trial.hops) {
-      hops.push_back(
-          {{"begin_s", hop.begin}, {"end_s", hop.end}, {"rmse", ByChannel(problem, hop.rmse)}});
+      hops.push_back({{"begin_s", hop.begin + begin},
+                      {"end_s", hop.end + begin},
+                      {"rmse", ByChannel(problem, hop.rmse)}});
     }
     out.push_back({{"file", trial.file},
                    {"role", RoleName(trial.role)},
@@ -99,7 +101,7 @@ Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& tri
                    {"chi2", trial.complete ? NumberOrNull(trial.chi2) : Json(nullptr)},
                    {"samples", trial.samples},
                    {"complete", trial.complete},
-                   {"end_time_s", NumberOrNull(trial.end_time)},
+                   {"end_time_s", NumberOrNull(trial.end_time + begin)},
                    {"start", StateRecord(trial.start)},
                    {"touchdown_angle_rad", NumberOrNull(FirstAngle(problem.trials[i]))},
                    {"max_flexure", NumberOrNull(trial.max_deflection_ratio)},

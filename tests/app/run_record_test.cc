@@ -7,6 +7,7 @@
 #include "app/records/csv.h"
 #include "app/records/fit_record.h"
 #include "app/records/fit_words.h"
+#include "app/records/record_parts.h"
 #include "app/reports/fit_report.h"
 #include "tests/datasets/small_dataset.h"
 
@@ -67,6 +68,26 @@ TEST(FitRecord, AFitThatLedNowhereHasAllKeys) {
   EXPECT_TRUE(record.at("gradient_check").at("max_relative_error").is_null());
   EXPECT_TRUE(record.at("starts").empty());
   EXPECT_NE(FitReport(dataset, run, false).find("no result"), std::string::npos);
+}
+
+// A trial that was cut begins later than its file.
+TEST(TrialsRecord, TimesAreThoseOfTheTrialsFile) {
+  FitRun run;
+  run.problem = MakeProblem(testing::ReadWithYaml("{sigma: estimate}", "{sigma: 0.001}"), {});
+  run.problem.trials[0].begin_s = 0.25;
+  for (const TrialProblem& trial : run.problem.trials) {
+    TrialErrors errors{};
+    errors.file = trial.file;
+    errors.start = OwnValues::Zero(4);
+    errors.end_time = 0.03;
+    errors.rmse = {0.001, 0.001};
+    errors.hops = {{0.0, 0.02, {0.001, 0.001}}};
+    run.trials.push_back(errors);
+  }
+  const Json trial = TrialsRecord(run.problem, run.trials)[0];
+  EXPECT_EQ(trial.at("hops")[0].at("begin_s"), 0.25);
+  EXPECT_EQ(trial.at("hops")[0].at("end_s"), 0.25 + 0.02);
+  EXPECT_EQ(trial.at("end_time_s"), 0.25 + 0.03);
 }
 
 TEST(FitReport, NoSentenceForAnIntervalThatIsMissing) {
