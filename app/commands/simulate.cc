@@ -1,6 +1,7 @@
 #include <ostream>
 
 #include "app/records/scenario_run_record.h"
+#include "app/records/simulation_record.h"
 #include "app/reports/run_folder.h"
 #include "app/reports/simulation_report.h"
 #include "app/terminal/command.h"
@@ -28,7 +29,7 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
     console.out << TextOf(record);
   } else {
     console.out << SimulationReport(scenario.name, request, run, console.out_colours);
-    if (!settings.sensitivities.empty())
+    if (!settings.sensitivities.empty() && !FailedAtOnce(run))
       console.out << SensitivityReport(settings.sensitivities, run);
     console.out << "\n  run folder  " << written.string() << '\n';
   }

@@ -22,7 +22,7 @@ Json EventRecord(const Event& e) {
 }
 
 Json SensitivitiesRecord(const Trajectory& run, const std::vector<std::string>& names) {
-  if (names.empty()) return nullptr;
+  if (names.empty() || FailedAtOnce(run)) return nullptr;
   Json out = Json::object();
   for (std::size_t d = 0; d < names.size(); ++d) {
     Json state = Json::object(), times = Json::array();
@@ -36,6 +36,10 @@ Json SensitivitiesRecord(const Trajectory& run, const std::vector<std::string>& 
 }
 
 }  // namespace
+
+bool FailedAtOnce(const Trajectory& run) {
+  return !IsComplete(run.outcome) && run.end_time == 0.0 && run.events.empty();
+}
 
 std::vector<std::pair<double, double>> ApexEnergies(const SimulationRequest& request,
                                                     const Trajectory& run) {

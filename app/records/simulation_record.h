@@ -10,6 +10,9 @@
 
 namespace hoplab {
 
+/// Whether the run ended where it began: there is no end to be differentiated.
+bool FailedAtOnce(const Trajectory& run);
+
 /// Total energy at each apex [J], the start being the first of them: (time [s], energy).
 std::vector<std::pair<double, double>> ApexEnergies(const SimulationRequest& request,
                                                     const Trajectory& run);

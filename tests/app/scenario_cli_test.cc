@@ -116,6 +116,18 @@ TEST_F(ScenarioCli, AnEffectOnTheCommandLineChangesTheRun) {
   EXPECT_NE(end_x({"--law", "consistent"}), still);
 }
 
+// What ends where it begins has no end to be differentiated.
+TEST_F(ScenarioCli, ARunThatFailsAtItsStartHasNoDerivatives) {
+  const std::string scenario = WriteScenario(temp_.path());
+  const ProcessResult run = Hoplab({"simulate", scenario, "--set", "initial.y_m=0.02",
+                                    "--sensitivities", "E,x0", "--out", "run"});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_EQ(run.out.find("d end / d"), std::string::npos) << run.out;
+  const nlohmann::json record = ReadRecord(temp_.path() / "run");
+  EXPECT_EQ(record.at("outcome"), "starts_in_ground");
+  EXPECT_TRUE(record.at("sensitivities").is_null()) << record.at("sensitivities");
+}
+
 TEST_F(ScenarioCli, SimulateTellsEventsEnergyAndDerivatives) {
   const std::string scenario = WriteScenario(temp_.path());
   const ProcessResult run =
