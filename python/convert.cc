@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/input_error.h"
 #include "base/text.h"
@@ -45,6 +46,16 @@ std::string CsvOf(const std::map<std::string, DoubleArray>& columns, const std::
 }
 
 }  // namespace
+
+void RefuseKind(const char* name, const py::object& value) {
+  throw py::type_error(std::string(name) + " cannot be a " +
+                       std::string(py::str(py::type::of(value).attr("__name__"))));
+}
+
+void RefuseRange(const char* name, const py::object& value, const std::string& least,
+                 const std::string& most) {
+  throw InputError({name, std::string(py::str(value)), "must be in " + least + " .. " + most, ""});
+}
 
 py::object PythonOf(const Json& json) {
   switch (json.type()) {
@@ -105,6 +116,13 @@ Dataset DatasetOf(const DatasetSource& source) {
   return ReadDatasetText(source.text, texts, "dataset");
 }
 
+int JobsOf(const py::dict& options) {
+  const int jobs = Option<int>(options, "jobs");
+  if (jobs < 1)
+    throw InputError({"jobs", std::to_string(jobs), "must be at least 1", "None is all cores."});
+  return jobs;
+}
+
 IntegratorOptions IntegratorOf(const py::dict& options) {
   const auto tolerance = Option<double>(options, "tolerance");
   if (!(tolerance >= 1e-14 && tolerance <= 1e-3))
@@ -139,10 +157,11 @@ FitOptions FitOptionsOf(const py::dict& options) {
   };
   out.loss.kind = Word(options, "loss", find_loss, {"squared", "pseudo_huber"});
   out.loss.scale = Option<double>(options, "loss_scale");
-  if (!(out.loss.scale > 0.0))
-    throw InputError({"loss_scale", FormatDouble(out.loss.scale), "must be positive", ""});
+  if (!(out.loss.scale > 0.0 && std::isfinite(out.loss.scale)))
+    throw InputError(
+        {"loss_scale", FormatDouble(out.loss.scale), "must be positive and finite", ""});
   out.discrepancy = Word(options, "discrepancy", FindDiscrepancy, {"matern", "none"});
-  out.jobs = Option<int>(options, "jobs");
+  out.jobs = JobsOf(options);
   return out;
 }
 

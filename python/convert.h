@@ -4,8 +4,10 @@
 #include <pybind11/pybind11.h>
 
 #include <Eigen/Core>
+#include <limits>
 #include <map>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "app/records/run_record.h"
@@ -41,12 +43,31 @@ struct DatasetSource {
 /// Reads and checks it; throws InputError as ReadDataset does.
 Dataset DatasetOf(const DatasetSource& source);
 
-/// The named option as T; the Python side gives every one of them.
+/// Throws TypeError that the option is of a kind it cannot be.
+[[noreturn]] void RefuseKind(const char* name, const py::object& value);
+/// Throws InputError that the option, a whole number, is not in `least` .. `most`.
+[[noreturn]] void RefuseRange(const char* name, const py::object& value, const std::string& least,
+                              const std::string& most);
+
+/// The named option as T; the Python side gives every one of them. Throws InputError for a whole
+/// number out of T's range, TypeError for what is no T.
 template <class T>
 T Option(const py::dict& options, const char* name) {
-  return options[name].cast<T>();
+  const py::object value = options[name];
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error&) {
+    if constexpr (std::is_integral_v<T>) {
+      if (py::isinstance<py::int_>(value))
+        RefuseRange(name, value, std::to_string(std::numeric_limits<T>::min()),
+                    std::to_string(std::numeric_limits<T>::max()));
+    }
+    RefuseKind(name, value);
+  }
 }
 
+/// Option jobs, at least 1.
+int JobsOf(const py::dict& options);
 IntegratorOptions IntegratorOf(const py::dict& options);
 /// Options law, free, fix, with_, integrator and tolerance.
 ProblemOptions ProblemOptionsOf(const py::dict& options);

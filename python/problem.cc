@@ -21,7 +21,7 @@ TrainProblem MakeTrainProblem(const DatasetSource& source, const py::dict& optio
   TrainProblem out;
   out.problem = MakeProblem(DatasetOf(source), ProblemOptionsOf(options));
   out.trials = TrialsOf(out.problem, TrialRole::kTrain);
-  out.jobs = Option<int>(options, "jobs");
+  out.jobs = JobsOf(options);
   for (const TrialProblem& trial : out.trials)
     if (trial.start.size() != 4)
       throw InputError({trial.file, std::to_string(trial.start.size()) + " values of its own",

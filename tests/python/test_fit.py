@@ -49,7 +49,16 @@ class Fit(unittest.TestCase):
             self.assertEqual(parameter.value, self.fit.parameters[name].value)
         self.assertEqual(fit.cost, self.fit.cost)
 
-    def test_effects_values_held_and_jobs(self):
+    def test_letters_beyond_the_basic_plane_stay_as_they_are(self):
+        dataset = rig_drops_in_memory()
+        dataset["title"] = "Drops \N{KANGAROO} of \u00e9lan"
+        dataset["trials"][0]["file"] = "\N{KANGAROO}.csv"
+        fit = hoplab.fit(dataset)
+        self.assertEqual(fit.record()["trials"][0]["file"], "\N{KANGAROO}.csv")
+        self.assertEqual(fit.traces[0].file, "\N{KANGAROO}.csv")
+        self.assertEqual(fit.cost, self.fit.cost)
+
+
         kwargs = {"with_": ["leg_material_damping"], "fix": {"d": 0}}
         one = hoplab.fit(RIG_DROPS, jobs=1, **kwargs)
         two = hoplab.fit(RIG_DROPS, jobs=2, **kwargs)
@@ -82,6 +91,12 @@ class Fit(unittest.TestCase):
             ({"with_": ["wind"]}, "with_"),
             ({"strategy": "luck"}, "strategy"),
             ({"starts": 0}, "starts"),
+            ({"starts": 2**40}, "starts"),
+            ({"seed": -1}, "seed"),
+            ({"seed": 2**64}, "seed"),
+            ({"jobs": 0}, "jobs"),
+            ({"jobs": -2}, "jobs"),
+            ({"loss_scale": float("inf")}, "loss_scale"),
             ({"profile": ["m"]}, "profile"),
         ):
             with self.subTest(kwargs=kwargs), self.assertRaises(hoplab.InputError) as caught:
@@ -97,8 +112,9 @@ class Fit(unittest.TestCase):
         with self.assertRaises(hoplab.InputError) as caught:
             hoplab.fit(data)
         self.assertIn("body_x_m", caught.exception.value)
-        with self.assertRaises(TypeError):
-            hoplab.fit(RIG_DROPS, starts="many")
+        for kwargs in ({"starts": "many"}, {"law": 5}, {"free": [1]}):
+            with self.subTest(kwargs=kwargs), self.assertRaises(TypeError):
+                hoplab.fit(RIG_DROPS, **kwargs)
 
     def test_control_c_ends_a_long_fit(self):
         timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
