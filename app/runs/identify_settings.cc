@@ -136,6 +136,11 @@ std::string OriginText(const IdentifySettings& settings) {
     text += " --toe-budget " + std::to_string(settings.toe_budget);
   add(settings.free_desired_speed, " --free-desired-speed");
   add(settings.placed_as_printed, " --placed-as-printed");
+  const SolverSettings usual = IdentifySettings().solver;
+  if (settings.solver.integrator != usual.integrator)
+    text += " --integrator " + settings.solver.integrator;
+  if (settings.solver.tolerance != usual.tolerance)
+    text += " --tolerance " + FormatDouble(settings.solver.tolerance);
   return text + "`, " + date;
 }
 

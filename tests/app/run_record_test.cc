@@ -9,6 +9,7 @@
 #include "app/records/fit_words.h"
 #include "app/records/record_parts.h"
 #include "app/reports/fit_report.h"
+#include "app/runs/identify_settings.h"
 #include "tests/datasets/small_dataset.h"
 
 namespace hoplab {
@@ -88,6 +89,17 @@ TEST(TrialsRecord, TimesAreThoseOfTheTrialsFile) {
   EXPECT_EQ(trial.at("hops")[0].at("begin_s"), 0.25);
   EXPECT_EQ(trial.at("hops")[0].at("end_s"), 0.25 + 0.02);
   EXPECT_EQ(trial.at("end_time_s"), 0.25 + 0.03);
+}
+
+// What a scenario says it was made by leads to the same.
+TEST(IdentifyOrigin, HasTheSolverWhereItIsNotTheUsualOne) {
+  IdentifySettings settings;
+  const std::string usual = OriginText(settings);
+  EXPECT_EQ(usual.find("--tolerance"), std::string::npos) << usual;
+  EXPECT_EQ(usual.find("--integrator"), std::string::npos) << usual;
+  settings.solver = {"cvodes", 1e-8};
+  const std::string other = OriginText(settings);
+  EXPECT_NE(other.find(" --integrator cvodes --tolerance 1e-8`"), std::string::npos) << other;
 }
 
 TEST(FitReport, NoSentenceForAnIntervalThatIsMissing) {
