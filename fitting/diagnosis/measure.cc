@@ -6,6 +6,7 @@
 #include "base/nan.h"
 #include "base/random.h"
 #include "fitting/apex_segments.h"
+#include "fitting/contact_reading.h"
 
 namespace hoplab {
 namespace {
@@ -47,7 +48,18 @@ std::vector<ShownApex> ApexesOf(const FitProblem& problem, const TrialProblem& t
   return apexes;
 }
 
-FeatureErrors Features(const FitProblem& problem, const std::vector<TrialErrors>& trials) {
+// The contacts of a trial at the instants its column was read, as the fit takes them [s].
+ContactTimes SeenContacts(const FitProblem& problem, const TrialProblem& trial,
+                          const Eigen::VectorXd& shared, const OwnValues& own) {
+  const ContactReading reading(problem, trial, {shared, own});
+  ContactTimes seen = trial.contact;
+  for (std::vector<double>* times : {&seen.touchdown_s, &seen.liftoff_s})
+    for (double& stamp : *times) stamp = reading.Time(stamp);
+  return seen;
+}
+
+FeatureErrors Features(const FitProblem& problem, const Eigen::VectorXd& shared,
+                       const std::vector<TrialErrors>& trials) {
   MeanSquare height, time, touchdown, stance;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const TrialProblem& trial = problem.trials[i];
@@ -65,7 +77,7 @@ FeatureErrors Features(const FitProblem& problem, const std::vector<TrialErrors>
     }
     const std::vector<double> down = TimesOf(trials[i].trajectory, EventKind::kTouchdown);
     const std::vector<double> up = TimesOf(trials[i].trajectory, EventKind::kLiftoff);
-    const ContactTimes& seen = trial.contact;
+    const ContactTimes seen = SeenContacts(problem, trial, shared, trials[i].start);
     for (std::size_t k = 0; k < std::min(down.size(), seen.touchdown_s.size()); ++k)
       touchdown.Add(down[k] - seen.touchdown_s[k]);
     for (std::size_t k = 0;
@@ -120,7 +132,7 @@ HeldOutErrors MeasureHeldOut(const FittedModel& model, int jobs, bool test_only,
   HeldOutErrors out;
   out.trials = AssessTrials(model.problem, fit, options, test_only, like ? &like->trials : nullptr);
   out.test = Summarise(model.problem, out.trials, TrialRole::kTest);
-  out.features = Features(model.problem, out.trials);
+  out.features = Features(model.problem, model.shared, out.trials);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fitting/generate.h"
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
@@ -154,6 +155,17 @@ TEST(HeldOutErrors, ContactTimesAreNotComputedWithoutAContactChannel) {
   const Compared c(Biased());
   EXPECT_TRUE(std::isnan(c.errors_after.features.touchdown_time_rmse));
   EXPECT_TRUE(std::isnan(c.errors_after.features.stance_time_rmse));
+}
+
+// The contact column is as late as the other channels are, which the fit knows.
+TEST(HeldOutErrors, ContactTimesAreReadAtTheInstantOfTheOtherChannels) {
+  Scenario scenario = testing::HopScenario(2);
+  scenario.effects = {EffectOfSize("sensor_delay", 0.03)};
+  scenario.dataset->channels.push_back({Channel::kContact, {}});
+  const NullFit fit(GenerateDataset(scenario, {}).dataset, {.with_effects = {"sensor_delay"}});
+  const HeldOutErrors errors = MeasureHeldOut(fit.null, 1);
+  EXPECT_LT(errors.features.touchdown_time_rmse, 0.003);  // rows are 4 ms apart
+  EXPECT_LT(errors.features.stance_time_rmse, 0.003);
 }
 
 TEST(HeldOutErrors, DoNotDependOnTheNumberOfJobs) {
