@@ -37,6 +37,14 @@ YamlFields ClockFields(const ClockSpec& clock) {
   return fields;
 }
 
+std::string ChannelText(const ChannelSpec& channel) {
+  YamlFields fields;
+  if (channel.sigma || !IsContact(channel.id))  // a contact goes without
+    fields.push_back({"", "sigma", channel.sigma ? FormatDouble(*channel.sigma) : "estimate"});
+  if (!channel.clock.empty()) fields.push_back({"", "clock", QuotedYaml(channel.clock)});
+  return Flow(fields);
+}
+
 // All keys of each: written over another one they replace all of it.
 YamlFields InputFields(const std::vector<InputSpec>& inputs) {
   YamlFields fields;
@@ -137,9 +145,7 @@ std::string FormatYaml(const Dataset& dataset) {
     text += "controller: " + Flow(ControllerFields(*dataset.controller)) + "\n";
   text += "channels:\n";
   for (const ChannelSpec& channel : dataset.channels)
-    text += std::string("  ") + ChannelName(channel.id) +
-            ": {sigma: " + (channel.sigma ? FormatDouble(*channel.sigma) : "estimate") +
-            (channel.clock.empty() ? "" : ", clock: " + QuotedYaml(channel.clock)) + "}\n";
+    text += std::string("  ") + ChannelName(channel.id) + ": " + ChannelText(channel) + "\n";
   for (const ClockSpec& clock : dataset.clocks)
     text += (&clock == &dataset.clocks.front() ? "clocks:\n  " : "  ") + QuotedYaml(clock.name) +
             ": " + Flow(ClockFields(clock)) + "\n";

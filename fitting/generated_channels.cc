@@ -40,8 +40,11 @@ std::vector<ChannelSpec> ChannelsToGenerate(const Scenario& scenario,
   if (channels.empty()) channels = {{Channel::kBodyX, 0.001}, {Channel::kBodyY, 0.001}};
   for (ChannelSpec& c : channels) {
     CheckLeg(c, scenario.mechanism);
-    if (noise) c.sigma = *noise;
-    if (!c.sigma)
+    if (IsContact(c.id))
+      c.sigma.reset();  // no noise is added to it
+    else if (noise)
+      c.sigma = *noise;
+    if (!c.sigma && !IsContact(c.id))
       throw InputError({c.origin.place, std::string(ChannelName(c.id)) + ": {sigma: estimate}",
                         "a dataset to generate needs the noise itself", "State sigma."});
   }

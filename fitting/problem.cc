@@ -62,6 +62,10 @@ class Builder {
       if (spec.id == Channel::kContact) {
         problem_.uses_contact = true;
         problem_.contact_clock = ClockOf(spec);
+        if (spec.sigma)
+          problem_.notes.push_back(
+              "the sigma of contact is not used: a time of contact is known to "
+              "within the rows it lies between");
         continue;
       }
       if (IsContact(spec.id)) {

@@ -127,6 +127,12 @@ TEST(WriteDataset, WritesOnlyWhatATrialHasOfItsOwn) {
   EXPECT_NE(yaml.find("    mechanism: {leg: {E_Pa: 2.1e10}}\n"), yaml.npos) << yaml;
 }
 
+TEST(WriteDataset, WritesNoSigmaOfAContactThatHasNone) {
+  Dataset dataset = Read(kYaml);
+  dataset.channels.push_back({Channel::kContact, std::nullopt});
+  EXPECT_NE(FormatDataset(dataset)["dataset.yaml"].find("  contact: {}\n"), std::string::npos);
+}
+
 TEST(WriteDataset, WritesAFolderThatReadsBack) {
   const testing::TempFolder temp;
   const Dataset dataset = Read(kYaml);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fitting/model_of_spec.h"
@@ -158,6 +159,15 @@ TEST(Problem, ContactColumnsGiveSwitchingTimes) {
   EXPECT_NEAR(p.trials[0].contact.touchdown_s[0], 0.095, 1e-12);  // rows 9 and 10 at 100 Hz
   EXPECT_NEAR(p.trials[0].contact.liftoff_s[0], 0.145, 1e-12);
   EXPECT_NEAR(p.trials[0].contact.touchdown_sigma_s[0], 0.01 / std::sqrt(12.0), 1e-12);
+  // A sigma in the column's unit, 0 or 1, says nothing of times, and is not passed over in silence.
+  const auto told = [](const FitProblem& problem) {
+    return std::any_of(problem.notes.begin(), problem.notes.end(), [](const std::string& note) {
+      return note.starts_with("the sigma of contact is not used");
+    });
+  };
+  EXPECT_TRUE(told(p));
+  d.channels = {{Channel::kContact, std::nullopt}};
+  EXPECT_FALSE(told(MakeProblem(d, {})));
 }
 
 // Dropped from 0.5 m above its touch-down; its switch closes for a row at each bounce.
