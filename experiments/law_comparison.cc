@@ -10,16 +10,23 @@ std::vector<ComparedModel> AllLaws(const Dataset& dataset) {
   return models;
 }
 
+ProblemOptions OptionsOf(const ComparedModel& model, ProblemOptions options) {
+  options.law = model.law;
+  options.with_effects = model.with_effects;
+  return options;
+}
+
 LawComparison CompareLaws(const Dataset& dataset, const std::vector<ComparedModel>& models,
                           const ProblemOptions& problem_options, const FitOptions& fit_options,
                           Segmentation span, const std::function<void(int done)>& progress) {
   LawComparison comparison;
   for (const ComparedModel& model : models) {
     if (fit_options.IsStopped()) break;
-    ProblemOptions options = problem_options;
-    options.law = model.law;
-    options.with_effects = model.with_effects;
-    ModelResult row{model, FitDataset(dataset, options, fit_options, span), {}, {}, {}};
+    ModelResult row{model,
+                    FitDataset(dataset, OptionsOf(model, problem_options), fit_options, span),
+                    {},
+                    {},
+                    {}};
     const FitProblem& problem = row.fit.problem;
     const FitResult& result = row.fit.result;
     if (result.ok) {

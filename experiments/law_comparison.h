@@ -29,6 +29,9 @@ struct LawComparison {
   std::vector<ModelResult> rows;  // in the order asked for
 };
 
+/// The options of one model: `options` with its law and effects.
+ProblemOptions OptionsOf(const ComparedModel& model, ProblemOptions options);
+
 /// Fits the same dataset with each model; what is fixed and freed otherwise is the same for all.
 /// `progress` is called after each.
 LawComparison CompareLaws(const Dataset& dataset, const std::vector<ComparedModel>& models,

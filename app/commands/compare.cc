@@ -13,16 +13,19 @@
 namespace hoplab {
 namespace {
 
-// What is known from elsewhere is a value that some model fits.
-void CheckTruth(const std::map<std::string, double>& truth, const LawComparison& comparison) {
+// What is known from elsewhere is a value that some model fits. Asked before anything is fitted.
+void CheckTruth(const std::map<std::string, double>& truth, const Dataset& dataset,
+                const std::vector<ComparedModel>& models, const ProblemOptions& options) {
+  if (truth.empty()) return;
   std::set<std::string> fitted;
-  for (const ModelResult& row : comparison.rows)
-    for (const SharedParameter& s : row.fit.problem.shared) fitted.insert(s.name);
+  for (const ComparedModel& model : models)
+    for (const SharedParameter& s : MakeProblem(dataset, OptionsOf(model, options)).shared)
+      fitted.insert(s.name);
   const std::vector<std::string> known(fitted.begin(), fitted.end());
   for (const auto& [name, value] : truth) {
     if (!fitted.contains(name))
       throw InputError(
-          {"--true", Printable(name), "is no value that was fitted", DidYouMean(name, known)});
+          {"--true", Printable(name), "is no value that is fitted", DidYouMean(name, known)});
   }
 }
 
@@ -31,17 +34,18 @@ ExitCode RunCompare(const CompareSettings& settings, Console& console) {
   const std::map<std::string, double> truth = ParseAssignments(settings.truth, "--true");
   FitOptions fit;
   fit.jobs = JobsOf(settings.problem.jobs);
+  const ProblemOptions options = ProblemOptionsOf(settings.problem);
+  const std::vector<ComparedModel> models = ComparedModels(settings, dataset);
+  CheckTruth(truth, dataset, models, options);
   Progress progress(console, settings.quiet);
   progress.Stage("fitting each model");
-  const std::vector<ComparedModel> models = ComparedModels(settings, dataset);
-  const LawComparison comparison = CompareLaws(
-      dataset, models, ProblemOptionsOf(settings.problem), fit, Segmentation::kAuto, [&](int done) {
+  const LawComparison comparison =
+      CompareLaws(dataset, models, options, fit, Segmentation::kAuto, [&](int done) {
         progress.Step(
             "fitting each model: " + std::to_string(done) + " of " + std::to_string(models.size()),
             done, static_cast<long>(models.size()));
       });
   progress.Clear();
-  CheckTruth(truth, comparison);
   if (!settings.json) {
     console.out << LawComparisonReport(comparison, truth);
     return ExitCode::kDone;

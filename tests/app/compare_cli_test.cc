@@ -22,8 +22,8 @@ TEST(CompareCli, ATruthOfWhatIsNotFittedIsRefused) {
       {"compare", ShippedDataset("rig-drops"), "--variant", "consistent", "--true", "e_Pa=21e9"},
       temp.path());
   EXPECT_EQ(run.exit_code, 65);
-  EXPECT_NE(run.err.find("--true: e_Pa; is no value that was fitted"), std::string::npos)
-      << run.err;
+  EXPECT_NE(run.err.find("--true: e_Pa; is no value that is fitted"), std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("fitting each model"), std::string::npos) << "after the fits: " << run.err;
 }
 
 TEST(CompareCli, TheElasticaWithItsLegsDampingAndMassBringsTheModulusWithinOnePercent) {
