@@ -74,11 +74,12 @@ struct Nats {
   std::string failure;
 };
 
+// By the linear model at `shared` and `start`.
 Nats LinearNats(const FittedModel& rival, const RecordedInformation& information,
-                const TrialProblem& trial) {
+                const TrialProblem& trial, const Eigen::VectorXd& shared, const OwnValues& start) {
   const TrialEvaluator evaluator(rival.problem, trial);
   TrialEvaluation e;
-  evaluator.Evaluate({rival.shared, trial.start, true}, e);
+  evaluator.Evaluate({shared, start, true}, e);
   if (!e.complete) return {kNaN, FailureOf(e.trajectory.outcome, rival)};
   const EliminatedTrial reduced =
       EliminateOwn(trial, e, rival.problem.shared_count(), ColumnsOf(rival, information.free));
@@ -87,14 +88,22 @@ Nats LinearNats(const FittedModel& rival, const RecordedInformation& information
   if (n == 0) return {0.5 * reduced.residuals.squaredNorm(), ""};
   Eigen::MatrixXd A(old + fresh, n);
   A << information.rows, reduced.columns;
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(old + fresh);
-  b.tail(fresh) = reduced.residuals;
+  Eigen::VectorXd moved(n);  // from where the recorded trials have the values, per scale
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const int k = information.free[static_cast<std::size_t>(i)];
+    moved[i] =
+        (shared[k] - rival.shared[k]) / rival.problem.shared[static_cast<std::size_t>(k)].scale;
+  }
+  Eigen::VectorXd b(old + fresh);
+  b << information.rows * moved, reduced.residuals;
   const Eigen::VectorXd step = A.completeOrthogonalDecomposition().solve(b);
   return {0.5 * (b - A * step).squaredNorm(), ""};
 }
 
-Nats RefittedNats(const FittedModel& rival, const std::vector<TrialProblem>& train,
-                  const TrialProblem& trial) {
+// A search minimises white errors. Where a rival's noise is another, what is left under it is told
+// by the linear model at the values that were found.
+Nats RefittedNats(const FittedModel& rival, const RecordedInformation& information,
+                  const std::vector<TrialProblem>& train, const TrialProblem& trial) {
   std::vector<TrialProblem> trials = train;
   trials.push_back(trial);
   SolveRequest request;
@@ -107,7 +116,8 @@ Nats RefittedNats(const FittedModel& rival, const std::vector<TrialProblem>& tra
   request.function_tolerance = 1e-6;
   const SolveResult result = Solve(request);
   if (!IsUsable(result.status)) return {kNaN, "no refit of " + RivalName(rival)};
-  return {std::max(result.cost - rival.cost, 0.0), ""};
+  if (rival.problem.noise.IsWhite()) return {std::max(result.cost - rival.cost, 0.0), ""};
+  return LinearNats(rival, information, trial, result.shared, result.initial_states.back());
 }
 
 // All pairs of rivals by `nats_of(j, trial as i predicts it)`.
@@ -209,15 +219,19 @@ SeparationForecast ForecastLinearly(std::span<const FittedModel> rivals,
                                     std::span<const RecordedInformation> information,
                                     const TrialProblem& trial, int jobs) {
   return Forecast(rivals, trial, jobs, [&](int j, const TrialProblem& recorded) {
-    return LinearNats(rivals[j], information[j], recorded);
+    return LinearNats(rivals[j], information[j], recorded, rivals[j].shared, recorded.start);
   });
 }
 
 SeparationForecast ForecastByRefits(std::span<const FittedModel> rivals,
                                     const std::vector<TrialProblem>& train,
                                     const TrialProblem& trial, int jobs) {
+  std::vector<RecordedInformation> information(rivals.size());
+  ParallelFor(static_cast<int>(rivals.size()), jobs, [&](int j) {
+    if (!rivals[j].problem.noise.IsWhite()) information[j] = InformationOf(rivals[j], train);
+  });
   return Forecast(rivals, trial, jobs, [&](int j, const TrialProblem& recorded) {
-    return RefittedNats(rivals[j], train, recorded);
+    return RefittedNats(rivals[j], information[j], train, recorded);
   });
 }
 

@@ -32,7 +32,8 @@ SeparationForecast ForecastLinearly(std::span<const FittedModel> rivals,
                                     std::span<const RecordedInformation> information,
                                     const TrialProblem& trial, int jobs);
 
-/// By refits of each rival to the recorded trials and what each other one predicts.
+/// By refits of each rival to the recorded trials and what each other one predicts, each under its
+/// own noise.
 SeparationForecast ForecastByRefits(std::span<const FittedModel> rivals,
                                     const std::vector<TrialProblem>& train,
                                     const TrialProblem& trial, int jobs);

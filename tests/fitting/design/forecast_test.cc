@@ -59,6 +59,36 @@ TEST(ExpectedEntropy, FallsWithTheNatsHoweverManyTheyAre) {
   }
 }
 
+// A discrepancy makes a smooth difference less telling, whether rivals are refitted or not.
+TEST(SeparationForecast, ByRefitsIsUnderTheNoiseOfTheRivals) {
+  const testing::NullFit fit{
+      testing::World{.effects = {testing::EffectOfSize("touchdown_loss", 0.02)}}};
+  std::vector<FittedModel> rivals = {
+      fit.RefittedWith(testing::CandidateOf("touchdown_loss")),
+      fit.RefittedWith(testing::CandidateOf("touchdown_angle_bias"))};
+  const DesignSpace space = DefaultSpace(fit.problem, fit.train);
+  const TrialProblem trial =
+      TrialOf(space.At(std::vector<double>(space.Searched().size(), 0.4)), space.like);
+  const auto forecast = [&](bool by_refits) {
+    if (by_refits) return ForecastByRefits(rivals, fit.train, trial, 1);
+    std::vector<RecordedInformation> information;
+    for (const FittedModel& rival : rivals) information.push_back(InformationOf(rival, fit.train));
+    return ForecastLinearly(rivals, information, trial, 1);
+  };
+  const SeparationForecast white = forecast(true);
+  for (FittedModel& rival : rivals) {
+    rival.problem.noise.amplitude.assign(rival.problem.channels.size(), 3.0);
+    rival.problem.noise.time_scale = 0.1;
+  }
+  const SeparationForecast refitted = forecast(true), linear = forecast(false);
+  for (const SeparationForecast* f : {&white, &refitted, &linear}) ASSERT_EQ(f->failure, "");
+  for (const auto& [i, j] : {std::pair(0, 1), std::pair(1, 0)}) {
+    EXPECT_GT(white.nats(i, j), 0.5);
+    EXPECT_LT(refitted.nats(i, j), 0.5 * white.nats(i, j));
+    EXPECT_NEAR(refitted.nats(i, j) / linear.nats(i, j), 1.0, 0.2);
+  }
+}
+
 // The interval of the fitted problem with one trial more, against the forecast of it.
 TEST(ForecastInterval, IsTheIntervalOfTheFitWithThatTrial) {
   const testing::NullFit fit{testing::World{}};
