@@ -78,6 +78,44 @@ TEST_F(DesignCli, SaysTheSameWhateverTheJobs) {
   EXPECT_EQ(a.at("rivals").at(1).at("name"), "no effect at all");
 }
 
+// Interrupted while it searches: what was tried so far is kept, as a search that did not end.
+TEST_F(DesignCli, CtrlCKeepsTheBestOfWhatWasTried) {
+  const ProcessResult run =
+      RunProcess({.command = {HOPLAB_BINARY, "design", ShippedDataset("rig-drops"), "--sharpen",
+                              "E", "--budget", "1000000", "--map", "0", "--out", "run"},
+                  .folder = temp_.path(),
+                  .signal = SIGINT,
+                  .signal_after = "designs tried"});
+  EXPECT_FALSE(run.timed_out);
+  ASSERT_EQ(run.exit_code, 130) << run.err;
+  EXPECT_NE(run.err.find("kept: run"), std::string::npos) << run.err;
+  const nlohmann::json record = ReadRecord(temp_.path() / "run");
+  EXPECT_EQ(record.at("status"), "failed");
+  EXPECT_EQ(record.at("message").get<std::string>().substr(0, 11), "interrupted");
+  EXPECT_EQ(record.at("interrupted"), true);
+  EXPECT_GT(record.at("designs_tried"), 0);
+  EXPECT_LT(record.at("designs_tried"), 1000000);
+  EXPECT_FALSE(record.at("designs").empty());
+  EXPECT_EQ(Lines(ReadText(temp_.path() / "run" / "designs.csv")),
+            1 + record.at("designs_tried").get<long>());
+}
+
+// Before there is a design nothing is kept; the record that is printed says so all the same.
+TEST_F(DesignCli, CtrlCBeforeTheSearchIsToldInTheRecord) {
+  const ProcessResult run =
+      RunProcess({.command = {HOPLAB_BINARY, "design", ShippedDataset("rig-drops"), "--sharpen",
+                              "E", "--budget", "1000000", "--json", "--out", "run"},
+                  .folder = temp_.path(),
+                  .signal = SIGINT,
+                  .signal_after = "fitting the model"});
+  ASSERT_EQ(run.exit_code, 130) << run.err;
+  const nlohmann::json record = nlohmann::json::parse(run.out);
+  EXPECT_EQ(record.at("status"), "failed");
+  EXPECT_EQ(record.at("interrupted"), true);
+  EXPECT_TRUE(record.at("designs").empty());
+  EXPECT_FALSE(std::filesystem::exists(temp_.path() / "run"));
+}
+
 TEST_F(DesignCli, ASpaceInWhichNothingCanBeSimulatedIsNoResultAndSaysWhy) {
   const ProcessResult run = Design({"--sharpen", "E", "--space", "height=0.01:0.02"});
   EXPECT_EQ(run.exit_code, 1) << run.err;
