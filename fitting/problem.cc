@@ -12,6 +12,7 @@
 #include "fitting/noise.h"
 #include "fitting/robot_problem.h"
 #include "fitting/shared_parameters.h"
+#include "fitting/trial_noise.h"
 #include "fitting/trial_start.h"
 #include "model/mechanism_traits.h"
 
@@ -35,6 +36,11 @@ class Builder {
     AddTrials();
     AddChannels();
     FillTrials();
+    for (std::size_t c = 0; c < problem_.channels.size(); ++c) {
+      if (!problem_.channels[c].sigma_estimated) continue;
+      for (std::string& found : FindTrialNoise(problem_, c))
+        problem_.notes.push_back(std::move(found));
+    }
     ChooseModuli(options_, problem_);
     AddSharedParameters(dataset_, options_, problem_);
     return std::move(problem_);

@@ -86,6 +86,8 @@ struct TrialProblem {
   double begin_s = 0.0;           // the first row's time in the dataset's own file
   std::vector<double> row_times;  // s since the first row
   std::vector<double> data;       // row-major [row][channel]; NaN = missing
+  /// Of each channel: how many times its sigma the noise is in this trial; empty: 1 (SigmaIn).
+  std::vector<double> noise_factors;
   ContactTimes contact;
   /// The components of the start first: x, y [m], vx, vy [m/s], in stance the contact's place [m].
   std::vector<OwnParameter> own;

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "fitting/growing_horizon.h"
+#include "fitting/trial_noise.h"
 #include "model/mechanism_traits.h"
 
 namespace hoplab {
@@ -182,7 +183,7 @@ std::vector<TrialErrors> AssessTrials(const FitProblem& problem, const FitResult
       double nll = 0.5 * out.chi2;
       for (std::size_t cell = 0; cell < trial.data.size(); ++cell) {
         if (std::isnan(trial.data[cell])) continue;
-        nll += std::log(problem.channels[cell % channels].sigma) +
+        nll += std::log(SigmaIn(problem, trial, cell % channels)) +
                0.5 * std::log(2.0 * std::numbers::pi);
       }
       for (const auto* sigmas :

@@ -6,6 +6,7 @@
 #include "fitting/contact_reading.h"
 #include "fitting/deviation.h"
 #include "fitting/driven_trial.h"
+#include "fitting/trial_noise.h"
 #include "model/mechanism_traits.h"
 #include "model/pose_filter.h"
 
@@ -126,9 +127,9 @@ std::vector<double> InitialOf(const TrialProblem& trial, const Eigen::Ref<const 
 
 TrialEvaluator::TrialEvaluator(const FitProblem& problem, const TrialProblem& trial)
     : problem_(&problem), trial_(&trial) {
-  for (const ChannelProblem& c : problem.channels) {
-    channels_.push_back(c.channel);
-    sigma_.push_back(c.sigma);
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    channels_.push_back(problem.channels[c].channel);
+    sigma_.push_back(SigmaIn(problem, trial, c));
   }
   for (const SharedParameter& s : problem.shared) directions_.push_back(DirectionIn(trial, s));
   for (const OwnParameter& o : trial.own) {

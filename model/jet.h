@@ -15,8 +15,8 @@ using Jet = ceres::Jet<double, N>;
 
 /// Widths of the dual numbers the simulator is built for; a run with more directions is cut into
 /// chunks. Measured in docs/decisions/0002-sensitivities.md.
-inline constexpr int kNarrowJet = 4;
-inline constexpr int kWideJet = 8;
+inline constexpr int kNarrowJet = 8;
+inline constexpr int kWideJet = 12;
 inline constexpr int kWidestJet = 20;
 
 template <class T>

@@ -7,6 +7,7 @@
 #include "app/records/trajectory_tables.h"
 #include "app/records/trial_tables.h"
 #include "base/nan.h"
+#include "fitting/trial_noise.h"
 
 namespace hoplab {
 namespace {
@@ -101,7 +102,7 @@ std::string ResidualsTable(const Diagnosis& d, const HeldOutErrors* extended) {
           .Cell(trial.data[cell])
           .Cell(before[cell])
           .Cell(after ? (*after)[cell] : kNaN)
-          .Cell(d.problem.channels[cell % width].sigma)
+          .Cell(SigmaIn(d.problem, trial, cell % width))
           .EndRow();
     }
   }

@@ -3,6 +3,7 @@
 #include "app/records/csv.h"
 #include "app/records/trajectory_tables.h"
 #include "app/records/trial_tables.h"
+#include "fitting/trial_noise.h"
 
 namespace hoplab {
 namespace {
@@ -14,14 +15,13 @@ std::string Residuals(const FitRun& run) {
     const TrialProblem& trial = run.problem.trials[i];
     const std::vector<double>& samples = run.trials[i].trajectory.samples;
     for (std::size_t cell = 0; cell < trial.data.size(); ++cell) {
-      const ChannelProblem& channel = run.problem.channels[cell % width];
       const double measured = trial.data[cell], simulated = samples[cell];
       csv.Cell(trial.file)
           .Cell(trial.begin_s + trial.row_times[cell / width])
-          .Cell(NameOf(channel.channel))
+          .Cell(NameOf(run.problem.channels[cell % width].channel))
           .Cell(measured)
           .Cell(simulated)
-          .Cell((simulated - measured) / channel.sigma)
+          .Cell((simulated - measured) / SigmaIn(run.problem, trial, cell % width))
           .EndRow();
     }
   }

@@ -33,8 +33,8 @@ std::string MisfitLine(const FitProblem& problem, const Uncertainty& u) {
   if (!problem.noise.IsWhite()) {
     return fmt::format(
         "the model misses more than the noise (chi2 {} per sample, 1 expected): a smooth error of "
-        "{} "
-        "is left, which the intervals allow for",
+        "{} is left; the intervals hold if it is random, not if a cause is missing (hoplab "
+        "diagnose)",
         Significant(u.chi2_per_dof, 3), LeftText(problem));
   }
   const bool between = std::any_of(u.parameters.begin(), u.parameters.end(),

@@ -1,7 +1,10 @@
 #include "fitting/diagnosis/after_verdict.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +51,29 @@ HeldOutErrors ErrorsOf(const FittedModel& alone, const Diagnosis& d, int jobs) {
   return MeasureHeldOut(alike, jobs, /*test_only=*/true, &d.before);
 }
 
+// Gravity that is turned looks like a steady force: the camera was turned with its track.
+void NoteTilt(Diagnosis& d) {
+  if (!d.extension || d.problem.trials.empty()) return;
+  constexpr double kMostTilt = 0.2;  // rad
+  const FittedModel& model = d.naming.best;
+  const Parameters<double>& p = d.problem.trials.front().parameters;
+  for (const CauseReport* c : d.extension->ToldCauses()) {
+    const auto at = std::find_if(model.members.begin(), model.members.end(), [&](const auto& m) {
+      return m.effect == c->cause.effect && m.only_recording == c->cause.only_recording;
+    });
+    if (c->cause.effect != FindEffect("constant_force") || at == model.members.end()) continue;
+    const double force = model.ValuesOf(static_cast<int>(at - model.members.begin()))[0];
+    const double tilt = -force / (p.m * p.g);
+    if (!(std::abs(tilt) < kMostTilt)) continue;
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "a ground that rises by %.3g deg does the same as %s where the camera is turned "
+                  "with it: look whether plumb lines are upright in the picture",
+                  tilt * 180.0 / std::numbers::pi, c->cause.Name().c_str());
+    d.notes.emplace_back(text);
+  }
+}
+
 void MeasureCandidates(Diagnosis& d, const DiagnosisOptions& options) {
   d.candidate_gains.resize(d.naming.candidates.size());
   double most = 0.0;
@@ -79,6 +105,7 @@ void TellBesides(Diagnosis& d, const DiagnosisOptions& options) {
   const bool something_was_tried = d.extension || !d.set_aside.empty();
   if (!d.refusal.empty() || !something_was_tried) return;
   NoteShapes(d);
+  NoteTilt(d);
   if (options.fit.IsStopped()) return;
   MeasureCandidates(d, options);
   ProposeNextTrial(d, options);

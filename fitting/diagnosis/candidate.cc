@@ -52,6 +52,11 @@ bool HasTorqueLimit(const TrialProblem& trial) {
   return std::isfinite(robot.torque_limit) && robot.control != MotorControl::kLocked && !told;
 }
 
+bool Compares(const FitProblem& problem, Channel channel) {
+  return std::any_of(problem.channels.begin(), problem.channels.end(),
+                     [&](const ChannelProblem& c) { return c.channel == channel; });
+}
+
 bool HasPart(const FitProblem& problem, const TrialProblem& trial, MachinePart part) {
   switch (part) {
     case MachinePart::kNone:
@@ -62,6 +67,9 @@ bool HasPart(const FitProblem& problem, const TrialProblem& trial, MachinePart p
       return trial.parameters.robot && trial.parameters.robot->control == MotorControl::kClock;
     case MachinePart::kTorqueLimit:
       return trial.parameters.robot && HasTorqueLimit(trial);
+    case MachinePart::kTwoAxes:
+      return !trial.parameters.on_guide && Compares(problem, Channel::kBodyX) &&
+             Compares(problem, Channel::kBodyY);
   }
   return true;
 }

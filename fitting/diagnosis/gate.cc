@@ -5,6 +5,7 @@
 
 #include "fitting/noise.h"
 #include "fitting/trial_evaluator.h"
+#include "fitting/trial_noise.h"
 
 namespace hoplab {
 namespace {
@@ -62,13 +63,16 @@ std::vector<std::string> CorrectNoise(FitProblem& problem) {
     ChannelProblem& channel = problem.channels[c];
     if (channel.sigma_estimated) continue;
     const double estimate = EstimatedNoise(problem, c);
-    if (!(estimate > kNoiseExcess * channel.sigma)) continue;
-    notes.push_back(std::string(NameOf(channel.channel)) +
-                    Text(": the flights scatter by %.3g, more than the stated sigma %.3g; the "
-                         "larger one is used",
-                         estimate, channel.sigma));
-    channel.sigma = estimate;
-    channel.sigma_estimated = true;
+    if (estimate > kNoiseExcess * channel.sigma) {
+      notes.push_back(std::string(NameOf(channel.channel)) +
+                      Text(": the flights scatter by %.3g, more than the stated sigma %.3g; the "
+                           "larger one is used",
+                           estimate, channel.sigma));
+      channel.sigma = estimate;
+      channel.sigma_estimated = true;
+    }
+    for (std::string& found : FindTrialNoise(problem, c, !channel.sigma_estimated))
+      notes.push_back(std::move(found));
   }
   return notes;
 }

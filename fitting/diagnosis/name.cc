@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "fitting/diagnosis/candidate_status.h"
 #include "fitting/diagnosis/linearise_at.h"
@@ -32,6 +34,9 @@ constexpr int kJoin = 3;
 constexpr double kLittle = 0.1;
 // Rounds in which a set is put in order; each but the last changes it.
 constexpr int kRounds = 8;
+
+// Candidates with the nats they promise.
+using Ranking = std::vector<std::pair<double, int>>;
 
 class Search {
  public:
@@ -119,9 +124,7 @@ class Search {
     return set;
   }
 
-  bool SameEffect(int i, int j) const {
-    return naming_.candidates[i].candidate.effect == naming_.candidates[j].candidate.effect;
-  }
+  const Effect* EffectOf(int i) const { return naming_.candidates[i].candidate.effect; }
   std::vector<CandidateSet> Singles() const {
     std::vector<CandidateSet> sets;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
@@ -145,21 +148,23 @@ class Search {
     return sets;
   }
 
-  // Pool members not in `model`, the best expected gain beside it first.
-  std::vector<std::pair<double, int>> Ranked(const CandidateSet& model,
-                                             const FittedModel& fitted) const {
+  // Pool members not in `model`, the best expected gain beside it first. Of the same fit it is
+  // asked more than once.
+  const Ranking& Ranked(const CandidateSet& model, const FittedModel& fitted) {
+    const auto [known, is_first] = ranked_.try_emplace({model, fitted.cost});
+    Ranking& ranked = known->second;
+    if (!is_first) return ranked;
     std::vector<int> rest;
     std::vector<Candidate> tested;
     for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
-      if (!naming_.candidates[i].separable) continue;
-      if (std::any_of(model.begin(), model.end(), [&](int m) { return SameEffect(m, i); }))
+      const auto acts_already = [&](int m) { return EffectOf(m) == EffectOf(i); };
+      if (!naming_.candidates[i].separable || std::any_of(model.begin(), model.end(), acts_already))
         continue;
       rest.push_back(i);
       tested.push_back(naming_.candidates[i].candidate);
     }
     const Linearisation at = LineariseAt(fitted, tested, train_, options_.jobs);
     const std::vector<Hypothesis> hypotheses = HypothesesOf(tested);
-    std::vector<std::pair<double, int>> ranked;
     for (std::size_t i = 0; i < rest.size(); ++i)
       ranked.emplace_back(ScoreOf(at, hypotheses[i]).predicted_gain, rest[i]);
     std::stable_sort(ranked.begin(), ranked.end(),
@@ -169,12 +174,12 @@ class Search {
 
   // By what gains most beside the set under its own noise, and under white noise.
   std::vector<CandidateSet> Forward(const CandidateSet& set) {
-    const auto white = Ranked(set, refits_.White(set));
+    const Ranking& white = Ranked(set, refits_.White(set));
     std::set<int> matters;
     for (const auto& [gain, i] : white)
       if (gain >= LeastGain()) matters.insert(i);
     std::vector<CandidateSet> sets;
-    const auto take = [&](const std::vector<std::pair<double, int>>& ranked) {
+    const auto take = [&](const Ranking& ranked) {
       int taken = 0;
       for (const auto& [gain, i] : ranked) {
         if (taken >= kForwardWidth || gain < kWorthATry) break;
@@ -190,9 +195,6 @@ class Search {
     for (const CandidateSet& grown : BeyondThresholds(set, SeeksSlowOnes(set)))
       sets.push_back(grown);
     return sets;
-  }
-  static bool Holds(const CandidateSet& set, int i) {
-    return std::find(set.begin(), set.end(), i) != set.end();
   }
   bool IsSlow(std::size_t i) const { return naming_.candidates[i].candidate.effect->info.slow; }
   // The set misses more than noise does, by three of its standard deviations, and no mere detail.
@@ -268,7 +270,7 @@ class Search {
   CandidateSet Exchanged(const CandidateSet& set) {
     CandidateSet all = set;
     for (int joined = 0; joined < kJoin && !Stopped(); ++joined) {
-      const auto ranked = Ranked(all, refits_.White(all));
+      const Ranking& ranked = Ranked(all, refits_.White(all));
       if (ranked.empty() || ranked.front().first < kWorthATry) break;
       const CandidateSet grown = With(all, ranked.front().second);
       refits_.Try({grown});
@@ -333,6 +335,7 @@ class Search {
   const NamingOptions& options_;
   Naming naming_;
   Refits refits_;
+  std::map<std::pair<CandidateSet, double>, Ranking> ranked_;  // by set and cost of its fit
   CandidateSet slow_beside_;  // what slow causes were first tried beside
 };
 

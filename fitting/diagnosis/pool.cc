@@ -16,17 +16,19 @@ constexpr double kLocalSlack = 2.0;  // nats a refit may change of an expected g
 double LocalPrice(const Naming& naming) { return naming.local_log_odds + kLocalSlack; }
 
 // A candidate's column cut to one trial, what the fitted values take of it projected out again.
+// What a fitted value stands for in all trials (a modulus, for how stiff the leg is) is seen in
+// one.
 void AddLocal(Naming& naming, const Linearisation& null_at, const std::vector<TrialProblem>& train,
               std::span<const Candidate> candidates, const std::vector<Hypothesis>& hypotheses,
               const std::set<std::string>& recordings) {
   struct Local {
     std::size_t candidate;
     std::string recording;
-    double gain;
+    double gain, information;
   };
   std::vector<Local> locals;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (candidates[i].parameter_count() != 1 || !naming.candidates[i].separable) continue;
+    if (candidates[i].parameter_count() != 1) continue;
     for (const std::string& recording : recordings) {
       // Free of the initial states alone it may be cut to one trial; then the shared values are
       // taken out. (Cut after that, it would keep what the other trials' share of them left in this
@@ -44,7 +46,7 @@ void AddLocal(Naming& naming, const Linearisation& null_at, const std::vector<Tr
       const double z = -s.dot(null_at.r) / std::sqrt(V);
       if (hypotheses[i].lower[0] >= 0.0 && z < 0.0) continue;
       if (hypotheses[i].upper[0] <= 0.0 && z > 0.0) continue;
-      locals.push_back({i, recording, 0.5 * z * z});
+      locals.push_back({i, recording, 0.5 * z * z, V});
     }
   }
   std::stable_sort(locals.begin(), locals.end(),
@@ -61,6 +63,9 @@ void AddLocal(Naming& naming, const Linearisation& null_at, const std::vector<Tr
       continue;
     CandidateResult c = naming.candidates[l.candidate];
     c.candidate.only_recording = l.recording;
+    c.separable = true;
+    const double typical = c.candidate.Parameter(0).typical;
+    c.power = typical * typical * l.information;
     c.score.predicted_gain = l.gain;
     c.score.score = 2.0 * l.gain;
     c.score.p_value = std::erfc(std::sqrt(l.gain));

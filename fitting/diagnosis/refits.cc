@@ -286,6 +286,10 @@ bool Refits::WasTried(int candidate) const {
   });
 }
 
+bool Holds(const CandidateSet& set, int i) {
+  return std::find(set.begin(), set.end(), i) != set.end();
+}
+
 CandidateSet With(CandidateSet set, int i) {
   set.insert(std::upper_bound(set.begin(), set.end(), i), i);
   return set;

@@ -104,6 +104,8 @@ class Refits {
   int planned_ = 0;
 };
 
+bool Holds(const CandidateSet& set, int i);
+
 /// The set with candidate `i` in its place.
 CandidateSet With(CandidateSet set, int i);
 

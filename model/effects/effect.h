@@ -15,8 +15,8 @@ namespace hoplab {
 enum class EffectKind { kForce, kParameter, kGuard, kObservation };
 std::string_view NameOf(EffectKind kind);
 
-/// A part that not every machine has.
-enum class MachinePart { kNone, kGuideOfBall, kClock, kTorqueLimit };
+/// A part that not every machine has; `kTwoAxes`: both coordinates are measured, and move.
+enum class MachinePart { kNone, kGuideOfBall, kClock, kTorqueLimit, kTwoAxes };
 
 /// One parameter of an effect. At `null` the effect changes nothing, bit for bit.
 struct EffectParameter {

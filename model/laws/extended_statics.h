@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "model/effects/effect.h"
 #include "model/laws/elastica/energy.h"
@@ -74,16 +75,20 @@ template <class S>
 inline constexpr int kEnergyOrder = kJetWidth<S> == 0 ? 1 : 2;
 template <class T>
 inline constexpr int kEnergyOrder<Tangent<T>> = kEnergyOrder<T> + 1;
+// A search in values comes back before it ends, nearer each time: the force and the energy it is
+// told on its way may be off by what is squared at the next round.
+template <class S>
+inline constexpr bool kOfSearch = std::is_same_v<S, Tangent<double>>;
 // The energy at a load, from what is known of it at one near by.
 template <class S>
 auto EnergyNear(double phi, double f, double f_known, elastica::Derivatives<2> known) {
   if constexpr (2 < kEnergyOrder<S>) {
     return elastica::EnergyTo3(phi, f);
   } else {
-    constexpr double kNear = 1e-11;
+    constexpr double kNear = kOfSearch<S> ? 1e-6 : 1e-11;
     const double df = f - f_known;
     if (!(std::abs(df) < kNear)) return elastica::EnergyTo2(phi, f);
-    known[0][0] += df * known[0][1];
+    known[0][0] += df * (known[0][1] + 0.5 * df * known[0][2]);
     known[0][1] += df * known[0][2];
     known[1][0] += df * known[1][1];
     return known;
@@ -145,7 +150,7 @@ struct Statics {
   S sin, cos, delta, C, A2, F;
   S soft_F;    // F without leg_hardening, where that is a share of a spring's force
   S tip_turn;  // M10 (M10b, M25) is u/l + tip_turn = 0
-  S beyond;    // strain energy that M2b has not (M65) [J]
+  S beyond;    // strain energy that M2b has not (M65) [J]; not along the arc or the chord
 };
 
 // P: scalar of the parameters, S of the unknowns.
@@ -173,11 +178,11 @@ struct ArcParts {
 
   S Lifted(const auto& shape, int k) const { return Lift(at.phi, shape.data(), k); }
   // Chord compliance of an arc of another radius, and its derivative dC/ds at the rest radius.
-  S ChordOf(const S& radius, const ArcShapes& of, const S& arc) const {
+  S ChordOf(const auto& radius, const ArcShapes& of, const S& arc) const {
     const auto shape = [&](const auto& derivatives) { return Lift(arc, derivatives.data(), 0); };
-    return at.softer * (radius * radius * radius * (flex * shape(of.bending)) +
-                        radius * (stretch * shape(of.axial))) +
-           radius * (slide * shape(of.shear));
+    return at.softer * (radius * radius * radius * flex * shape(of.bending) +
+                        radius * stretch * shape(of.axial)) +
+           radius * slide * shape(of.shear);
   }
 
   ArcParts(const Parameters<P>& parameters, Law law, const P& torque, const Situation<S>& given)
@@ -213,8 +218,12 @@ void AddBeyondM2b(const ArcParts<S, P>& arc, const S& C, const S& Cs, const S& A
   const double phi_now = Value(at.phi), per_N = Value(unit_f), now = Value(blend) * Value(r);
   const double least = elastica::kLoadBegin / elastica::LoadScale(phi_now) / per_N;
   const double most = elastica::kLoadEnd / elastica::LoadScale(phi_now) / per_N;
-  constexpr double kLastStep = 1e-8;  // over the greatest force
-  double F = std::isnan(at.F_near) ? Value(out.F) : at.F_near, slope = 1.0, f = 0.0;
+  constexpr double kLastStep = kOfSearch<S> ? 1e-5 : 1e-8;  // over the greatest force
+  double F = at.F_near, slope = 1.0, f = 0.0;
+  if (std::isnan(F)) {  // that of M2b
+    const double C0 = Value(C), delta = Value(out.delta);
+    F = 2.0 * delta / (C0 + std::sqrt(C0 * C0 + 4.0 * Value(out.A2) * delta));
+  }
   elastica::Derivatives<2> G{};
   for (int round = 0; round < 30; ++round) {
     F = F < most ? (F > least ? F : least) : most;  // NaN is most
@@ -244,7 +253,8 @@ void AddBeyondM2b(const ArcParts<S, P>& arc, const S& C, const S& Cs, const S& A
   }
   out.tip_turn =
       out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + blend * more.turn + turn - out.cos;
-  out.beyond = (blend / (2.0 * r * arc.flex)) * (more.energy / at.softer);
+  if constexpr (!kIsTangent<S>)
+    out.beyond = (blend / (2.0 * r * arc.flex)) * (more.energy / at.softer);
 }
 
 // A law of static equilibrium.
@@ -253,12 +263,13 @@ void SetElastic(const ArcParts<S, P>& arc, Statics<S>& out) {
   using std::sqrt;
   const P& r = arc.p.r;
   const LawTerms<P>& terms = arc.p.law_terms;
-  out.C = arc.ChordOf(S(r), arc.shapes, arc.at.phi);
-  // M26: hardening takes from C2.
-  const P hardening = terms.hardening / r;
-  out.A2 = P(-hardening) * (out.C * out.C);
-  S Cs = arc.Cs, turn = arc.turn;
-  S A2s = -2.0 * (hardening * (out.C * Cs));
+  out.C = arc.ChordOf(r, arc.shapes, arc.at.phi);
+  S Cs = arc.Cs, turn = arc.turn, A2s = out.A2;
+  if (!IsZero(terms.hardening)) {  // M26: takes from C2
+    const P hardening = terms.hardening / r;
+    out.A2 = P(-hardening) * (out.C * out.C);
+    A2s = -2.0 * (hardening * (out.C * Cs));
+  }
   if (arc.second_order) {
     out.A2 = out.A2 + arc.softer2 * (r * arc.unit * arc.Lifted(arc.shapes.second_order, 0));
     A2s = A2s + arc.C2s;
@@ -272,9 +283,9 @@ void SetElastic(const ArcParts<S, P>& arc, Statics<S>& out) {
     Cs = Cs - 2.0 * (of_N * next.lead_FN);
     turn = turn - of_N * arc.N * next.lead_NN;
   }
+  if (arc.is_exact || terms.higher_order_active) return AddBeyondM2b(arc, C, Cs, A2s, turn, out);
   out.F = 2.0 * out.delta / (C + sqrt(C * C + 4.0 * (out.A2 * out.delta)));
   out.tip_turn = out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + turn - out.cos;
-  if (arc.is_exact || terms.higher_order_active) AddBeyondM2b(arc, C, Cs, A2s, turn, out);
 }
 
 // M5, M6 with the share `tip` of M10.

@@ -53,7 +53,7 @@ template <class T>
 class LocalStatics {
   static constexpr bool kHasDirections = kJetWidth<T> > 0;
   enum { kPhi, kChord, kTorque, kSofter, kGiven };  // local directions; further ones: parameters
-  static constexpr int kLocalWidth = kWideJet;
+  static constexpr int kLocalWidth = kNarrowJet;
   static constexpr std::size_t kOwn = kLocalWidth - kGiven, kMostParts = 3;
 
  public:

@@ -47,4 +47,9 @@ struct Tangent {
   friend double Value(const Tangent& a) { return hoplab::Value(a.value); }
 };
 
+template <class>
+inline constexpr bool kIsTangent = false;
+template <class T>
+inline constexpr bool kIsTangent<Tangent<T>> = true;
+
 }  // namespace hoplab

@@ -86,7 +86,7 @@ Tangent<T> LiftTangent(const Tangent<T>& x, const std::array<double, 3>& derivat
 }
 
 template <class T>
-ArcShape<T> ShapeOfArc(const T& r, const LegLoad<T>& load) {
+[[gnu::flatten]] ArcShape<T> ShapeOfArc(const T& r, const LegLoad<T>& load) {
   using S = Tangent<T>;
   const T zero(0.0), one(1.0);
   const S u(load.u, load.place_x - 1.0, load.place_y), y(load.y, zero, one);
@@ -122,7 +122,7 @@ ArcShape<T> ShapeOfArc(const T& r, const LegLoad<T>& load) {
 }
 
 template <class T>
-LegInertia<T> ArcInertia(const T& mass, const T& r, const ArcShape<T>& a) {
+[[gnu::flatten]] LegInertia<T> ArcInertia(const T& mass, const T& r, const ArcShape<T>& a) {
   using S = Tangent<T>;
   // Kinetic energy of the arc and of what lies beyond the contact.
   const T density = mass / (std::numbers::pi * r);
@@ -147,7 +147,7 @@ LegInertia<T> ArcInertia(const T& mass, const T& r, const ArcShape<T>& a) {
 }
 
 template <class T>
-LegMomentum<T> ArcMomentum(const T& r, const ArcShape<T>& a) {
+[[gnu::flatten]] LegMomentum<T> ArcMomentum(const T& r, const ArcShape<T>& a) {
   using S = Tangent<T>;
   const S arc = (1.0 / std::numbers::pi) * (a.R / S(r)), tail(T(1.0 / std::numbers::pi));
   // Means of a and b (M56) over the leg.

@@ -176,15 +176,15 @@ TEST(GroundSlope, KeepsTheEnergyOfALegAndMeasuresItsAngleFromTheHorizontal) {
   }
 }
 
-TEST(ObservationEffects, ActInTheOrderClockDelayScaleOffsetRollHoweverTheyAreGiven) {
+TEST(ObservationEffects, ActInTheirOrderHoweverTheyAreGiven) {
   SimulationRequest q = ThickLegRequest(Law::kLargeDeflection);
   q.channels = kBodyChannels;
-  const double clock = 0.03, delay = 0.004, scale = 0.05, offset = 0.02, roll = 0.3;
+  const double clock = 0.03, delay = 0.004, scale = 0.05, offset = 0.02, roll = 0.3, zoom = 0.1;
   std::vector<EffectSetting> effects = {
-      Setting("camera_roll", roll),       Setting("clock_scale", clock),
-      Setting("sensor_delay", delay),     Setting("sensor_offset_y", offset),
-      Setting("sensor_scale_x", scale),   Setting("sensor_scale_y", -scale),
-      Setting("sensor_offset_x", -offset)};
+      Setting("camera_scale", zoom),      Setting("camera_roll", roll),
+      Setting("clock_scale", clock),      Setting("sensor_delay", delay),
+      Setting("sensor_offset_y", offset), Setting("sensor_scale_x", scale),
+      Setting("sensor_scale_y", -scale),  Setting("sensor_offset_x", -offset)};
   const std::vector<double> stamps = {0.05, 0.11, 0.17, 0.23};
   q.row_times = stamps;
   q.effects = effects;
@@ -200,7 +200,7 @@ TEST(ObservationEffects, ActInTheOrderClockDelayScaleOffsetRollHoweverTheyAreGiv
   for (std::size_t row = 0; row < stamps.size(); ++row) {
     const double* z = &real.samples[4 * row];
     const double x = z[0] * (1.0 + scale) - offset, y = z[1] * (1.0 - scale) + offset;
-    const double c = std::cos(roll), s = std::sin(roll);
+    const double c = (1.0 + zoom) * std::cos(roll), s = (1.0 + zoom) * std::sin(roll);
     EXPECT_NEAR(seen.samples[4 * row], c * x - s * y, 1e-14);
     EXPECT_NEAR(seen.samples[4 * row + 1], s * x + c * y, 1e-14);
     EXPECT_NEAR(seen.samples[4 * row + 2], c * z[2] - s * z[3], 1e-14);

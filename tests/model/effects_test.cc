@@ -62,6 +62,7 @@ TEST(EffectRegistry, SaysWhatPartOfAMachineAnEffectIsAbout) {
     const MachinePart about = info.name.starts_with("gait_")     ? MachinePart::kClock
                               : info.name.starts_with("guide_")  ? MachinePart::kGuideOfBall
                               : info.name == "torque_limit_loss" ? MachinePart::kTorqueLimit
+                              : info.name == "camera_scale"      ? MachinePart::kTwoAxes
                                                                  : MachinePart::kNone;
     EXPECT_EQ(info.about, about) << info.name;
     const bool of_motors = about == MachinePart::kClock || about == MachinePart::kTorqueLimit;

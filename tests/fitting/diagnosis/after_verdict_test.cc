@@ -69,6 +69,30 @@ TEST(AfterVerdict, ACandidateIsMeasuredOnHeldOutTrialsAsTheModelWithoutIs) {
   EXPECT_NEAR(d.candidate_gains.front()->nats_per_sample, 0.0, 1e-6);
 }
 
+// A track and its camera that are tilted turn gravity, which looks like a force.
+TEST(AfterVerdict, AForceIsToldAsATiltOfGroundAndCameraToo) {
+  const DiagnosisOptions options = OptionsWith({"constant_force"});
+  Diagnosis d = Diagnose(DatasetOf({.effects = {EffectOfSize("constant_force", -0.2)}}), options);
+  ASSERT_EQ(d.verdict, Verdict::kNamed);
+  const auto tilts = [&] {
+    return std::count_if(d.notes.begin(), d.notes.end(), [](const std::string& note) {
+      return note.find("the camera is turned with it") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(tilts(), 1);
+  const auto& p = d.problem.trials[0].parameters;
+  const double degrees = 0.2 / (p.m * p.g) * 180.0 / 3.14159265;
+  const std::string& note = d.notes.back();
+  const std::size_t at = note.find("rises by ");
+  ASSERT_NE(at, std::string::npos) << note;
+  EXPECT_NEAR(std::stod(note.substr(at + 9)), degrees, 0.1 * degrees);
+  EXPECT_EQ(std::count_if(LookAlikes().notes.begin(), LookAlikes().notes.end(),
+                          [](const std::string& other) {
+                            return other.find("the camera is turned") != std::string::npos;
+                          }),
+            0);
+}
+
 TEST(AfterVerdict, NothingIsAddedToADiagnosisThatIsStopped) {
   const std::atomic<bool> stop = true;
   DiagnosisOptions options = LookAlikeOptions();

@@ -48,6 +48,23 @@ TEST(Candidates, OfAFreeBallHoldNoFrictionOfAGuide) {
   EXPECT_EQ(guides({}), 2);
 }
 
+// Of one coordinate, or of hops straight up, a picture's scale is that coordinate's.
+TEST(Candidates, HoldAScaleOfThePictureWhereBothCoordinatesMove) {
+  const auto has_it = [](const FitProblem& problem) {
+    const std::vector<std::string> names = NamesOf(CandidatesOf(problem, {}));
+    return std::count(names.begin(), names.end(), "camera_scale");
+  };
+  FitProblem ball;
+  ball.law = Law::kBall;
+  ball.trials.resize(1);
+  ball.channels = {{Channel::kBodyY, 1e-3, false}};
+  EXPECT_EQ(has_it(ball), 0);
+  ball.channels.push_back({Channel::kBodyX, 1e-3, false});
+  EXPECT_EQ(has_it(ball), 1);
+  ball.trials[0].parameters.on_guide = true;
+  EXPECT_EQ(has_it(ball), 0);
+}
+
 // A pose that is late is a recording that is late, but for channels that are not the pose.
 TEST(Candidates, OfAPoseAloneHaveOneDelay) {
   FitProblem robot;
