@@ -20,6 +20,8 @@ std::string EndText(BranchEnd end, Outcome outcome) {
       return "where the hop fails: " + std::string(SentenceOf(outcome));
     case BranchEnd::kNotConverged:
       return "where no fixed point is found any more";
+    case BranchEnd::kLost:
+      return "where the branch is lost: the fixed point found next is another branch's";
     case BranchEnd::kPointLimit:
       return "the limit of points";
     case BranchEnd::kStopped:
