@@ -11,9 +11,6 @@
 
 namespace hoplab {
 
-/// What Young's and the shear modulus must lie in.
-inline constexpr Range kModulus = Positive(1e13, "Pa");
-
 // The blocks that datasets and scenarios share. Each throws InputError for a missing, unknown or
 // misspelt key, a value of the wrong type or outside its range.
 

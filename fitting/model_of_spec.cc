@@ -282,6 +282,16 @@ EffectSetting AtTypical(const Effect& effect) {
 }
 }  // namespace
 
+void CheckEffectValue(const Effect& effect, int parameter, double value, const std::string& name,
+                      const std::string& place) {
+  const EffectParameter& info = effect.info.parameters[static_cast<std::size_t>(parameter)];
+  if (value >= info.lower && value <= info.upper) return;
+  throw InputError({place, name + " = " + FormatDouble(value),
+                    "must be in [" + FormatDouble(info.lower) + ", " + FormatDouble(info.upper) +
+                        "] " + std::string(info.unit),
+                    ""});
+}
+
 std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,
                                           LegMass mass, InputSet inputs, RobotLegs robot_legs) {
   std::vector<EffectSetting> settings;
@@ -299,14 +309,8 @@ std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, 
         throw InputError({given.origin.place, spec.name + "." + Printable(given.name),
                           "is not a parameter of this effect", DidYouMean(given.name, known)});
       }
-      const EffectParameter& info = effect.info.parameters[*index];
-      if (!(given.value >= info.lower && given.value <= info.upper)) {
-        throw InputError({given.origin.place,
-                          spec.name + "." + given.name + " = " + FormatDouble(given.value),
-                          "must be in [" + FormatDouble(info.lower) + ", " +
-                              FormatDouble(info.upper) + "] " + std::string(info.unit),
-                          ""});
-      }
+      CheckEffectValue(effect, *index, given.value, spec.name + "." + given.name,
+                       given.origin.place);
       setting.values[*index] = given.value;
     }
     settings.push_back(setting);
