@@ -44,7 +44,12 @@ StateSpec ReadState(const YamlCursor& cursor) {
   return state;
 }
 
-void CheckStart(const YamlCursor& owner, const StateSpec& start, MechanismKind type) {
+void CheckStart(const YamlCursor& owner, const StateSpec& start, const MechanismSpec& mechanism) {
+  const MechanismKind type = mechanism.type;
+  if (mechanism.on_guide && start.vx_m_per_s != 0)
+    owner.FailAtKey("begins with vx_m_per_s = " + FormatDouble(start.vx_m_per_s) +
+                        ", and a vertical guide holds the body along the ground",
+                    "Write vx_m_per_s: 0, or guide: none.");
   if (start.mode == StartMode::kFlight) return;
   const std::string rule = type == MechanismKind::kBall ? "a ball has no stance to begin in"
                                                         : "a straight leg neither rolls nor has "

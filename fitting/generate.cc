@@ -312,7 +312,9 @@ Trial RecordTrial(const Recording& r, const GenerateTrial& plan, std::size_t i,
   WriteInputs(scenario, r.inputs, r.Stream(i, 997), trial);
   trial.initial = truth;
   if (scenario.dataset && scenario.dataset->initial_sigma) {
-    trial.initial = StatedStart(truth, *scenario.dataset->initial_sigma, r.Stream(i, 999));
+    StateSpec known = *scenario.dataset->initial_sigma;
+    if (trial.mechanism.on_guide) known.vx_m_per_s = kFreeSigma;  // a guide leaves no doubt of it
+    trial.initial = StatedStart(truth, known, r.Stream(i, 999));
     trial.initial_sigma = scenario.dataset->initial_sigma;
   }
   return trial;

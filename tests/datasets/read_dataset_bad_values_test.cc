@@ -37,6 +37,13 @@ TEST(BadDataset, AnAngleBeyondTheHalfTurnIsOutOfItsRange) {
             "Check the unit: deg is meant.");
 }
 
+TEST(BadDataset, AStartAlongTheGroundOnAGuideIsRefused) {
+  EXPECT_EQ(
+      ErrorWithYaml("gravity_m_per_s2: 9.81\n", "gravity_m_per_s2: 9.81\n  guide: vertical\n"),
+      "hops/dataset.yaml:19: trials[0]; begins with vx_m_per_s = 1, and a vertical guide "
+      "holds the body along the ground. Write vx_m_per_s: 0, or guide: none.");
+}
+
 TEST(BadDataset, ASigmaOfZeroIsOutOfItsRange) {
   EXPECT_EQ(ErrorWithYaml("sigma: 0.001", "sigma: 0"),
             "hops/dataset.yaml:15: channels.body_x_m.sigma = 0; must be in [1e-12, 1e9] m. "
