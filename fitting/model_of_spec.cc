@@ -217,11 +217,27 @@ InputError AsInputError(const FormulaError& e, const EffectFile& file) {
   return InputError({file.origin.place, "", e.rule(), e.remedy()});
 }
 
+// The typical size counts from the null; of what only shapes the formula it has no sign.
+void CheckTypical(const FormulaParameter& p, const std::string& place) {
+  if (!p.typical) return;
+  const double size = *p.typical;
+  const bool within = p.null ? *p.null + size >= p.lower && *p.null + size <= p.upper
+                             : std::abs(size) <= p.upper - p.lower;
+  if (within) return;
+  throw InputError(
+      {place, "parameters." + p.name + ".typical = " + FormatDouble(size),
+       "leads out of its bounds [" + FormatDouble(p.lower) + ", " + FormatDouble(p.upper) + "]",
+       "Move the bounds, or give a smaller size."});
+}
+
 }  // namespace
 
 const Effect& EffectOfFile(const EffectFile& file) {
   try {
-    return FormulaEffect(file.source);
+    const Effect& effect = FormulaEffect(file.source);
+    for (std::size_t i = 0; i < file.parameter_origins.size(); ++i)
+      CheckTypical(file.source.parameters[i], file.parameter_origins[i].place);
+    return effect;
   } catch (const FormulaError& e) {
     throw AsInputError(e, file);
   }

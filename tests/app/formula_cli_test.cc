@@ -61,6 +61,20 @@ TEST_F(FormulaCli, AFormulaThatIsNoNumberIsNamedWithWhereThatIs) {
   EXPECT_EQ(run.err.find("leg law"), std::string::npos) << run.err;
 }
 
+TEST_F(FormulaCli, ATypicalSizeBeyondTheBoundsIsRefused) {
+  for (const char* typical : {"201", "-2"}) {
+    std::string text = kCable;
+    text.replace(text.find("typical: 2"), 10, std::string("typical: ") + typical);
+    WriteText(temp_.path() / "cable.yaml", text);
+    const ProcessResult run = Hoplab({"effects", "cable.yaml"});
+    EXPECT_EQ(run.exit_code, 65);
+    EXPECT_NE(run.err.find("cable.yaml:6: parameters.k.typical = " + std::string(typical) +
+                           "; leads out of its bounds [0, 200]"),
+              std::string::npos)
+        << run.err;
+  }
+}
+
 TEST_F(FormulaCli, AScenarioTakesAFileByOptionAndByKey) {
   WriteScenario(temp_.path());
   const ProcessResult by_option =
