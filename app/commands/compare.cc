@@ -26,20 +26,37 @@ void CheckTruth(const std::map<std::string, double>& truth, const LawComparison&
   }
 }
 
+// Laws and effects of the models were told by `--variant`: a message speaks of it.
+InputError OfVariant(const InputError& error) {
+  InputError::Parts parts = error.parts();
+  if (parts.place == "--law" || parts.place == "--with") parts.place = "--variant";
+  return InputError(parts);
+}
+
+LawComparison Compared(const Dataset& dataset, const std::vector<ComparedModel>& models,
+                       const CompareSettings& settings, Progress& progress) {
+  FitOptions fit;
+  fit.jobs = JobsOf(settings.problem.jobs);
+  const auto step = [&](int done) {
+    progress.Step(
+        "fitting each model: " + std::to_string(done) + " of " + std::to_string(models.size()),
+        done, static_cast<long>(models.size()));
+  };
+  try {
+    return CompareLaws(dataset, models, ProblemOptionsOf(settings.problem), fit,
+                       Segmentation::kAuto, step);
+  } catch (const InputError& error) {
+    throw OfVariant(error);
+  }
+}
+
 ExitCode RunCompare(const CompareSettings& settings, Console& console) {
   const Dataset dataset = ReadDataset(settings.problem.dataset);
   const std::map<std::string, double> truth = ParseAssignments(settings.truth, "--true");
-  FitOptions fit;
-  fit.jobs = JobsOf(settings.problem.jobs);
   Progress progress(console, settings.quiet);
   progress.Stage("fitting each model");
   const std::vector<ComparedModel> models = ComparedModels(settings, dataset);
-  const LawComparison comparison = CompareLaws(
-      dataset, models, ProblemOptionsOf(settings.problem), fit, Segmentation::kAuto, [&](int done) {
-        progress.Step(
-            "fitting each model: " + std::to_string(done) + " of " + std::to_string(models.size()),
-            done, static_cast<long>(models.size()));
-      });
+  const LawComparison comparison = Compared(dataset, models, settings, progress);
   progress.Clear();
   CheckTruth(truth, comparison);
   if (!settings.json) {
