@@ -92,6 +92,15 @@ TEST(BadDataset, ANumberWithAUnitBehindItIsNoNumber) {
       "Pa. Write a number such as 0.09 or 22e9, without unit.");
 }
 
+TEST(BadDataset, ADecimalCommaIsToldAsOne) {
+  EXPECT_EQ(ErrorWithYaml("E_Pa: 22e9", "E_Pa: 2,2e10"),
+            "hops/dataset.yaml:9: mechanism.leg.E_Pa = 2,2e10; is not a number; must be in "
+            "(0, 1e13] Pa. The decimal sign is a point: 2.2e10.");
+  EXPECT_EQ(ErrorWithYaml("{sigma: 0.001}", "{sigma: 0,001}"),
+            "hops/dataset.yaml:15: channels.body_x_m.001; is a number where a key is wanted. The "
+            "decimal sign is a point; a comma in braces begins the next key.");
+}
+
 TEST(BadDataset, AListWhereANumberIsWantedIsOfTheWrongType) {
   EXPECT_EQ(ErrorWithYaml("E_Pa: 22e9", "E_Pa: [21e9, 22e9]"),
             "hops/dataset.yaml:9: mechanism.leg.E_Pa = (a list); must be one number; must be in "
