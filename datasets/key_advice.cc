@@ -76,6 +76,9 @@ std::optional<KeyAdvice> WrongUnitAdvice(std::string_view key,
 }
 
 KeyAdvice UnknownKeyAdvice(std::string_view key, const std::vector<std::string>& known) {
+  if (ParseDouble(key))
+    return {"is a number where a key is wanted",
+            "The decimal sign is a point; a comma in braces begins the next key."};
   if (const auto advice = WrongUnitAdvice(key, known)) return *advice;
   return {"unknown key", DidYouMean(key, known)};
 }

@@ -202,7 +202,7 @@ class DatasetReader {
     trial.initial = ReadOver(item, "initial", root.Find("initial"), ReadState);
     trial.initial_sigma =
         ReadOver(item, "initial_sigma", root.Find("initial_sigma"), ReadStateSigma);
-    if (trial.initial) CheckStart(item, *trial.initial, trial.mechanism.type);
+    if (trial.initial) CheckStart(item, *trial.initial, trial.mechanism);
     CheckDriven(item, trial);
     return trial;
   }

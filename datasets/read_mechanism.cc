@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "base/text.h"
 #include "datasets/key_advice.h"
+#include "datasets/mechanism_ranges.h"
 #include "datasets/read_robot.h"
 #include "datasets/read_spec.h"
 
@@ -16,10 +17,6 @@ using Names = std::vector<std::string>;
 
 const Names kSectionByStrip = {"width_m", "thickness_m"};
 const Names kSectionByMoments = {"second_moment_m4", "area_m2"};
-
-constexpr Range kLength = Positive(100, "m");
-constexpr Range kDamping = NonNegative(1e6, "N s/m");
-constexpr Range kFraction = NonNegative(1, "");
 
 bool Has(const YamlCursor& cursor, const Names& keys) {
   return std::any_of(keys.begin(), keys.end(),
@@ -69,41 +66,41 @@ void ReadSection(const YamlCursor& cursor, CLegSpec* leg) {
     leg->thickness_m = thickness;
     leg->second_moment_m4 = width * thickness * thickness * thickness / 12;
     leg->area_m2 = width * thickness;
-    const Range moment = Positive(1e3, "m^4");
+    const Range& moment = stated::kSecondMoment;
     if (!moment.Contains(leg->second_moment_m4))
       cursor.FailAtKey("width_m thickness_m^3 / 12 must be in " + moment.Text(),
                        "Check the unit: m is meant.");
   } else {
-    leg->second_moment_m4 = cursor.RequiredNumber("second_moment_m4", Positive(1e3, "m^4"));
-    leg->area_m2 = cursor.RequiredNumber("area_m2", Positive(100, "m^2"));
+    leg->second_moment_m4 = cursor.RequiredNumber("second_moment_m4", stated::kSecondMoment);
+    leg->area_m2 = cursor.RequiredNumber("area_m2", stated::kArea);
   }
 }
 
 CLegSpec ReadCLeg(const YamlCursor& cursor) {
   CLegSpec leg;
-  leg.rest_radius_m = cursor.RequiredNumber("rest_radius_m", kLength);
-  leg.E_Pa = cursor.RequiredNumber("E_Pa", kModulus);
-  leg.G_Pa = cursor.RequiredNumber("G_Pa", kModulus);
+  leg.rest_radius_m = cursor.RequiredNumber("rest_radius_m", stated::kLength);
+  leg.E_Pa = cursor.RequiredNumber("E_Pa", stated::kModulus);
+  leg.G_Pa = cursor.RequiredNumber("G_Pa", stated::kModulus);
   ReadSection(cursor, &leg);
   leg.shear_factor =
-      cursor.OptionalNumber("shear_factor", Positive(10, "")).value_or(leg.shear_factor);
-  leg.damping_N_s_per_m = cursor.RequiredNumber("damping_N_s_per_m", kDamping);
+      cursor.OptionalNumber("shear_factor", stated::kShearFactor).value_or(leg.shear_factor);
+  leg.damping_N_s_per_m = cursor.RequiredNumber("damping_N_s_per_m", stated::kDamping);
   return leg;
 }
 
 StraightLegSpec ReadStraightLeg(const YamlCursor& cursor) {
   StraightLegSpec leg;
-  leg.rest_length_m = cursor.RequiredNumber("rest_length_m", kLength);
-  leg.stiffness_N_per_m = cursor.RequiredNumber("stiffness_N_per_m", Positive(1e9, "N/m"));
-  leg.damping_N_s_per_m = cursor.RequiredNumber("damping_N_s_per_m", kDamping);
+  leg.rest_length_m = cursor.RequiredNumber("rest_length_m", stated::kLength);
+  leg.stiffness_N_per_m = cursor.RequiredNumber("stiffness_N_per_m", stated::kStiffness);
+  leg.damping_N_s_per_m = cursor.RequiredNumber("damping_N_s_per_m", stated::kDamping);
   return leg;
 }
 
 BallSpec ReadBall(const YamlCursor& cursor) {
   BallSpec ball;
-  ball.radius_m = cursor.RequiredNumber("radius_m", kLength);
-  ball.restitution = cursor.RequiredNumber("restitution", kFraction);
-  ball.tangential_loss = cursor.RequiredNumber("tangential_loss", kFraction);
+  ball.radius_m = cursor.RequiredNumber("radius_m", stated::kLength);
+  ball.restitution = cursor.RequiredNumber("restitution", stated::kFraction);
+  ball.tangential_loss = cursor.RequiredNumber("tangential_loss", stated::kFraction);
   return ball;
 }
 
@@ -130,7 +127,7 @@ void ReadLegOptions(const YamlCursor& cursor, MechanismSpec* mechanism) {
   if (const auto liftoff = cursor.Optional("liftoff"))
     mechanism->liftoff = static_cast<LiftoffRule>(liftoff->Choice({"zero_force", "rest_length"}));
   mechanism->fall_height_m = cursor.OptionalNumber("fall_height_m", NonNegative(100, "m"));
-  mechanism->toe_mass_kg = cursor.OptionalNumber("toe_mass_kg", NonNegative(1e6, "kg"));
+  mechanism->toe_mass_kg = cursor.OptionalNumber("toe_mass_kg", stated::kToeMass);
   if (mechanism->toe_mass_kg.value_or(0) > 0 && mechanism->liftoff == LiftoffRule::kRestLength)
     cursor.Required("liftoff", "")
         .Fail(
@@ -144,8 +141,8 @@ void ReadLegOptions(const YamlCursor& cursor, MechanismSpec* mechanism) {
                          "Add toe_mass_kg or remove this block.");
   placement->AllowOnly({"kp_N_m_per_rad", "kd_N_m_s_per_rad"});
   mechanism->placement =
-      PlacementSpec{placement->RequiredNumber("kp_N_m_per_rad", NonNegative(1e6, "N m/rad")),
-                    placement->RequiredNumber("kd_N_m_s_per_rad", NonNegative(1e6, "N m s/rad"))};
+      PlacementSpec{placement->RequiredNumber("kp_N_m_per_rad", stated::kMotorKp),
+                    placement->RequiredNumber("kd_N_m_s_per_rad", stated::kMotorKd)};
 }
 
 YamlNode MergeMechanism(const YamlNode& base, const YamlNode& overlay) {
@@ -169,8 +166,8 @@ MechanismSpec ReadRobotMechanism(const YamlCursor& cursor) {
   cursor.AllowOnly(known);
   MechanismSpec mechanism;
   mechanism.type = MechanismKind::kRobot;
-  mechanism.body_mass_kg = cursor.RequiredNumber("body_mass_kg", Positive(1e6, "kg"));
-  mechanism.gravity_m_per_s2 = cursor.RequiredNumber("gravity_m_per_s2", Positive(1e3, "m/s^2"));
+  mechanism.body_mass_kg = cursor.RequiredNumber("body_mass_kg", stated::kMass);
+  mechanism.gravity_m_per_s2 = cursor.RequiredNumber("gravity_m_per_s2", stated::kGravity);
   mechanism.fall_height_m = cursor.OptionalNumber("fall_height_m", NonNegative(100, "m"));
   mechanism.robot = ReadRobot(cursor);
   return mechanism;
@@ -189,8 +186,8 @@ MechanismSpec ReadMechanism(const YamlCursor& cursor) {
   Names known = {"type", "body_mass_kg", "gravity_m_per_s2", "guide", block_key};
   if (!is_ball) known.insert(known.end(), {"liftoff", "fall_height_m", "toe_mass_kg", "placement"});
   cursor.AllowOnly(known);
-  mechanism.body_mass_kg = cursor.RequiredNumber("body_mass_kg", Positive(1e6, "kg"));
-  mechanism.gravity_m_per_s2 = cursor.RequiredNumber("gravity_m_per_s2", Positive(1e3, "m/s^2"));
+  mechanism.body_mass_kg = cursor.RequiredNumber("body_mass_kg", stated::kMass);
+  mechanism.gravity_m_per_s2 = cursor.RequiredNumber("gravity_m_per_s2", stated::kGravity);
   if (const auto guide = cursor.Optional("guide"))
     mechanism.on_guide = guide->Choice({"none", "vertical"}) == 1;
   const YamlCursor block =

@@ -2,21 +2,20 @@
 
 #include "base/input_error.h"
 #include "base/range.h"
+#include "datasets/mechanism_ranges.h"
 #include "datasets/read_spec.h"
 
 namespace hoplab {
 namespace {
 
 constexpr std::size_t kMostLegs = 4;
-constexpr Range kPlace = Within(100, "m");
-constexpr Range kAngle = Within(1e3, "rad");
 
 // [x, y]
 void ReadPlace(const YamlCursor& cursor, double& x, double& y) {
   const std::vector<YamlCursor> items = cursor.Items(2);
   if (items.size() != 2) cursor.Fail("must be two numbers, [x, y]", "Remove the others.");
-  x = items[0].Number(kPlace);
-  y = items[1].Number(kPlace);
+  x = items[0].Number(stated::kPlace);
+  y = items[1].Number(stated::kPlace);
 }
 
 std::vector<double> ReadNumbers(const YamlCursor& cursor, const Range& range) {
@@ -28,9 +27,9 @@ std::vector<double> ReadNumbers(const YamlCursor& cursor, const Range& range) {
 void ReadMotor(const YamlCursor& motor, RobotSpec& robot) {
   motor.AllowOnly(
       {"rotor_inertia_kg_m2", "kp_N_m_per_rad", "kd_N_m_s_per_rad", "torque_limit_N_m"});
-  robot.rotor_inertia_kg_m2 = motor.RequiredNumber("rotor_inertia_kg_m2", Positive(1e3, "kg m^2"));
-  robot.kp_N_m_per_rad = motor.RequiredNumber("kp_N_m_per_rad", NonNegative(1e6, "N m/rad"));
-  robot.kd_N_m_s_per_rad = motor.RequiredNumber("kd_N_m_s_per_rad", NonNegative(1e6, "N m s/rad"));
+  robot.rotor_inertia_kg_m2 = motor.RequiredNumber("rotor_inertia_kg_m2", stated::kRotorInertia);
+  robot.kp_N_m_per_rad = motor.RequiredNumber("kp_N_m_per_rad", stated::kMotorKp);
+  robot.kd_N_m_s_per_rad = motor.RequiredNumber("kd_N_m_s_per_rad", stated::kMotorKd);
   robot.torque_limit_N_m = motor.OptionalNumber("torque_limit_N_m", Positive(1e6, "N m"));
 }
 
@@ -53,12 +52,12 @@ void AllowKeysOf(const YamlCursor& leg, bool straight) {
 }
 
 void ReadStraightLeg(const YamlCursor& leg, RobotSpec& robot) {
-  robot.rest_length_m = leg.RequiredNumber("rest_length_m", Positive(100, "m"));
-  robot.stiffness_N_per_m = leg.RequiredNumber("stiffness_N_per_m", Positive(1e9, "N/m"));
+  robot.rest_length_m = leg.RequiredNumber("rest_length_m", stated::kLength);
+  robot.stiffness_N_per_m = leg.RequiredNumber("stiffness_N_per_m", stated::kStiffness);
   robot.lateral_stiffness_N_per_m =
-      leg.RequiredNumber("lateral_stiffness_N_per_m", Positive(1e9, "N/m"));
-  robot.material_damping_s = leg.RequiredNumber("material_damping_s", NonNegative(0.1, "s"));
-  robot.leg_mass_kg = leg.OptionalNumber("mass_kg", NonNegative(1e3, "kg")).value_or(0);
+      leg.RequiredNumber("lateral_stiffness_N_per_m", stated::kStiffness);
+  robot.material_damping_s = leg.RequiredNumber("material_damping_s", stated::kMaterialDamping);
+  robot.leg_mass_kg = leg.OptionalNumber("mass_kg", stated::kLegMass).value_or(0);
 }
 
 void ReadLeg(const YamlCursor& leg, RobotSpec& robot) {
@@ -66,23 +65,22 @@ void ReadLeg(const YamlCursor& leg, RobotSpec& robot) {
   robot.straight_legs = type && type->Choice({"arc", "straight"}) == 1;
   AllowKeysOf(leg, robot.straight_legs);
   if (robot.straight_legs) return ReadStraightLeg(leg, robot);
-  robot.rest_radius_m = leg.RequiredNumber("rest_radius_m", Positive(100, "m"));
-  robot.E_Pa = leg.RequiredNumber("E_Pa", kModulus);
-  robot.material_damping_s = leg.RequiredNumber("material_damping_s", NonNegative(0.1, "s"));
-  robot.clamp_m =
-      leg.OptionalNumber("clamp_m", NonNegative(2 * robot.rest_radius_m, "m")).value_or(0);
-  robot.leg_mass_kg = leg.OptionalNumber("mass_kg", NonNegative(1e3, "kg")).value_or(0);
+  robot.rest_radius_m = leg.RequiredNumber("rest_radius_m", stated::kLength);
+  robot.E_Pa = leg.RequiredNumber("E_Pa", stated::kModulus);
+  robot.material_damping_s = leg.RequiredNumber("material_damping_s", stated::kMaterialDamping);
+  robot.clamp_m = leg.OptionalNumber("clamp_m", stated::Clamp(robot.rest_radius_m)).value_or(0);
+  robot.leg_mass_kg = leg.OptionalNumber("mass_kg", stated::kLegMass).value_or(0);
   if (leg.Optional("second_moment_m4")) {
     if (const auto strip = leg.Optional("width_m"))
       strip->FailAtKey("the section is given by second_moment_m4 already",
                        "Remove one of the two.");
-    robot.second_moment_m4 = leg.RequiredNumber("second_moment_m4", Positive(1e3, "m^4"));
+    robot.second_moment_m4 = leg.RequiredNumber("second_moment_m4", stated::kSecondMoment);
     return;
   }
   const double width = leg.RequiredNumber("width_m", Positive(10, "m"));
   const double thickness = leg.RequiredNumber("thickness_m", Positive(10, "m"));
   robot.second_moment_m4 = width * thickness * thickness * thickness / 12;
-  if (!Positive(1e3, "m^4").Contains(robot.second_moment_m4))
+  if (!stated::kSecondMoment.Contains(robot.second_moment_m4))
     leg.FailAtKey("width_m thickness_m^3 / 12 must be positive", "Check the unit: m is meant.");
 }
 
@@ -103,10 +101,10 @@ const std::vector<std::string>& RobotKeys() {
 RobotSpec ReadRobot(const YamlCursor& mechanism) {
   RobotSpec robot;
   robot.pitch_inertia_kg_m2 =
-      mechanism.RequiredNumber("pitch_inertia_kg_m2", Positive(1e6, "kg m^2"));
+      mechanism.RequiredNumber("pitch_inertia_kg_m2", stated::kPitchInertia);
   if (const auto com = mechanism.Optional("centre_of_mass_m"))
     ReadPlace(*com, robot.com_x_m, robot.com_y_m);
-  robot.friction = mechanism.OptionalNumber("friction", NonNegative(1e3, ""));
+  robot.friction = mechanism.OptionalNumber("friction", stated::kFriction);
   robot.pitch_limit_rad = mechanism.OptionalNumber("pitch_limit_rad", Positive(3.1, "rad"));
   ReadMotor(mechanism.Required("motor", "a block with rotor_inertia_kg_m2 and the gains"), robot);
   ReadLeg(mechanism.Required("leg",
@@ -123,7 +121,7 @@ RobotSpec ReadRobot(const YamlCursor& mechanism) {
     if (const auto modulus = item.Optional("E_Pa"); modulus && robot.straight_legs)
       modulus->FailAtKey("is of a half circle, and these legs are straight",
                          "Remove it: straight legs are alike but for the effect leg_stiffness_1.");
-    leg.E_Pa = item.OptionalNumber("E_Pa", kModulus);
+    leg.E_Pa = item.OptionalNumber("E_Pa", stated::kModulus);
     robot.legs.push_back(leg);
   }
   if (robot.legs.size() > kMostLegs)
@@ -139,7 +137,7 @@ MotorsSpec ReadMotors(const YamlCursor& cursor) {
   if (motors.kind == MotorControl::kRecorded) {
     cursor.AllowOnly({"type", "angles_rad", "rates_rad_per_s"});
     if (const auto angles = cursor.Optional("angles_rad"))
-      motors.angles_rad = ReadNumbers(*angles, kAngle);
+      motors.angles_rad = ReadNumbers(*angles, stated::kAngle);
     if (const auto rates = cursor.Optional("rates_rad_per_s")) {
       motors.rates_rad_per_s = ReadNumbers(*rates, Within(1e4, "rad/s"));
       if (motors.rates_rad_per_s.size() != motors.angles_rad.size())
@@ -151,16 +149,16 @@ MotorsSpec ReadMotors(const YamlCursor& cursor) {
   if (motors.kind != MotorControl::kClock) {
     cursor.AllowOnly({"type", "angles_rad"});
     motors.angles_rad =
-        ReadNumbers(cursor.Required("angles_rad", "a list, one angle a leg"), kAngle);
+        ReadNumbers(cursor.Required("angles_rad", "a list, one angle a leg"), stated::kAngle);
     return motors;
   }
   cursor.AllowOnly({"type", "period_s", "duty", "sweep_rad", "offset_rad", "phases"});
-  motors.period_s = cursor.RequiredNumber("period_s", Positive(1e3, "s"));
-  motors.duty = cursor.RequiredNumber("duty", Range{0, 1, false, false, ""});
-  motors.sweep_rad = cursor.RequiredNumber("sweep_rad", Range{0, 6.2831853, false, false, "rad"});
-  motors.offset_rad = cursor.OptionalNumber("offset_rad", kAngle).value_or(0);
+  motors.period_s = cursor.RequiredNumber("period_s", stated::kPeriod);
+  motors.duty = cursor.RequiredNumber("duty", stated::kDuty);
+  motors.sweep_rad = cursor.RequiredNumber("sweep_rad", stated::kSweep);
+  motors.offset_rad = cursor.OptionalNumber("offset_rad", stated::kAngle).value_or(0);
   motors.phases =
-      ReadNumbers(cursor.Required("phases", "a list, one share of a turn a leg"), Within(1e3, ""));
+      ReadNumbers(cursor.Required("phases", "a list, one share of a turn a leg"), stated::kPhase);
   return motors;
 }
 

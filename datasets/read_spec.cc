@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "datasets/key_advice.h"
+#include "datasets/mechanism_ranges.h"
 #include "datasets/read_robot.h"
 
 namespace hoplab {
@@ -14,8 +15,8 @@ ControllerSpec ReadController(const YamlCursor& cursor) {
     return controller;
   }
   cursor.AllowOnly({"kp_N_s", "v_des_m_per_s", "torque_limit_N_m"});
-  controller.kp_N_s = cursor.RequiredNumber("kp_N_s", NonNegative(1e6, "N s"));
-  controller.v_des_m_per_s = cursor.RequiredNumber("v_des_m_per_s", Within(1e3, "m/s"));
+  controller.kp_N_s = cursor.RequiredNumber("kp_N_s", stated::kSpeedGain);
+  controller.v_des_m_per_s = cursor.RequiredNumber("v_des_m_per_s", stated::kSpeed);
   controller.torque_limit_N_m = cursor.OptionalNumber("torque_limit_N_m", Positive(1e6, "N m"));
   return controller;
 }
@@ -43,7 +44,12 @@ StateSpec ReadState(const YamlCursor& cursor) {
   return state;
 }
 
-void CheckStart(const YamlCursor& owner, const StateSpec& start, MechanismKind type) {
+void CheckStart(const YamlCursor& owner, const StateSpec& start, const MechanismSpec& mechanism) {
+  const MechanismKind type = mechanism.type;
+  if (mechanism.on_guide && start.vx_m_per_s != 0)
+    owner.FailAtKey("begins with vx_m_per_s = " + FormatDouble(start.vx_m_per_s) +
+                        ", and a vertical guide holds the body along the ground",
+                    "Write vx_m_per_s: 0, or guide: none.");
   if (start.mode == StartMode::kFlight) return;
   const std::string rule = type == MechanismKind::kBall ? "a ball has no stance to begin in"
                                                         : "a straight leg neither rolls nor has "

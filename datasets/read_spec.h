@@ -11,9 +11,6 @@
 
 namespace hoplab {
 
-/// What Young's and the shear modulus must lie in.
-inline constexpr Range kModulus = Positive(1e13, "Pa");
-
 // The blocks that datasets and scenarios share. Each throws InputError for a missing, unknown or
 // misspelt key, a value of the wrong type or outside its range.
 
@@ -24,8 +21,9 @@ StateSpec ReadState(const YamlCursor& cursor);
 StateSpec ReadStateSigma(const YamlCursor& cursor);
 /// "flight", "rolling", "toe", "stance", in the order of StartMode.
 const std::vector<std::string>& StartModeNames();
-/// Throws, at `owner`, for a start in a mode the mechanism does not have.
-void CheckStart(const YamlCursor& owner, const StateSpec& start, MechanismKind type);
+/// Throws, at `owner`, for a start in a mode the mechanism does not have, or along the ground where
+/// a guide holds it.
+void CheckStart(const YamlCursor& owner, const StateSpec& start, const MechanismSpec& mechanism);
 /// What an angle of a touch-down may be.
 Range TouchdownAngleRange(MechanismKind type);
 /// `touchdown_angle_deg` of `owner`, in rad; required but for a ball (0 without).

@@ -144,7 +144,7 @@ Scenario ReadRun(const YamlCursor& root) {
   scenario.start_angle_rad = ReadStartAngle(root, scenario);
   if (const auto initial = root.Optional("initial")) {
     scenario.initial = ReadState(*initial);
-    CheckStart(*initial, *scenario.initial, scenario.mechanism.type);
+    CheckStart(*initial, *scenario.initial, scenario.mechanism);
   }
   CheckDriven(root, scenario);
   if (const auto stop = root.Optional("stop")) scenario.stop = ReadStop(*stop);

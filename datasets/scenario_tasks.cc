@@ -114,6 +114,7 @@ GenerateTrial ReadGenerateTrial(const YamlCursor& item, const YamlNode& root,
   CheckMotors(item, trial.mechanism, trial.controller, trial.initial);
   if (!trial.initial)
     item.Fail("must have an initial state, here or in the scenario", "Add initial: {x_m: 0, ...}.");
+  CheckStart(item, *trial.initial, trial.mechanism);
   return trial;
 }
 

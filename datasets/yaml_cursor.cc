@@ -26,6 +26,17 @@ std::string Shown(const YamlNode& node) {
   return "";
 }
 
+// What to write in place of a text that is no number: the same with a point for a decimal comma.
+std::string NumberRemedy(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma != text.npos) {
+    std::string pointed = text;
+    pointed[comma] = '.';
+    if (ParseDouble(pointed)) return "The decimal sign is a point: " + Printable(pointed) + ".";
+  }
+  return "Write a number such as 0.09 or 22e9, without unit.";
+}
+
 }  // namespace
 
 std::string YamlCursor::Path(std::string_view key) const {
@@ -81,8 +92,7 @@ double YamlCursor::Number(const Range& range) const {
   if (node_->kind != Kind::kScalar)
     Fail("must be one number; " + rule, "Write a single number here.");
   const std::optional<double> value = ParseDouble(node_->text);
-  if (!value)
-    Fail("is not a number; " + rule, "Write a number such as 0.09 or 22e9, without unit.");
+  if (!value) Fail("is not a number; " + rule, NumberRemedy(node_->text));
   if (!range.Contains(*value)) Fail(rule, RangeRemedy(*value, range));
   return *value;
 }

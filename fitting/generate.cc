@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "fitting/generated_channels.h"
 #include "fitting/model_of_spec.h"
+#include "fitting/run_end.h"
 #include "model/pose_filter.h"
 
 namespace hoplab {
@@ -227,8 +228,8 @@ Trajectory RunOf(const Recording& r, const GenerateTrial& plan, const StateSpec&
 }
 
 // How many rows the run has, some of their channels at least; a note where it ends before its time.
-std::size_t RowsOf(const Recording& r, const GenerateTrial& plan, const Trajectory& run,
-                   std::vector<std::string>& notes) {
+std::size_t RowsOf(const Recording& r, const GenerateTrial& plan, const StateSpec& truth,
+                   const Trajectory& run, std::vector<std::string>& notes) {
   const auto has_samples = [&](std::size_t row) {
     const auto first = run.samples.begin() + static_cast<std::ptrdiff_t>(row * r.wanted.size());
     return std::any_of(first, first + static_cast<std::ptrdiff_t>(r.wanted.size()),
@@ -237,7 +238,7 @@ std::size_t RowsOf(const Recording& r, const GenerateTrial& plan, const Trajecto
   std::size_t rows = 0;
   while (rows < r.times.size() && r.times[rows] <= run.end_time && has_samples(rows)) ++rows;
   const std::string end =
-      std::string(SentenceOf(run.outcome)) + " at " + FormatDouble(run.end_time) + " s";
+      WhyEnded(run, r.effects, InitialOf(truth)) + " at " + FormatDouble(run.end_time) + " s";
   if (rows < 2) {
     throw InputError({r.scenario.origin.place, plan.file,
                       "cannot be generated: the simulation " + end,
@@ -296,7 +297,7 @@ Trial RecordTrial(const Recording& r, const GenerateTrial& plan, std::size_t i,
   const Scenario& scenario = r.scenario;
   const StateSpec truth = plan.initial ? *plan.initial : RequireInitial(scenario);
   const Trajectory run = RunOf(r, plan, truth);
-  const std::size_t rows = RowsOf(r, plan, run, notes);
+  const std::size_t rows = RowsOf(r, plan, truth, run, notes);
   Trial trial;
   trial.file = plan.file;
   trial.role = plan.role;
@@ -312,7 +313,9 @@ Trial RecordTrial(const Recording& r, const GenerateTrial& plan, std::size_t i,
   WriteInputs(scenario, r.inputs, r.Stream(i, 997), trial);
   trial.initial = truth;
   if (scenario.dataset && scenario.dataset->initial_sigma) {
-    trial.initial = StatedStart(truth, *scenario.dataset->initial_sigma, r.Stream(i, 999));
+    StateSpec known = *scenario.dataset->initial_sigma;
+    if (trial.mechanism.on_guide) known.vx_m_per_s = kFreeSigma;  // a guide leaves no doubt of it
+    trial.initial = StatedStart(truth, known, r.Stream(i, 999));
     trial.initial_sigma = scenario.dataset->initial_sigma;
   }
   return trial;

@@ -217,11 +217,27 @@ InputError AsInputError(const FormulaError& e, const EffectFile& file) {
   return InputError({file.origin.place, "", e.rule(), e.remedy()});
 }
 
+// The typical size counts from the null; of what only shapes the formula it has no sign.
+void CheckTypical(const FormulaParameter& p, const std::string& place) {
+  if (!p.typical) return;
+  const double size = *p.typical;
+  const bool within = p.null ? *p.null + size >= p.lower && *p.null + size <= p.upper
+                             : std::abs(size) <= p.upper - p.lower;
+  if (within) return;
+  throw InputError(
+      {place, "parameters." + p.name + ".typical = " + FormatDouble(size),
+       "leads out of its bounds [" + FormatDouble(p.lower) + ", " + FormatDouble(p.upper) + "]",
+       "Move the bounds, or give a smaller size."});
+}
+
 }  // namespace
 
 const Effect& EffectOfFile(const EffectFile& file) {
   try {
-    return FormulaEffect(file.source);
+    const Effect& effect = FormulaEffect(file.source);
+    for (std::size_t i = 0; i < file.parameter_origins.size(); ++i)
+      CheckTypical(file.source.parameters[i], file.parameter_origins[i].place);
+    return effect;
   } catch (const FormulaError& e) {
     throw AsInputError(e, file);
   }
@@ -282,6 +298,16 @@ EffectSetting AtTypical(const Effect& effect) {
 }
 }  // namespace
 
+void CheckEffectValue(const Effect& effect, int parameter, double value, const std::string& name,
+                      const std::string& place) {
+  const EffectParameter& info = effect.info.parameters[static_cast<std::size_t>(parameter)];
+  if (value >= info.lower && value <= info.upper) return;
+  throw InputError({place, name + " = " + FormatDouble(value),
+                    "must be in [" + FormatDouble(info.lower) + ", " + FormatDouble(info.upper) +
+                        "] " + std::string(info.unit),
+                    ""});
+}
+
 std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,
                                           LegMass mass, InputSet inputs, RobotLegs robot_legs) {
   std::vector<EffectSetting> settings;
@@ -299,14 +325,8 @@ std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, 
         throw InputError({given.origin.place, spec.name + "." + Printable(given.name),
                           "is not a parameter of this effect", DidYouMean(given.name, known)});
       }
-      const EffectParameter& info = effect.info.parameters[*index];
-      if (!(given.value >= info.lower && given.value <= info.upper)) {
-        throw InputError({given.origin.place,
-                          spec.name + "." + given.name + " = " + FormatDouble(given.value),
-                          "must be in [" + FormatDouble(info.lower) + ", " +
-                              FormatDouble(info.upper) + "] " + std::string(info.unit),
-                          ""});
-      }
+      CheckEffectValue(effect, *index, given.value, spec.name + "." + given.name,
+                       given.origin.place);
       setting.values[*index] = given.value;
     }
     settings.push_back(setting);

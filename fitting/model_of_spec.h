@@ -45,6 +45,10 @@ RobotLegs RobotLegsOfSpec(const MechanismSpec& mechanism);
 void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string& place,
                   InputSet inputs = 0, RobotLegs robot_legs = {});
 
+/// Throws InputError, place `place`, for a value of an effect's parameter out of its bounds.
+void CheckEffectValue(const Effect& effect, int parameter, double value, const std::string& name,
+                      const std::string& place);
+
 /// Effects with their values as a scenario gives them; parameters not given stay null. Throws
 /// InputError for unknown names, values out of bounds, an effect that this law or leg cannot have.
 std::vector<EffectSetting> ResolveEffects(const std::vector<EffectSpec>& specs, Law law,

@@ -8,6 +8,7 @@
 #include "fitting/driven_trial.h"
 #include "fitting/model_of_spec.h"
 #include "fitting/robot_problem.h"
+#include "fitting/stated_range.h"
 #include "model/leg_compliance.h"
 
 namespace hoplab {
@@ -55,8 +56,10 @@ class SharedBuilder {
       const ParameterName split = SplitName(name);
       if (split.effect.empty()) {
         const ParameterId id = KnownParameter(name, "--fix");
-        CheckRange(name, value, InfoOf(id).lower, InfoOf(id).upper, InfoOf(id).unit, "--fix");
-        for (TrialProblem& t : problem_.trials) Field(t.parameters, id) = value;
+        for (TrialProblem& t : problem_.trials) {
+          CheckStatedValue(id, value, mechanism_, t.parameters, name, "--fix");
+          Field(t.parameters, id) = value;
+        }
       } else {
         const auto [index, component] = EffectParameterOf(split, "--fix");
         const EffectParameter& info = problem_.effects[index].effect->info.parameters[component];

@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "fitting/run_end.h"
 #include "model/mechanism_traits.h"
 
 namespace hoplab {
@@ -197,7 +198,10 @@ std::string TrialEvaluations::ReasonOf(int trial) const {
   std::snprintf(at, sizeof at, " at %.3f s", trajectory.end_time);
   const std::string of = trials_[i].file + ": ";
   if (!hoplab::IsComplete(trajectory.outcome))
-    return of + std::string(SentenceOf(trajectory.outcome)) + at;
+    return of + "the simulation " +
+           WhyEnded(trajectory, problem_.effects,
+                    {trials_[i].start.data(), static_cast<std::size_t>(trials_[i].start.size())}) +
+           at;
   return of + (evaluations_[i].evaluated ? "other contacts than the trace shows"
                                          : "residuals or derivatives that are no numbers");
 }

@@ -12,6 +12,9 @@ namespace {
 constexpr double kSlowCrossing = 1.0;  // 1/s
 constexpr double kNearMiss = 0.005;
 constexpr double kShortestStep = 1e-5;
+// How far a point may lie from where the tangent leads, in steps. Smooth branches stay within a
+// tenth of one and bends within one; a point farther off is another branch's.
+constexpr double kFarthest = 1.0;
 
 // Coordinates along a branch: the section's state and the parameter, over their sizes.
 class Follower {
@@ -40,19 +43,24 @@ class Follower {
       if (options_.stop && *options_.stop) return Ended(end, BranchEnd::kStopped, points);
       if (static_cast<int>(points.size()) >= options_.max_points)
         return Ended(end, BranchEnd::kPointLimit, points);
-      Eigen::VectorXd next = u + step * tangent;
+      const Eigen::VectorXd predicted = u + step * tangent;
+      Eigen::VectorXd next = predicted;
       FixedPoint found;
       int iterations = 0;
-      if (!Correct(tangent, next, found, iterations)) {
+      const bool corrected = Correct(tangent, next, found, iterations);
+      const bool lost = corrected && (next - predicted).norm() > kFarthest * step;
+      if (!corrected || lost) {
         step *= 0.5;
         if (step >= kShortestStep) continue;
         outcome = found.hop.outcome;
-        return Ended(end, found.hop.ok() ? BranchEnd::kNotConverged : BranchEnd::kHopFails, points);
+        return Ended(end,
+                     lost             ? BranchEnd::kLost
+                     : found.hop.ok() ? BranchEnd::kNotConverged
+                                      : BranchEnd::kHopFails,
+                     points);
       }
-      if (Parameter(next) < options_.low || Parameter(next) > options_.high) {
-        LastPoint(next[n_] > u[n_] ? options_.high : options_.low, found.state, points);
-        return Ended(end, BranchEnd::kRange, points);
-      }
+      if (Parameter(next) < options_.low || Parameter(next) > options_.high)
+        return Ended(end, LastPoint(u, next, points), points);
       const Eigen::VectorXd new_tangent = TangentAt(next);
       u = next;
       tangent = new_tangent.dot(tangent) < 0.0 ? Eigen::VectorXd(-new_tangent) : new_tangent;
@@ -150,10 +158,19 @@ class Follower {
     return options;
   }
 
-  void LastPoint(double p, const SectionState& near, std::vector<BranchPoint>& points) {
+  // The point between `u` and `next` at the end of the range that they pass.
+  BranchEnd LastPoint(const Eigen::VectorXd& u, const Eigen::VectorXd& next,
+                      std::vector<BranchPoint>& points) {
+    const double p = next[n_] > u[n_] ? options_.high : options_.low;
+    const double share = (p - Parameter(u)) / (Parameter(next) - Parameter(u));
+    const Eigen::VectorXd between = u + share * (next - u);
     SetValue(map_->hopper(), parameter_, p);
-    const FixedPoint found = FindFixedPoint(*map_, near, EnergyKept());
-    if (found.found()) points.push_back({.parameter = p, .fixed_point = found});
+    const FixedPoint found = FindFixedPoint(*map_, State(between), EnergyKept());
+    if (!found.found()) return BranchEnd::kNotConverged;
+    const double off = (Coordinates(found.state, p) - between).norm();
+    if (off > kFarthest * (next - u).norm()) return BranchEnd::kLost;
+    points.push_back({.parameter = p, .fixed_point = found});
+    return BranchEnd::kRange;
   }
 
   std::unique_ptr<ReturnMap> map_;
@@ -233,6 +250,8 @@ std::string_view NameOf(BranchEnd end) {
       return "hop_fails";
     case BranchEnd::kNotConverged:
       return "not_converged";
+    case BranchEnd::kLost:
+      return "branch_lost";
     case BranchEnd::kPointLimit:
       return "point_limit";
     case BranchEnd::kStopped:

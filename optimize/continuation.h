@@ -45,6 +45,7 @@ enum class BranchEnd {
   kRange,         // the end of the range
   kHopFails,      // the next hop falls, grazes, ...; `outcome` says which
   kNotConverged,  // no fixed point was found near the prediction, however short the step
+  kLost,          // what is found near the prediction is another branch's, however short the step
   kPointLimit,
   kStopped
 };

@@ -29,22 +29,40 @@ void CheckTruth(const std::map<std::string, double>& truth, const Dataset& datas
   }
 }
 
+// Laws and effects of the models were told by `--variant`: a message speaks of it.
+InputError OfVariant(const InputError& error) {
+  InputError::Parts parts = error.parts();
+  if (parts.place == "--law" || parts.place == "--with") parts.place = "--variant";
+  return InputError(parts);
+}
+
+LawComparison Compared(const Dataset& dataset, const std::vector<ComparedModel>& models,
+                       const CompareSettings& settings, Progress& progress) {
+  FitOptions fit;
+  fit.jobs = JobsOf(settings.problem.jobs);
+  const auto step = [&](int done) {
+    progress.Step(
+        "fitting each model: " + std::to_string(done) + " of " + std::to_string(models.size()),
+        done, static_cast<long>(models.size()));
+  };
+  return CompareLaws(dataset, models, ProblemOptionsOf(settings.problem), fit, Segmentation::kAuto,
+                     step);
+}
+
 ExitCode RunCompare(const CompareSettings& settings, Console& console) {
   const Dataset dataset = ReadDataset(settings.problem.dataset);
   const std::map<std::string, double> truth = ParseAssignments(settings.truth, "--true");
-  FitOptions fit;
-  fit.jobs = JobsOf(settings.problem.jobs);
-  const ProblemOptions options = ProblemOptionsOf(settings.problem);
   const std::vector<ComparedModel> models = ComparedModels(settings, dataset);
-  CheckTruth(truth, dataset, models, options);
   Progress progress(console, settings.quiet);
-  progress.Stage("fitting each model");
-  const LawComparison comparison =
-      CompareLaws(dataset, models, options, fit, Segmentation::kAuto, [&](int done) {
-        progress.Step(
-            "fitting each model: " + std::to_string(done) + " of " + std::to_string(models.size()),
-            done, static_cast<long>(models.size()));
-      });
+  const LawComparison comparison = [&] {
+    try {
+      CheckTruth(truth, dataset, models, ProblemOptionsOf(settings.problem));
+      progress.Stage("fitting each model");
+      return Compared(dataset, models, settings, progress);
+    } catch (const InputError& error) {
+      throw OfVariant(error);
+    }
+  }();
   progress.Clear();
   if (!settings.json) {
     console.out << LawComparisonReport(comparison, truth);

@@ -15,7 +15,7 @@ namespace {
 ExitCode RunReproduceCommand(const ReproduceSettings& settings, Console& console) {
   const Stopwatch watch;
   ReproductionRequest request = ReproductionRequestOf(settings);
-  const ScenarioDocument document = ScenarioDocumentOf(settings.constants);
+  const ScenarioDocument document = ConstantsOf(settings);
   request.study = StudyOfScenario(document.Read(), IntegratorOptionsOf(settings.solver));
   const std::string& name = request.study.constants.name;
   const RunFolder folder(RunFolderOptionsOf(settings), name, "reproduce");

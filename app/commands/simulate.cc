@@ -7,6 +7,7 @@
 #include "app/terminal/command.h"
 #include "app/terminal/stopwatch.h"
 #include "fitting/generate.h"
+#include "fitting/run_end.h"
 
 namespace hoplab {
 namespace {
@@ -34,7 +35,9 @@ ExitCode RunSimulate(const SimulateSettings& settings, Console& console) {
     console.out << "\n  run folder  " << written.string() << '\n';
   }
   const bool useless = IsUseless(run.outcome);
-  if (useless) console.err << "hoplab simulate: " << SentenceOf(run.outcome) << '\n';
+  if (useless)
+    console.err << "hoplab simulate: the run " << WhyEnded(run, request.effects, request.initial)
+                << '\n';
   return useless ? ExitCode::kNoResult : ExitCode::kDone;
 }
 

@@ -3,6 +3,7 @@
 #include "app/records/simulation_record.h"
 #include "app/records/solver_record.h"
 #include "app/records/trajectory_tables.h"
+#include "fitting/run_end.h"
 
 namespace hoplab {
 namespace {
@@ -36,7 +37,8 @@ Json ScenarioRunRecord(const SimulateSettings& settings, const Scenario& scenari
   Json record = NewSimulationRecord(settings, scenario, request.law);
   AddSimulation(request, run, settings.sensitivities, record);
   record["mechanism"] = MechanismRecord(request);
-  if (IsUseless(run.outcome)) SetFailed(record, std::string(SentenceOf(run.outcome)));
+  if (IsUseless(run.outcome))
+    SetFailed(record, "the run " + WhyEnded(run, request.effects, request.initial));
   return record;
 }
 

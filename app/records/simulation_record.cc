@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "fitting/run_end.h"
+
 namespace hoplab {
 namespace {
 
@@ -59,7 +61,7 @@ std::vector<std::pair<double, double>> ApexEnergies(const SimulationRequest& req
 void AddSimulation(const SimulationRequest& request, const Trajectory& run,
                    const std::vector<std::string>& direction_names, Json& record) {
   record["outcome"] = NameOf(run.outcome);
-  record["outcome_sentence"] = SentenceOf(run.outcome);
+  record["outcome_sentence"] = WhyEnded(run, request.effects, request.initial);
   record["end_time_s"] = NumberOrNull(run.end_time);
   record["hops"] = run.hops;
   Json state = {{"mode", NameOf(run.final_mode)}};

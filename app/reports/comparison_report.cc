@@ -128,13 +128,14 @@ std::vector<std::string> NamedLines(const std::string& title, const Json& entrie
                                     const std::string& name, const std::string& values,
                                     const auto& text_of) {
   std::size_t width = title.size();
-  for (const Json& entry : entries) width = std::max(width, Text(entry[name]).size());
+  for (const Json& entry : entries) width = std::max(width, DisplayWidth(Text(entry[name])));
   std::vector<std::string> lines = {"  " + title};
   for (const Json& entry : entries) {
     for (std::size_t i = 0; i < entry[values].size(); ++i) {
       const std::string begin =
           fmt::format("  {:<{}}  {}  ", i == 0 ? Text(entry[name]) : "", width, i + 1);
-      lines.push_back(begin + Wrapped(text_of(entry[values][i]), begin.size(), kReportWidth));
+      lines.push_back(begin +
+                      Wrapped(text_of(entry[values][i]), DisplayWidth(begin), kReportWidth));
     }
   }
   return lines;

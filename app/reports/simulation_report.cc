@@ -6,6 +6,7 @@
 #include "app/terminal/console.h"
 #include "app/terminal/quantity.h"
 #include "app/terminal/text_table.h"
+#include "fitting/run_end.h"
 
 namespace hoplab {
 
@@ -14,8 +15,8 @@ std::string SimulationReport(const std::string& name, const SimulationRequest& r
   using enum TextTable::Align;
   std::string text = Styled(name, Emphasis::kBold, colours) +
                      fmt::format("  law {}: {} at {} s, {} hop{}\n\n", NameOf(request.law),
-                                 SentenceOf(run.outcome), Fixed(run.end_time, 4), run.hops,
-                                 run.hops == 1 ? "" : "s");
+                                 WhyEnded(run, request.effects, request.initial),
+                                 Fixed(run.end_time, 4), run.hops, run.hops == 1 ? "" : "s");
   TextTable table({kRight, kLeft, kLeft, kRight, kRight, kRight, kRight, kRight});
   table.AddRow({"time s", "event", "to", "x m", "y m", "vx m/s", "vy m/s", "energy J"});
   const std::vector<std::pair<double, double>> energies = ApexEnergies(request, run);

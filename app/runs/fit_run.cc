@@ -30,7 +30,10 @@ std::vector<int> ProfileTargets(const FitProblem& problem, const std::vector<std
     if (at == names.end())
       throw InputError({"--profile", Printable(name), "is not a parameter of this fit",
                         DidYouMean(name, names)});
-    targets.push_back(static_cast<int>(at - names.begin()));
+    const int target = static_cast<int>(at - names.begin());
+    if (std::find(targets.begin(), targets.end(), target) != targets.end())
+      throw InputError({"--profile", name, "is named twice", "Name it once."});
+    targets.push_back(target);
   }
   return targets;
 }

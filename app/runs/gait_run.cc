@@ -8,6 +8,8 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "experiments/scenario_hopper.h"
+#include "fitting/model_of_spec.h"
+#include "fitting/stated_range.h"
 
 namespace hoplab {
 namespace {
@@ -98,9 +100,9 @@ std::string GaitRun::Failure() const {
     return "interrupted; what was not computed yet is left out";
   if (interrupted) return "interrupted; the branch ends where it was stopped";
   if (!HasStrides(hopper) && point.status == FixedPointStatus::kHopFails)
-    return "no hop can be made from the start: " + std::string(SentenceOf(point.hop.outcome));
+    return "no hop can be made from the start: it " + std::string(SentenceOf(point.hop.outcome));
   if (HasStrides(hopper) && !map)
-    return "the robot makes too few strides from its start: " +
+    return "the robot makes too few strides from its start: it " +
            std::string(SentenceOf(own_outcome)) +
            "; search its clock with `hoplab optimize`, or try another initial state";
   if (HasStrides(hopper) && !point.found())
@@ -137,6 +139,20 @@ void FindStride(GaitRun& run) {
   run.map = std::make_shared<StrideMap>(std::move(*steady.start.map));
 }
 
+// Both ends are what a scenario may state of what is followed.
+void CheckEnds(const Hopper& hopper, const AlongRange& along,
+               const SensitivityDirection& direction) {
+  for (const double end : {along.low, along.high}) {
+    if (direction.of == SensitivityDirection::Of::kEffect) {
+      const Effect& effect = *hopper.effects[static_cast<std::size_t>(direction.index)].effect;
+      CheckEffectValue(effect, direction.component, end, along.name, "--along");
+    } else {
+      CheckStatedValue(direction.parameter, end, MechanismOf(hopper.request.law),
+                       hopper.request.parameters, along.name, "--along");
+    }
+  }
+}
+
 // What is followed must lie in its range.
 std::optional<SensitivityDirection> DirectionAlong(const Hopper& hopper,
                                                    const std::optional<AlongRange>& along) {
@@ -146,6 +162,7 @@ std::optional<SensitivityDirection> DirectionAlong(const Hopper& hopper,
     throw InputError({"--along", along->name,
                       "is where a run starts, which a steady hop does not know of",
                       "Follow a parameter, as E or kp."});
+  CheckEnds(hopper, *along, direction);
   const double here = ValueOf(hopper, direction);
   if (here < along->low || here > along->high) {
     throw InputError({"--along", along->name + " = " + FormatDouble(here),

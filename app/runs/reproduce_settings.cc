@@ -1,5 +1,7 @@
 #include "app/runs/reproduce_settings.h"
 
+#include <filesystem>
+
 #include "base/input_error.h"
 #include "base/range.h"
 #include "base/text.h"
@@ -14,6 +16,19 @@ void CheckLength(const std::string& option, double value) {
         {option, FormatDouble(value), "must be in " + kLength.Text(), RangeRemedy(value, kLength)});
 }
 
+// The constants that come along lie in the project's folder, or where they were installed.
+std::string ConstantsFile(const std::string& said) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (said != kConstants || fs::exists(said, error)) return said;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed = program.parent_path().parent_path() / "share/hoplab" / kConstants;
+  if (fs::exists(installed, error)) return installed.string();
+  throw InputError({kConstants, "", "the constants of the study are not in this folder",
+                    "Run this in the project's folder, or give a scenario of your own, as "
+                    "--constants FILE."});
+}
+
 }  // namespace
 
 void AddReproduceOptions(CLI::App& sub, ReproduceSettings& settings) {
@@ -25,7 +40,8 @@ void AddReproduceOptions(CLI::App& sub, ReproduceSettings& settings) {
                      "); its start is that of table 6.5")
       ->option_text("FILE");
   sub.add_option("--set", settings.constants.set,
-                 "key=value over the constants, as mechanism.body_mass_kg=0.5; repeatable")
+                 "key=value over the constants, as mechanism.body_mass_kg=0.5; repeatable, of one "
+                 "key the last holds")
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false);
   sub.add_option("--law", settings.constants.law, "Another law than the constants have")
@@ -39,6 +55,12 @@ void AddReproduceOptions(CLI::App& sub, ReproduceSettings& settings) {
   AddJobsOption(sub, settings.jobs);
   AddSolverOptions(sub, settings.solver);
   AddRunFolderOptions(sub, settings, "Run folder (default runs/<constants>-reproduce-NNN)");
+}
+
+ScenarioDocument ConstantsOf(const ReproduceSettings& settings) {
+  ScenarioSettings constants = settings.constants;
+  constants.scenario = ConstantsFile(constants.scenario);
+  return ScenarioDocumentOf(constants);
 }
 
 ReproductionRequest ReproductionRequestOf(const ReproduceSettings& settings) {

@@ -22,6 +22,11 @@ struct ReproduceSettings : RunSettings {
 
 void AddReproduceOptions(CLI::App& sub, ReproduceSettings& settings);
 
+/// The constants with the options put over them. Those that come along are looked for in the
+/// project's folder and where they were installed. Throws as ScenarioDocumentOf, and InputError
+/// where they are in neither.
+ScenarioDocument ConstantsOf(const ReproduceSettings& settings);
+
 /// What to reproduce, but for the study. Throws InputError for an item or a length that cannot be.
 ReproductionRequest ReproductionRequestOf(const ReproduceSettings& settings);
 

@@ -40,7 +40,8 @@ void SetEffect(const std::string& text, ScenarioDocument& document) {
 void AddScenarioOptions(CLI::App& sub, ScenarioSettings& settings) {
   sub.add_option("SCENARIO", settings.scenario, "File of the format hoplab-scenario/1")->required();
   sub.add_option("--set", settings.set,
-                 "key=value over the file, as controller.kp_N_s=4; repeatable")
+                 "key=value over the file, as controller.kp_N_s=4; repeatable, of one key the "
+                 "last holds")
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false);
   sub.add_option("--with", settings.with,

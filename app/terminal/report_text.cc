@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "app/terminal/text_table.h"
+
 namespace hoplab {
 namespace {
 constexpr std::size_t kLabelWidth = 13;
@@ -16,7 +18,7 @@ std::string Wrapped(const std::string& text, std::size_t begin, std::size_t widt
   std::size_t column = begin;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
-    const std::size_t length = end - at;
+    const std::size_t length = DisplayWidth(std::string_view(text).substr(at, end - at));
     if (column > begin && column + 1 + length > width) {
       out += "\n" + std::string(begin, ' ');
       column = begin;
@@ -24,7 +26,7 @@ std::string Wrapped(const std::string& text, std::size_t begin, std::size_t widt
       out += ' ';
       ++column;
     }
-    out += text.substr(at, length);
+    out += text.substr(at, end - at);
     column += length;
     at = end + 1;
   }

@@ -4,6 +4,12 @@
 
 namespace hoplab {
 
+std::size_t DisplayWidth(std::string_view text) {
+  // Bytes that go on with a character are 10xxxxxx.
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; }));
+}
+
 std::vector<std::string> TextTable::Lines() const {
   const auto cell = [](const std::vector<std::string>& row, std::size_t c) {
     return c < row.size() ? row[c] : std::string();
@@ -12,7 +18,7 @@ std::vector<std::string> TextTable::Lines() const {
   std::vector<bool> used(columns_.size(), false);
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      width[c] = std::max(width[c], cell(rows_[r], c).size());
+      width[c] = std::max(width[c], DisplayWidth(cell(rows_[r], c)));
       used[c] = used[c] || (r > 0 && !cell(rows_[r], c).empty());
     }
   }
@@ -22,7 +28,7 @@ std::vector<std::string> TextTable::Lines() const {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (!used[c]) continue;
       const std::string text = cell(row, c);
-      const std::string padding(width[c] - text.size(), ' ');
+      const std::string padding(width[c] - DisplayWidth(text), ' ');
       line += "  " + (columns_[c] == Align::kRight ? padding + text : text + padding);
     }
     line.erase(line.find_last_not_of(' ') + 1);

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hoplab {
+
+/// Places that a text takes in a terminal: characters of UTF-8, not its bytes.
+std::size_t DisplayWidth(std::string_view text);
 
 /// Columns of text, padded so that they line up.
 class TextTable {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <chrono>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/text.h"
@@ -50,6 +51,29 @@ std::optional<ClockText> TakeTime(std::string_view* text) {
   return clock;
 }
 
+std::string InCapitals(std::string_view text) {
+  std::string capitals(text);
+  for (char& c : capitals)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return capitals;
+}
+
+// "10:00:00 PM", "12:00:00 a.m.": the half of the day that stands behind its time, if one does.
+// False where the hour is none of a half.
+bool TakeHalf(std::string_view* text, ClockText* clock) {
+  *text = Trim(*text);
+  for (const auto& [word, is_later] : {std::pair("AM", false), std::pair("PM", true),
+                                       std::pair("A.M.", false), std::pair("P.M.", true)}) {
+    if (InCapitals(text->substr(0, std::string_view(word).size())) != word) continue;
+    const std::int64_t hour = clock->second / kHour;
+    if (hour < 1 || hour > 12) return false;
+    clock->second += ((is_later ? 12 : 0) - (hour == 12 ? 12 : 0)) * kHour;
+    text->remove_prefix(std::string_view(word).size());
+    return true;
+  }
+  return true;
+}
+
 // Seconds that a zone is ahead: "Z", "+02:00", "-0430", nothing.
 std::optional<std::int64_t> ZoneOf(std::string_view text) {
   text = Trim(text);
@@ -93,6 +117,19 @@ std::optional<std::vector<ClockText>> ClocksOf(const SourceColumn& column) {
   return clocks;
 }
 
+// A clock without a date that goes back by more than half a day has passed midnight. Whether one
+// did.
+bool GoOnPastMidnight(std::vector<ClockText>& clocks) {
+  bool passed = false;
+  for (std::size_t i = 1; i < clocks.size() && !clocks.front().is_dated; ++i) {
+    while (clocks[i].second < clocks[i - 1].second - kDay / 2) {
+      clocks[i].second += kDay;
+      passed = true;
+    }
+  }
+  return passed;
+}
+
 }  // namespace
 
 std::optional<ClockText> ParseClockText(std::string_view text) {
@@ -105,7 +142,7 @@ std::optional<ClockText> ParseClockText(std::string_view text) {
     text.remove_prefix(between + 1);
   }
   std::optional<ClockText> clock = TakeTime(&text);
-  if (!clock) return std::nullopt;
+  if (!clock || !TakeHalf(&text, &*clock)) return std::nullopt;
   const std::optional<std::int64_t> zone = ZoneOf(text);
   const bool digits = std::any_of(date.begin(), date.end(), IsDigit);
   if (!zone || (!date.empty() && !digits)) return std::nullopt;
@@ -120,8 +157,9 @@ std::optional<ClockText> ParseClockText(std::string_view text) {
 
 void TurnClocksToSeconds(Table* table) {
   for (SourceColumn& column : table->columns) {
-    const std::optional<std::vector<ClockText>> clocks = ClocksOf(column);
+    std::optional<std::vector<ClockText>> clocks = ClocksOf(column);
     if (!clocks) continue;
+    const bool past_midnight = GoOnPastMidnight(*clocks);
     const std::int64_t earliest =
         std::min_element(clocks->begin(), clocks->end(), [](const auto& a, const auto& b) {
           return a.second < b.second;
@@ -135,7 +173,8 @@ void TurnClocksToSeconds(Table* table) {
     column.unit = "s";
     table->notes.push_back(column.name +
                            " holds times of the clock: read as seconds since the "
-                           "earliest whole one");
+                           "earliest whole one" +
+                           (past_midnight ? ", past midnight" : ""));
   }
 }
 

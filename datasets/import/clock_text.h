@@ -16,13 +16,13 @@ struct ClockText {
   bool is_dated = false;      // the date is of ISO 8601 and counts in `second`
 };
 
-/// Reads "10:00:00.125" and "2026-05-01T10:00:00.125Z" (ISO 8601, a blank for the T, a zone), and a
-/// date of another order before the time; nothing else.
+/// Reads "10:00:00.125", also with AM or PM behind it, and "2026-05-01T10:00:00.125Z" (ISO 8601, a
+/// blank for the T, a zone), and a date of another order before the time; nothing else.
 std::optional<ClockText> ParseClockText(std::string_view text);
 
 /// Turns columns of such texts into seconds since the earliest whole one, digit by digit, and tells
 /// so in the table's notes. A column stays as it is where a cell is none, or where dates of another
-/// order change. AM and PM are not read; a clock without a date goes back at midnight.
+/// order change. A clock without a date that goes back by more than half a day has passed midnight.
 void TurnClocksToSeconds(Table* table);
 
 }  // namespace hoplab

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/input_error.h"
 #include "base/text.h"
 #include "datasets/import/column_numbers.h"
 #include "datasets/import/guess_robot.h"
@@ -238,6 +239,9 @@ Guesses GuessChannels(const Table& table, const ColumnMap& map, std::optional<Me
   Guesses guesses;
   if (type.value_or(MechanismKind::kRobot) == MechanismKind::kRobot) {
     Guesses robot = GuessRobot(table, map);
+    if (!type && HasUnclearLegs(robot))
+      throw InputError({table.file, "", "has a pitch and " + robot.unclear_legs,
+                        "Or say --type c_leg, if it is a hopper's."});
     if (type || LooksLikeRobot(robot.columns)) {
       guesser.TakeRobot(std::move(robot.columns));
       guesses.notes = std::move(robot.notes);

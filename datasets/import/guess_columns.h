@@ -22,6 +22,7 @@ MappedColumn GuessTime(const Table& table);
 struct Guesses {
   std::vector<MappedColumn> columns;
   std::vector<std::string> notes;  // what was not taken, and why
+  std::string unclear_legs;        // why a robot's legs cannot be told apart by their columns
 };
 
 /// Channels by what their columns are called and how they move. `map` has the time. A channel's

@@ -80,12 +80,14 @@ class RobotGuesser {
     const bool in_row =
         first_number_ <= 1 && (numbers.empty() || *numbers.rbegin() == first_number_ + count - 1);
     numbers_count_ = in_row && count <= kMostLegs;
-    if (!numbers_count_)
-      guesses_.notes.push_back(
-          table_.file + ": " + std::to_string(count) + " legs by their numbers" +
+    if (!numbers_count_) {
+      guesses_.unclear_legs =
+          std::to_string(count) + " legs by their numbers" +
           (in_row ? "; a robot seen from the side has at most 4. Legs that move together are one"
                   : ", which do not run from 0 or 1 without a gap") +
-          ": say which is which, as --map leg_angle_1=COLUMN:deg, hindmost first");
+          ": say which is which, as --map leg_angle_1=COLUMN:deg, hindmost first";
+      guesses_.notes.push_back(table_.file + ": " + guesses_.unclear_legs);
+    }
     places_.assign(places.begin(), places.end());
     places_count_ = numbers.empty() || !numbers_count_ || places_.size() == numbers.size();
   }
@@ -222,6 +224,12 @@ class RobotGuesser {
 
 Guesses GuessRobot(const Table& table, const ColumnMap& map) {
   return RobotGuesser(table, map).Guess();
+}
+
+bool HasUnclearLegs(const Guesses& guesses) {
+  const bool pitch = std::any_of(guesses.columns.begin(), guesses.columns.end(),
+                                 [](const auto& c) { return c.target == Channel::kBodyPitch; });
+  return pitch && !guesses.unclear_legs.empty();
 }
 
 bool LooksLikeRobot(const std::vector<MappedColumn>& columns) {

@@ -13,6 +13,9 @@ namespace hoplab {
 /// state are guessed from how far and how fast they turn; left empty where that does not tell.
 Guesses GuessRobot(const Table& table, const ColumnMap& map);
 
+/// Whether there is a pitch, and columns of legs that cannot be told apart.
+bool HasUnclearLegs(const Guesses& guesses);
+
 /// Whether a pitch and a leg's angle are among the columns.
 bool LooksLikeRobot(const std::vector<MappedColumn>& columns);
 

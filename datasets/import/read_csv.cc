@@ -57,6 +57,14 @@ bool IsData(const Cells& cells, Numbers which) {
   return numbers > 0 && (IsNumber(cells[0], which) || 2 * (numbers + missing) > cells.size());
 }
 
+// A title in quotes has those of its own doubled.
+std::string WithSingleQuotes(std::string_view title) {
+  std::string text(title);
+  for (std::size_t at = text.find("\"\""); at != text.npos; at = text.find("\"\"", at + 1))
+    text.erase(at, 1);
+  return text;
+}
+
 bool HasDecimalComma(const std::vector<TextLine>& lines, char delimiter) {
   if (delimiter == ',') return false;
   const auto is_one = [](std::string_view cell) {
@@ -211,7 +219,7 @@ class CsvReader {
     }
     for (std::size_t i = 0; i < width_; ++i) {
       SourceColumn column;
-      if (i < titles.names.size()) column.name = std::string(titles.names[i]);
+      if (i < titles.names.size()) column.name = WithSingleQuotes(titles.names[i]);
       if (column.name.empty()) column.name = "#" + std::to_string(i + 1);
       column.unit = SplitTitle(column.name).unit;
       if (i < titles.units.size() && !titles.units[i].empty())

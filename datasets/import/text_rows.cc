@@ -10,6 +10,17 @@
 
 namespace hoplab {
 
+namespace {
+
+// The quote that closes the one at `open`: a doubled one within is one of the text.
+std::size_t ClosingQuote(std::string_view line, std::size_t open) {
+  std::size_t at = line.find('"', open + 1);
+  while (at != line.npos && line.substr(at + 1, 1) == "\"") at = line.find('"', at + 2);
+  return at;
+}
+
+}  // namespace
+
 std::vector<TextLine> SplitLines(std::string_view text) {
   std::vector<TextLine> lines;
   while (!text.empty()) {
@@ -35,7 +46,7 @@ std::vector<std::string_view> SplitCells(std::string_view line, char delimiter) 
     const std::size_t start = std::min(line.find_first_not_of(' '), line.size());
     std::size_t end = line.npos;
     if (start < line.size() && line[start] == '"') {
-      const std::size_t closing = line.find('"', start + 1);
+      const std::size_t closing = ClosingQuote(line, start);
       end = line.find(delimiter, closing == line.npos ? start : closing);
     } else {
       end = line.find(delimiter);

@@ -19,7 +19,8 @@ struct TextLine {
 std::vector<TextLine> SplitLines(std::string_view text);
 
 /// The cells of a line, trimmed, without the quotes around a cell; a delimiter within quotes
-/// belongs to the cell. A blank as delimiter stands for any run of blanks and tabs.
+/// belongs to the cell, and doubled quotes stay doubled. A blank as delimiter stands for any run of
+/// blanks and tabs.
 std::vector<std::string_view> SplitCells(std::string_view line, char delimiter);
 
 /// Adds a row to the table, one cell for each column. Throws InputError if there are fewer cells

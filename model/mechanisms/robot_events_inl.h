@@ -108,8 +108,13 @@ int Robot<T>::GuardCount(Mode) const {
 template <class T>
 GuardSpec Robot<T>::Guard(Mode, int i) const {
   const GuardRef& guard = guards_[i];
+  // A run that begins fallen ends there.
+  std::optional<Outcome> if_closed;
+  if (guard.event == EventKind::kFallHeight) if_closed = Outcome::kFellHeight;
+  if (guard.event == EventKind::kFallPitch) if_closed = Outcome::kFellPitch;
   return {.event = guard.event,
           .scale = guard.scale,
+          .if_closed = if_closed,
           .is_smooth = guard.event == EventKind::kGearMesh || guard.event == EventKind::kHipSlip,
           .leg = guard.leg};
 }

@@ -139,6 +139,12 @@ TEST_F(BadInputCli, AnUnknownProfileParameterGetsAHintBeforeTheFit) {
   EXPECT_TRUE(Says(run.err, "--profile"));
 }
 
+TEST_F(BadInputCli, AParameterIsProfiledOnce) {
+  const ProcessResult run = Hoplab({"fit", ShippedDataset("rig-drops"), "--profile", "E,E"});
+  EXPECT_EQ(run.exit_code, 65);
+  EXPECT_TRUE(Says(run.err, "--profile: E; is named twice"));
+}
+
 TEST_F(BadInputCli, AnUnknownLawGetsAHint) {
   const ProcessResult run = Hoplab({"fit", ShippedDataset("rig-drops"), "--law", "thesys"});
   EXPECT_EQ(run.exit_code, 65);

@@ -26,6 +26,19 @@ TEST(CompareCli, ATruthOfWhatIsNotFittedIsRefused) {
   EXPECT_EQ(run.err.find("fitting each model"), std::string::npos) << "after the fits: " << run.err;
 }
 
+// Laws and effects were told by --variant, so that is what a message names.
+TEST(CompareCli, AVariantThatDoesNotExistIsToldAsOne) {
+  const TempFolder temp;
+  for (const auto& [variant, told] :
+       {std::pair("nolaw", "--variant: law = nolaw; is not a law"),
+        std::pair("consistent+air_darg", "--variant: effect air_darg; is not in the catalogue")}) {
+    const ProcessResult run =
+        RunHoplab({"compare", ShippedDataset("rig-drops"), "--variant", variant}, temp.path());
+    EXPECT_EQ(run.exit_code, 65);
+    EXPECT_NE(run.err.find(told), std::string::npos) << run.err;
+  }
+}
+
 TEST(CompareCli, TheElasticaWithItsLegsDampingAndMassBringsTheModulusWithinOnePercent) {
   const TempFolder temp;
   const ProcessResult run = RunHoplab({"compare", ShippedDataset("rig-drops"), "--variant",

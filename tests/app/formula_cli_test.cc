@@ -44,6 +44,37 @@ TEST_F(FormulaCli, AMistakeHasACaretAndExitCode65) {
   EXPECT_NE(run.err.find("^~~~~"), std::string::npos) << run.err;
 }
 
+// The body begins at x = 0, where the logarithm has no value.
+TEST_F(FormulaCli, AFormulaThatIsNoNumberIsNamedWithWhereThatIs) {
+  std::string text = kCable;
+  const std::string formula = "-k * max(x - x_end, 0)^2 / x_end";
+  text.replace(text.find(formula), formula.size(), "-k * x * log(x / x_end)");
+  WriteText(temp_.path() / "cable.yaml", text);
+  WriteScenario(temp_.path());
+  const ProcessResult run =
+      Hoplab({"simulate", "hops.yaml", "--with", "cable.yaml:k=5", "--out", "a"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("the formula cable (body_force_x), -k * x * log(x / x_end), is no number "
+                         "at x = 0 m"),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(run.err.find("leg law"), std::string::npos) << run.err;
+}
+
+TEST_F(FormulaCli, ATypicalSizeBeyondTheBoundsIsRefused) {
+  for (const char* typical : {"201", "-2"}) {
+    std::string text = kCable;
+    text.replace(text.find("typical: 2"), 10, std::string("typical: ") + typical);
+    WriteText(temp_.path() / "cable.yaml", text);
+    const ProcessResult run = Hoplab({"effects", "cable.yaml"});
+    EXPECT_EQ(run.exit_code, 65);
+    EXPECT_NE(run.err.find("cable.yaml:6: parameters.k.typical = " + std::string(typical) +
+                           "; leads out of its bounds [0, 200]"),
+              std::string::npos)
+        << run.err;
+  }
+}
+
 TEST_F(FormulaCli, AScenarioTakesAFileByOptionAndByKey) {
   WriteScenario(temp_.path());
   const ProcessResult by_option =

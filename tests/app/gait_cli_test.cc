@@ -99,6 +99,15 @@ TEST_F(GaitCli, BadRangesAndBallsAreRefused) {
   EXPECT_EQ(start.exit_code, 65);
   EXPECT_NE(start.err.find("where a run starts"), std::string::npos) << start.err;
   EXPECT_EQ(Hoplab({"gait", scenario, "--along", "kp=5:6"}).exit_code, 65) << "4 lies outside";
+  const ProcessResult negative = Hoplab({"gait", scenario, "--along", "kp=-1:6"});
+  EXPECT_EQ(negative.exit_code, 65);
+  EXPECT_NE(negative.err.find("--along: kp = -1; must be in [0, 1e6] N s"), std::string::npos)
+      << negative.err;
+  const ProcessResult effect = Hoplab(
+      {"gait", scenario, "--with", "air_drag:c_drag=0.05", "--along", "air_drag.c_drag=-1:1"});
+  EXPECT_EQ(effect.exit_code, 65);
+  EXPECT_NE(effect.err.find("--along: air_drag.c_drag = -1; must be in [0, 10]"), std::string::npos)
+      << effect.err;
   WriteText(temp_.path() / "ball.yaml",
             "format: hoplab-scenario/1\nname: ball\nmechanism: {type: ball, body_mass_kg: 0.2, "
             "gravity_m_per_s2: 9.81, ball: {radius_m: 0.02, restitution: 0.85, tangential_loss: "

@@ -153,11 +153,11 @@ TEST_F(Mujoco, AnExportedLegOf20gIsFittedFromItsHops) {
 // it.
 TEST_F(Mujoco, TheRigIsTheOneOfTheRun) {
   const std::string scenario = std::string(HOPLAB_SOURCE_DIR) + "/experiments/three-drops.yaml";
-  const ProcessResult run =
-      RunHoplab({"simulate", scenario, "--set", "mechanism.guide=vertical", "--with",
-                 "hip_viscous_friction:b_h=0.004", "--with", "guide_coulomb_friction:f_c=0.3",
-                 "--with", "leg_mass:m_leg=0.05", "--out", "run"},
-                temp_.path());
+  const ProcessResult run = RunHoplab(
+      {"simulate", scenario, "--set", "mechanism.guide=vertical", "--set", "initial.vx_m_per_s=0",
+       "--set", "dataset=null", "--with", "hip_viscous_friction:b_h=0.004", "--with",
+       "guide_coulomb_friction:f_c=0.3", "--with", "leg_mass:m_leg=0.05", "--out", "run"},
+      temp_.path());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const MujocoModel model = Export({"--arcs", "16"});
   ASSERT_TRUE(model);

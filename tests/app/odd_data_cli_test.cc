@@ -54,6 +54,16 @@ class OddDataCli : public ::testing::Test {
   TempFolder temp_;
 };
 
+// The dataset is called three-drops.
+TEST_F(OddDataCli, WarningsNameADatasetByItsFolder) {
+  Generate();
+  const ProcessResult run = Hoplab({"check", "hops", "--fix", "E=1e6"});
+  EXPECT_NE(run.err.find("warning: hops/train-1.csv: at the nominal values the simulation fell: "),
+            run.err.npos)
+      << run.err;
+  EXPECT_EQ(run.err.find("three-drops/"), run.err.npos) << run.err;
+}
+
 TEST_F(OddDataCli, DiagnoseTellsItAndKeepsIt) {
   Generate();
   ChangeYaml("role: test", "role: train");

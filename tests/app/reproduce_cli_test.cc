@@ -20,6 +20,16 @@ class ReproduceCli : public ::testing::Test {
   TempFolder temp_;
 };
 
+TEST_F(ReproduceCli, OutsideOfTheProjectTheConstantsAreAskedFor) {
+  const ProcessResult run = RunHoplab({"reproduce", "table-6.5"}, temp_.path());
+  EXPECT_EQ(run.exit_code, 65);
+  EXPECT_NE(run.err.find("experiments/published.yaml: the constants of the study are not in this "
+                         "folder. Run this in the project's folder"),
+            std::string::npos)
+      << run.err;
+  EXPECT_NE(run.err.find("--constants FILE"), std::string::npos) << run.err;
+}
+
 TEST_F(ReproduceCli, TableSixPointFiveStandsBesideThePrintedOne) {
   const ProcessResult run = Reproduce({"table-6.5", "--json", "--out", "run"});
   ASSERT_EQ(run.exit_code, 0) << run.err;

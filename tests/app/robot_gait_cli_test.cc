@@ -60,6 +60,14 @@ TEST_F(RobotGaitCli, ThePhaseOfALegThatIsNotThereIsNotFollowed) {
       << gait.err;
 }
 
+TEST_F(RobotGaitCli, APeriodBelowZeroIsNotFollowed) {
+  const ProcessResult gait = Hoplab({"gait", pronk_, "--along", "clock.period_s=-1:0.56"});
+  EXPECT_EQ(gait.exit_code, 65);
+  EXPECT_NE(gait.err.find("--along: clock.period_s = -1; must be in (0, 1000] s. Check the sign."),
+            std::string::npos)
+      << gait.err;
+}
+
 TEST_F(RobotGaitCli, AnEffectOfALegThatIsNotThereIsRefused) {
   const ProcessResult gait = Gait("effects={motor_gain_3: {gamma: 0.1}}");
   EXPECT_EQ(gait.exit_code, 65);

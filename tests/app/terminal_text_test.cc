@@ -37,6 +37,16 @@ TEST(Quantity, ErrorsOfLengthAreInMillimetres) {
   EXPECT_EQ(WithoutUnit("hip_torque_N_m"), "hip_torque");
 }
 
+// Letters of several bytes take one place.
+TEST(TextTable, ColumnsLineUpBehindLettersOfSeveralBytes) {
+  using enum TextTable::Align;
+  TextTable table({kLeft, kRight, kLeft});
+  table.AddRow({"name", "\u00b5m", "x"});
+  table.AddRow({"h\u00f6he", "1", "y"});
+  EXPECT_EQ(table.Lines(), (std::vector<std::string>{"  name  \u00b5m  x", "  h\u00f6he   1  y"}));
+  EXPECT_EQ(DisplayWidth("h\u00f6he in \u00b5m"), 10u);
+}
+
 TEST(TextTable, ColumnsLineUpAndEmptyOnesGo) {
   using enum TextTable::Align;
   TextTable table({kLeft, kRight, kLeft, kLeft});

@@ -154,14 +154,23 @@ TEST_F(ImportRobot, LegsThatCannotBeToldApartAreNotTakenAndSaid) {
   EXPECT_NE(said.find("Legs that move together are one"), said.npos) << said;
 }
 
+TEST_F(ImportRobot, LegsThatDoNotBeginWithZeroOrOneAreNoHoppers) {
+  const auto file = Log({"pitch [rad]", "q2 [rad]", "q3 [rad]"});
+  EXPECT_NE(InputErrorOf([&] { ImportFile(file, {}); }).find("which do not run from 0 or 1"),
+            std::string::npos);
+}
+
 TEST_F(ImportRobot, SixLegsAreNotTakenForFour) {
   const auto file =
       Log({"pitch [rad]", "q1 [rad]", "q2 [rad]", "q3 [rad]", "q4 [rad]", "q5 [rad]", "q6 [rad]"});
-  EXPECT_EQ(ImportFile(file, {}).type, MechanismKind::kCLeg);
+  EXPECT_NE(InputErrorOf([&] { ImportFile(file, {}); }).find("has a pitch and 6 legs by their"),
+            std::string::npos);
   ImportRequest request;
   request.logs = {{file}};
-  request.type = MechanismKind::kRobot;
   request.name = "six";
+  request.type = MechanismKind::kCLeg;
+  EXPECT_EQ(ImportLogs(request).type, MechanismKind::kCLeg);
+  request.type = MechanismKind::kRobot;
   EXPECT_NE(InputErrorOf([&] { ImportLogs(request); }).find("--legs: how many legs"),
             std::string::npos);
   request.legs = 2;

@@ -51,6 +51,47 @@ TEST_F(ImportTexts, AClockGoesOnOverMidnightWhereItHasADate) {
   EXPECT_NE(csv.find("\n1.002,"), std::string::npos) << csv;
 }
 
+TEST_F(ImportTexts, AClockWithoutADatePassesMidnightWhereItGoesBack) {
+  const auto time = [](double t) {
+    const int ms = 990 + static_cast<int>(std::lround(1e3 * t));
+    const std::string fraction = testing::Format("%03.0f", static_cast<double>(ms % 1000));
+    return (ms < 1000 ? "23:59:59." : "00:00:00.") + fraction;
+  };
+  const std::string text = FallText(fall_, "stamp,X (mm),Y (mm)", time);
+  const ImportResult made = ImportFile(Write("drop.csv", text), {"t=stamp", "x=X", "y=Y"});
+  EXPECT_NE(CsvOf(made).find("\n0.998,"), std::string::npos) << CsvOf(made);
+  EXPECT_NE(CsvOf(made).find("\n1.002,"), std::string::npos) << CsvOf(made);
+  EXPECT_NE(made.notes.at(0).find("past midnight"), std::string::npos) << made.notes[0];
+}
+
+TEST_F(ImportTexts, HalvesOfTheDayAreRead) {
+  const auto seconds = [](const char* text) { return ParseClockText(text).value().second; };
+  EXPECT_EQ(seconds("12:00:01 AM"), 1);
+  EXPECT_EQ(seconds("12:00:01 pm"), 12 * 3600 + 1);
+  EXPECT_EQ(seconds("1:00:00.5 p.m."), 13 * 3600);
+  EXPECT_EQ(seconds("5/1/2026 11:59:59 PM"), 86399);
+  EXPECT_FALSE(ParseClockText("13:00:00 PM"));
+  EXPECT_FALSE(ParseClockText("0:00:00 AM"));
+  // Over noon.
+  const auto time = [](double t) {
+    const int ms = 990 + static_cast<int>(std::lround(1e3 * t));
+    const std::string fraction = testing::Format("%03.0f", static_cast<double>(ms % 1000));
+    return ms < 1000 ? "11:59:59." + fraction + " AM" : "12:00:00." + fraction + " PM";
+  };
+  const std::string text = FallText(fall_, "stamp,X (mm),Y (mm)", time);
+  const std::string csv = CsvOf(ImportFile(Write("drop.csv", text), {"t=stamp", "x=X", "y=Y"}));
+  EXPECT_NE(csv.find("\n1.002,"), std::string::npos) << csv;
+}
+
+// Quotes within a quoted title are doubled, and a separator there is none.
+TEST_F(ImportTexts, QuotedTitlesHaveTheirQuotes) {
+  const auto seconds = [](double t) { return testing::Format("%.3f", t); };
+  const std::string text = FallText(fall_, "\"t\",\"x \"\"a\"\", left\",\"y\"\"q\"", seconds);
+  const ImportResult made =
+      ImportFile(Write("drop.csv", text), {"t=t:s", "x=x \"a\", left:mm", "y=y\"q:mm"});
+  EXPECT_EQ(CsvOf(made), FallCsv(fall_));
+}
+
 TEST_F(ImportTexts, WhatIsNoClockStaysAsItIs) {
   for (const char* text : {"10:00", "a:10:00:00", "10:61:00", "10:00:00x", "25:00:00", "", "1.5",
                            "2026-05-01", "10:00:00+2"})

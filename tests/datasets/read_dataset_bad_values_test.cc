@@ -37,6 +37,13 @@ TEST(BadDataset, AnAngleBeyondTheHalfTurnIsOutOfItsRange) {
             "Check the unit: deg is meant.");
 }
 
+TEST(BadDataset, AStartAlongTheGroundOnAGuideIsRefused) {
+  EXPECT_EQ(
+      ErrorWithYaml("gravity_m_per_s2: 9.81\n", "gravity_m_per_s2: 9.81\n  guide: vertical\n"),
+      "hops/dataset.yaml:19: trials[0]; begins with vx_m_per_s = 1, and a vertical guide "
+      "holds the body along the ground. Write vx_m_per_s: 0, or guide: none.");
+}
+
 TEST(BadDataset, ASigmaOfZeroIsOutOfItsRange) {
   EXPECT_EQ(ErrorWithYaml("sigma: 0.001", "sigma: 0"),
             "hops/dataset.yaml:15: channels.body_x_m.sigma = 0; must be in [1e-12, 1e9] m. "
@@ -83,6 +90,15 @@ TEST(BadDataset, ANumberWithAUnitBehindItIsNoNumber) {
       ErrorWithYaml("E_Pa: 22e9", "E_Pa: 22 GPa"),
       "hops/dataset.yaml:9: mechanism.leg.E_Pa = 22 GPa; is not a number; must be in (0, 1e13] "
       "Pa. Write a number such as 0.09 or 22e9, without unit.");
+}
+
+TEST(BadDataset, ADecimalCommaIsToldAsOne) {
+  EXPECT_EQ(ErrorWithYaml("E_Pa: 22e9", "E_Pa: 2,2e10"),
+            "hops/dataset.yaml:9: mechanism.leg.E_Pa = 2,2e10; is not a number; must be in "
+            "(0, 1e13] Pa. The decimal sign is a point: 2.2e10.");
+  EXPECT_EQ(ErrorWithYaml("{sigma: 0.001}", "{sigma: 0,001}"),
+            "hops/dataset.yaml:15: channels.body_x_m.001; is a number where a key is wanted. The "
+            "decimal sign is a point; a comma in braces begins the next key.");
 }
 
 TEST(BadDataset, AListWhereANumberIsWantedIsOfTheWrongType) {

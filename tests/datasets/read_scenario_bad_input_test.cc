@@ -34,6 +34,20 @@ TEST(BadScenario, ASearchRangeBeyondThePhysicalOneIsRefused) {
             "s.yaml:11: controller.kp_N_s = -0.5; must be in [0, 1e6] N s. Check the sign.");
 }
 
+TEST(BadScenario, AStartAlongTheGroundOnAGuideIsRefused) {
+  EXPECT_EQ(
+      ScenarioErrorWith("gravity_m_per_s2: 9.81,", "gravity_m_per_s2: 9.81, guide: vertical,"),
+      "s.yaml:7: initial; begins with vx_m_per_s = 1, and a vertical guide holds the body "
+      "along the ground. Write vx_m_per_s: 0, or guide: none.");
+  const std::string held = Replace(Replace(kSmallScenario, "gravity_m_per_s2: 9.81,",
+                                           "gravity_m_per_s2: 9.81, guide: vertical,"),
+                                   "vx_m_per_s: 1.0", "vx_m_per_s: 0");
+  EXPECT_NO_THROW(Document(held).Read());
+  EXPECT_EQ(InputErrorOf([&] { Document(Replace(held, "{y_m: 0.25}", "{vx_m_per_s: 2}")).Read(); }),
+            "s.yaml:24: dataset.trials[1]; begins with vx_m_per_s = 2, and a vertical guide holds "
+            "the body along the ground. Write vx_m_per_s: 0, or guide: none.");
+}
+
 TEST(BadScenario, AnEmptySearchRangeIsRefused) {
   EXPECT_EQ(
       ScenarioErrorWith("[0.5, 12]", "[12, 0.5]"),

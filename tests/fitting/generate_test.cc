@@ -80,6 +80,20 @@ TEST(Generate, StatedInitialStatesAreOffByTheirSigma) {
   EXPECT_NEAR(std::sqrt(sum / count), 0.002, 3 * 0.002 / std::sqrt(2.0 * count));
 }
 
+// A dataset that is read: no doubt is told of a speed that the guide holds at 0.
+TEST(Generate, OnAGuideTheStatedSpeedAlongTheGroundIsNothing) {
+  Scenario s = HopScenario(2);
+  s.mechanism.on_guide = true;
+  for (GenerateTrial& trial : s.dataset->trials) {
+    trial.mechanism.on_guide = true;
+    trial.initial->vx_m_per_s = 0.0;
+  }
+  for (const Trial& trial : GenerateDataset(s, {}).dataset.trials) {
+    EXPECT_EQ(trial.initial->vx_m_per_s, 0.0);
+    EXPECT_NE(trial.initial->y_m, s.dataset->trials[0].initial->y_m);
+  }
+}
+
 TEST(Generate, ARunThatFallsIsCutAndSaidSo) {
   Scenario s = HopScenario(2);
   s.stop.hops = 30;  // a passive leg falls before

@@ -92,8 +92,20 @@ TEST(Problem, AParameterThatDiffersBetweenTrialsCannotBeShared) {
 
 TEST(Problem, AFixedValueOutOfItsRangeIsRefused) {
   const std::string message = MessageOf(SmallDataset(), {.fix = {{"E", -4.0}}});
-  EXPECT_NE(message.find("--fix: E = -4; must be in [1000, 1e13] Pa"), std::string::npos)
+  EXPECT_NE(message.find("--fix: E = -4; must be in (0, 1e13] Pa. Check the sign."),
+            std::string::npos)
       << message;
+}
+
+// What no dataset may state is not held either.
+TEST(Problem, AFixedValueIsOneThatADatasetMayState) {
+  for (const auto& [name, value, range] :
+       {std::tuple("kp", -5.0, "[0, 1e6] N s"), std::tuple("kappa", 0.0, "(0, 10]"),
+        std::tuple("g", 0.0, "(0, 1000] m/s^2"), std::tuple("theta_td", 3.2, "rad")}) {
+    const std::string message = MessageOf(SmallDataset(), {.fix = {{name, value}}});
+    EXPECT_NE(message.find(std::string("must be in ")), std::string::npos) << name << message;
+    EXPECT_NE(message.find(range), std::string::npos) << message;
+  }
 }
 
 TEST(Problem, NothingLeftToFitIsRefused) {

@@ -260,6 +260,23 @@ TEST(Robot, FallsByName) {
   EXPECT_EQ(outcome(p, {0.0, 0.3, 0.0, 0.0, 0.0, 0.0}), Outcome::kFellHeight);
 }
 
+// One that is beyond its limits where it begins does not go on.
+TEST(Robot, WhatBeginsFallenEndsAtOnce) {
+  Parameters<double> p = RobotParametersFor(2);
+  const Trajectory pitched =
+      Simulate(RobotDrop(p, {0.0, 0.6, 0.0, 0.0, p.robot->pitch_limit + 0.1, 0.0}, 3.0));
+  EXPECT_EQ(pitched.outcome, Outcome::kFellPitch);
+  EXPECT_EQ(pitched.end_time, 0.0);
+  p.robot->angle = {-2.8, -2.8};
+  p.fall_height = 0.4;
+  const Trajectory low = Simulate(RobotDrop(p, {0.0, 0.3, 0.0, 0.0, 0.0, 0.0}, 3.0));
+  EXPECT_EQ(low.outcome, Outcome::kFellHeight);
+  EXPECT_EQ(low.end_time, 0.0);
+  // Within them it falls as it did.
+  p.fall_height = 0.2;
+  EXPECT_GT(Simulate(RobotDrop(p, {0.0, 0.3, 0.0, 0.0, 0.0, 0.0}, 3.0)).end_time, 0.1);
+}
+
 // A run that begins with a leg on the ground goes on from one that begins a moment above it.
 TEST(Robot, BeginsOnItsFeet) {
   Parameters<double> p = RobotParametersFor(2);

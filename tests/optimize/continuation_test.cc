@@ -78,5 +78,49 @@ TEST(Continuation, AChangeOfTheEventSequenceIsFlagged) {
   EXPECT_GE(changes, 1);
 }
 
+// A map whose fixed points z = p end at z = 0.5; below that there are those of another branch,
+// z = p - 0.5.
+class TwoBranches : public ReturnMap {
+ public:
+  using ReturnMap::ReturnMap;
+  std::unique_ptr<ReturnMap> Clone() const override { return std::make_unique<TwoBranches>(*this); }
+  Hop Differentiate(const SectionState& z, std::span<const D> parameters) override {
+    const double p = hopper().request.parameters.kp;
+    const bool first = z[0] >= 0.5;
+    Hop hop;
+    hop.returned = true;
+    hop.outcome = Outcome::kHopLimit;
+    hop.least_crossing_rate = hop.nearest_miss = 1e9;
+    hop.next = SectionState::Constant(1, first ? p : z[0] + 0.5 * (p - 0.5 - z[0]));
+    hop.jacobian = Eigen::MatrixXd::Constant(1, 1, first ? 0.0 : 0.5);
+    if (!parameters.empty()) hop.by_parameter = Eigen::MatrixXd::Constant(1, 1, first ? 1.0 : 0.5);
+    return hop;
+  }
+  Hop Apply(const SectionState& z) override { return Differentiate(z, {}); }
+  std::vector<SectionComponent> Components(const SectionState&) const override {
+    return {{"z", 1.0}};
+  }
+  double SpecificEnergy(const SectionState&) const override { return 0.0; }
+  Eigen::RowVectorXd SpecificEnergyRate(const SectionState&) const override {
+    return Eigen::RowVectorXd::Zero(1);
+  }
+  bool ConservesEnergy(const SectionState&) override { return false; }
+};
+
+TEST(Continuation, ABranchThatIsLostEndsThereAndNoOtherGoesOnInItsPlace) {
+  TwoBranches map(ControlledHopper());
+  const D gain = D::Parameter(ParameterId::kKp);
+  SetValue(map.hopper(), gain, 0.8);
+  const FixedPoint start = FindFixedPoint(map, SectionState::Constant(1, 0.8));
+  ASSERT_TRUE(start.found());
+  const Branch branch = FollowFixedPoint(map, start, gain, {.low = 0.0, .high = 1.0});
+  for (const BranchPoint& point : branch.points)
+    EXPECT_NEAR(point.fixed_point.state[0], point.parameter, 1e-9);
+  EXPECT_NEAR(branch.points.front().parameter, 0.5, 1e-3);
+  EXPECT_EQ(branch.first_end, BranchEnd::kLost);
+  EXPECT_EQ(branch.last_end, BranchEnd::kRange);
+  EXPECT_DOUBLE_EQ(branch.points.back().parameter, 1.0);
+}
+
 }  // namespace
 }  // namespace hoplab
