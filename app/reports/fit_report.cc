@@ -95,6 +95,7 @@ std::string ErrorLine(const FitRun& run, const RoleErrors& errors) {
 
 std::string NoteLines(const Dataset& dataset, const FitRun& run, bool colours) {
   std::string text;
+  for (const std::string& warning : run.warnings) text += Labelled("warning", warning, colours);
   for (const std::string& fault :
        FaultSentences(dataset, run.problem.trace_faults, run.problem.keeps_stray))
     text += Labelled("note", fault, colours);
