@@ -7,6 +7,7 @@
 
 #include "fitting/carried_trials.h"
 #include "fitting/trial_evaluator.h"
+#include "fitting/turning_rows.h"
 #include "model/leg_compliance.h"
 #include "model/mechanism_traits.h"
 
@@ -81,18 +82,25 @@ std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProb
   };
   const double sigma = problem.channels[y_column].sigma;
 
+  // Rows on the ground, or next to it where it lies between two rows.
+  std::vector<char> low(static_cast<std::size_t>(rows), 0);
+  for (const int row : TurningRows(y, rows, sigma)) low[static_cast<std::size_t>(row)] = 1;
+  for (int row = 0; row < rows; ++row)
+    if (y(row) < contact + 4.0 * sigma) low[static_cast<std::size_t>(row)] = 1;
+  const auto flies = [&](int row) { return low[static_cast<std::size_t>(row)] == 0; };
+
   // A flight is a stretch of rows above contact height by a margin; lift-off happens somewhat
   // above that height, so only the upper two thirds of each arc are trusted to be parabolas.
   std::vector<Apex> apexes;
   bool begun = false;  // the first flight is the start's
   for (int row = 0; row < rows;) {
-    if (!(y(row) > contact + 4.0 * sigma)) {
+    if (std::isnan(y(row)) || !flies(row)) {
       begun = begun || !std::isnan(y(row));
       ++row;
       continue;
     }
     int end = row, top = row;
-    for (int r = row; r < rows && !(y(r) < contact + 4.0 * sigma); ++r) {
+    for (int r = row; r < rows && flies(r); ++r) {
       end = r + 1;
       if (y(r) > y(top)) top = r;
     }
@@ -116,6 +124,19 @@ std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProb
   }
 
   return PiecesBetween(problem, trial, apexes);
+}
+
+int HopsInData(const FitProblem& problem, const TrialProblem& trial) {
+  const int column = ColumnOf(problem, Channel::kBodyY);
+  if (problem.law != Law::kBall || column < 0)
+    return static_cast<int>(CutAtApexes(problem, trial).size()) - 1;
+  const auto y = [&](int row) {
+    return trial.data[static_cast<std::size_t>(row) * problem.channels.size() +
+                      static_cast<std::size_t>(column)];
+  };
+  return static_cast<int>(TurningRows(y, static_cast<int>(trial.row_times.size()),
+                                      problem.channels[static_cast<std::size_t>(column)].sigma)
+                              .size());
 }
 
 std::vector<TrialProblem> CutAllAtApexes(const FitProblem& problem,

@@ -13,6 +13,10 @@ namespace hoplab {
 /// The pieces share no row.
 std::vector<TrialProblem> CutAtApexes(const FitProblem& problem, const TrialProblem& trial);
 
+/// Flights after a stance that a trial shows, each with its apex; of a ball its bounces. -1 where
+/// there is no `body_y_m`, or nothing to cut.
+int HopsInData(const FitProblem& problem, const TrialProblem& trial);
+
 /// The pieces of all trials. Priors on shared values of a trial without apexes go over to the first
 /// train piece.
 std::vector<TrialProblem> CutAllAtApexes(const FitProblem& problem,

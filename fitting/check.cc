@@ -21,13 +21,12 @@ TrialCheck CheckTrial(const FitProblem& problem, const TrialProblem& trial,
   TrialEvaluation e;
   evaluator.Evaluate({shared, trial.start, false}, e);
   simulates = e.complete;
-  const std::vector<TrialProblem> pieces = CutAtApexes(problem, trial);
   return {trial.file,
           trial.role,
           static_cast<long>(trial.row_times.size()),
           trial.sample_count,
           trial.row_times.back(),
-          static_cast<int>(pieces.size()) - 1,
+          HopsInData(problem, trial),
           e.trajectory.outcome,
           e.trajectory.hops,
           e.trajectory.end_time};

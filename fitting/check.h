@@ -17,7 +17,7 @@ struct TrialCheck {
   TrialRole role;
   long rows, samples;
   double duration_s;
-  int hops_in_data;        // flights after a stance that the trace shows; -1 without body_y_m
+  int hops_in_data;        // that the trace shows (HopsInData); -1 without body_y_m
   Outcome outcome;         // of the simulation at the nominal values
   int hops_in_simulation;  // likewise
   double end_time_s;       // where it ended

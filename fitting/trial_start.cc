@@ -8,6 +8,7 @@
 #include "base/nan.h"
 #include "fitting/model_of_spec.h"
 #include "fitting/robot_problem.h"
+#include "fitting/turning_rows.h"
 #include "model/mechanism_traits.h"
 
 namespace hoplab {
@@ -60,6 +61,22 @@ void LineFit(const TrialProblem& t, const std::vector<double>& values, std::size
   offset = (sv - slope * st) / n;
 }
 
+double SigmaOf(const FitProblem& problem, Channel channel) {
+  for (const ChannelProblem& c : problem.channels)
+    if (c.channel == channel) return c.sigma;
+  return kNaN;
+}
+
+// Rows before the body is seen below its touch-down height, or turned by a ground that lies between
+// two rows.
+std::size_t FirstFlightRows(const std::vector<double>& y, double touchdown, double sigma) {
+  std::size_t rows = 0;
+  while (rows < y.size() && !(y[rows] < touchdown)) ++rows;
+  const std::vector<int> turns = TurningRows(
+      [&](int row) { return y[static_cast<std::size_t>(row)]; }, static_cast<int>(y.size()), sigma);
+  return turns.empty() ? rows : std::min(rows, static_cast<std::size_t>(turns.front()));
+}
+
 // Start of a trial that states none: a parabola through the first flight, line in x.
 OwnValues StartFromTrace(const Trial& trial, const FitProblem& problem, const TrialProblem& t) {
   if (TraitsOf(problem.law).has_pitch) {
@@ -73,8 +90,7 @@ OwnValues StartFromTrace(const Trial& trial, const FitProblem& problem, const Tr
   const std::vector<double>* y = trial.trace.Find(Channel::kBodyY);
   std::size_t rows = t.row_times.size();
   if (y) {
-    rows = 0;
-    while (rows < y->size() && !((*y)[rows] < touchdown)) ++rows;
+    rows = FirstFlightRows(*y, touchdown, SigmaOf(problem, Channel::kBodyY));
     LineFit(t, *y, rows, -0.5 * g, start[1], start[3]);
   }
   if (const std::vector<double>* x = trial.trace.Find(Channel::kBodyX))

@@ -129,6 +129,7 @@ Json FitRecord(const Dataset& dataset, const std::string& dataset_argument,
   record["left"] = run.fit.discrepancy ? LeftRecord(run.problem) : Json(nullptr);
   record["stop"] = StopRecord(run);
   record["warnings"] = run.check.warnings;
+  for (const std::string& warning : run.warnings) record["warnings"].push_back(warning);
   record["notes"] = run.check.notes;
   if (!run.note.empty()) record["notes"].push_back(run.note);
   record["tools"] = ToolsRecord();

@@ -8,6 +8,7 @@
 #include "base/input_error.h"
 #include "base/text.h"
 #include "datasets/suspect_things.h"
+#include "fitting/train_contrast.h"
 
 namespace hoplab {
 namespace {
@@ -66,32 +67,14 @@ void AddObjectives(const FitOptions& fit, const std::vector<TrialProblem>& train
                                      /*matrices=*/false);
 }
 
-// Fitted trials that are missed by this many times the chi-square of those held out.
-constexpr double kFarWorse = 4.0;
-constexpr int kFewestToCompare = 2;
-
-// Chi-square a sample over the complete trials of a role; NaN with fewer than two.
-double Chi2PerSample(const std::vector<TrialErrors>& trials, TrialRole role) {
-  double chi2 = 0.0;
-  long samples = 0, count = 0;
-  for (const TrialErrors& t : trials) {
-    if (t.role != role || !t.complete) continue;
-    chi2 += t.chi2;
-    samples += t.samples;
-    ++count;
-  }
-  return count < kFewestToCompare ? std::nan("") : chi2 / static_cast<double>(samples);
-}
-
-// A minimum fits the fitted trials better than others, or nearly as well.
-void AddTrainFault(FitRun& run) {
-  const double train = Chi2PerSample(run.trials, TrialRole::kTrain);
-  const double test = Chi2PerSample(run.trials, TrialRole::kTest);
-  if (!(train > kFarWorse * std::max(test, 1.0))) return;
-  run.faults.push_back(fmt::format(
-      "the fitted trials are missed by far more than those held out (chi2 {:.3g} a sample against "
-      "{:.3g})",
-      train, test));
+// A search that has not found the starts of its trials is at no minimum; trials that do not go with
+// the others are told.
+void AddTrainContrast(const FitOptions& options, FitRun& run) {
+  const TrainContrast contrast = CompareRoles(run.problem, run.fit, run.trials, options);
+  if (const std::string fault = contrast.Fault(); !fault.empty())
+    run.faults.push_back(fault);
+  else if (const std::string warning = contrast.Warning(); !warning.empty())
+    run.warnings.push_back(warning);
 }
 
 // Where the model misses the data by much, the least cost lies at an edge, where events change
@@ -209,7 +192,7 @@ FitRun RunFit(const Dataset& dataset, const FitRunOptions& options) {
   to_the_end.stop = nullptr;
   const std::vector<TrialProblem> train = TrialsOf(run.problem, TrialRole::kTrain);
   run.trials = AssessTrials(run.problem, run.fit, to_the_end);
-  AddTrainFault(run);
+  AddTrainContrast(to_the_end, run);
   AddObjectives(options.fit, train, run);
   // Where a search is stuck there is nothing to be sure about.
   const bool may_be_sure =

@@ -66,6 +66,8 @@ struct FitRun {
   std::string refusal;
   /// What speaks against a minimum, one sentence each; absent without a result.
   std::vector<std::string> faults;
+  /// What is odd in what was fitted, beside what the check found.
+  std::vector<std::string> warnings;
 
   FitStanding Standing() const;
   int finished_restarts() const;

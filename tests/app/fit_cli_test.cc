@@ -142,6 +142,26 @@ TEST_F(FitCli, TellsTheLegAngleThatAnotherEnginesEncoderRead) {
   EXPECT_GT(of_arc, 0.2);
 }
 
+// One trial whose angle is misstated makes the fitted trials worse than those held out; the search
+// ended at a minimum all the same.
+TEST_F(FitCli, ATrialThatDoesNotGoWithTheOthersIsNamed) {
+  ChangedDataset(temp_.path(), [](const std::string& text) { return text; });
+  const std::filesystem::path file = temp_.path() / "data" / "dataset.yaml";
+  std::string yaml = ReadText(file);
+  const std::string angle = "touchdown_angle_deg: 30";
+  yaml.replace(yaml.find(angle), angle.size(), "touchdown_angle_deg: 35");
+  WriteText(file, yaml);
+  const ProcessResult run = Hoplab({"fit", "data", "--out", "run", "--quiet"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("does not go with the others"), run.out.npos) << run.out;
+  const nlohmann::json record = ReadRecord(temp_.path() / "run");
+  EXPECT_EQ(record.at("status"), "ok");
+  EXPECT_EQ(record.at("stop").at("minimum"), true);
+  ASSERT_FALSE(record.at("warnings").empty());
+  EXPECT_NE(record.at("warnings").back().get<std::string>().find(": train-3.csv ("),
+            std::string::npos);
+}
+
 TEST_F(FitCli, RunsAreNumberedAndNothingIsOverwritten) {
   EXPECT_EQ(Hoplab({"fit", drops_}).exit_code, 0);
   EXPECT_EQ(Hoplab({"fit", drops_}).exit_code, 0);
