@@ -8,6 +8,7 @@
 #include "fitting/apex_segments.h"
 #include "fitting/leg_starts.h"
 #include "fitting/mixed_up_trials.h"
+#include "fitting/run_end.h"
 #include "fitting/smoothed_traces.h"
 #include "fitting/turned_axes.h"
 
@@ -53,6 +54,30 @@ std::vector<std::string> DataWarnings(const Dataset& dataset, const FitProblem& 
   return warnings;
 }
 
+namespace {
+
+// What is wrong with the trial's simulation, said of it.
+std::string FaultOfSimulation(const FitProblem& problem, const TrialProblem& trial,
+                              const TrialCheck& check) {
+  if (IsComplete(check.outcome)) return "makes other contacts than the trace shows";
+  Trajectory ended;
+  ended.outcome = check.outcome;
+  ended.end_time = check.end_time_s;
+  const std::span<const double> start(trial.start.data(),
+                                      static_cast<std::size_t>(trial.start.size()));
+  return WhyEnded(ended, problem.effects, start) + ", at " +
+         std::to_string(check.end_time_s).substr(0, 5) + " s of " +
+         std::to_string(check.duration_s).substr(0, 5) + " s";
+}
+
+// As the other warnings name it: where its dataset.yaml lies, "datasets/rig-drops/".
+std::string FolderOf(const Dataset& dataset) {
+  const std::string& place = dataset.origin.place;
+  return place.empty() ? dataset.name + "/" : place.substr(0, place.rfind('/') + 1);
+}
+
+}  // namespace
+
 CheckReport CheckDataset(const Dataset& dataset, const FitProblem& problem, int jobs) {
   CheckReport report;
   report.warnings = DataWarnings(dataset, problem);
@@ -61,18 +86,13 @@ CheckReport CheckDataset(const Dataset& dataset, const FitProblem& problem, int 
   std::vector<TrialProblem> simulated;
   std::vector<OwnValues> initial_states;
   bool any_touches = false;
+  const std::string folder = FolderOf(dataset);
   for (const TrialProblem& trial : problem.trials) {
     bool simulates = false;
     const TrialCheck check = CheckTrial(problem, trial, shared, simulates);
-    if (!simulates) {
-      const std::string place = dataset.name + "/" + trial.file + ": at the nominal values ";
-      report.warnings.push_back(
-          IsComplete(check.outcome)
-              ? place + "the simulation makes other contacts than the trace shows."
-              : place + "the simulation " + std::string(SentenceOf(check.outcome)) + ", at " +
-                    std::to_string(check.end_time_s).substr(0, 5) + " s of " +
-                    std::to_string(check.duration_s).substr(0, 5) + " s.");
-    }
+    if (!simulates)
+      report.warnings.push_back(folder + trial.file + ": at the nominal values the simulation " +
+                                FaultOfSimulation(problem, trial, check) + ".");
     if (trial.role == TrialRole::kTrain) {
       Trajectory trajectory;
       TrialEvaluator(problem, trial)
@@ -81,7 +101,7 @@ CheckReport CheckDataset(const Dataset& dataset, const FitProblem& problem, int 
       any_touches = any_touches || touches;
       if (!touches) {
         report.warnings.push_back(
-            dataset.name + "/" + trial.file +
+            folder + trial.file +
             ": the body never touches the ground within the trace, so this trial says nothing "
             "about the leg. Record longer, or start lower.");
       }

@@ -11,6 +11,7 @@
 #include "app/terminal/report_text.h"
 #include "app/terminal/text_table.h"
 #include "base/text.h"
+#include "fitting/design/forecast.h"
 
 namespace hoplab {
 namespace {
@@ -46,7 +47,7 @@ std::string OutcomesText(const DesignRun& run) {
   std::string text = Plural(static_cast<long>(run.search.tried.size()), "design") + " tried";
   std::vector<std::string> ends;
   for (const auto& [failure, count] : failures)
-    ends.push_back(fmt::format("{} {}", count, failure));
+    ends.push_back(fmt::format("{} ({})", count, FailureText(failure)));
   return ends.empty() ? text : text + "; cannot be simulated: " + Join(ends);
 }
 

@@ -17,7 +17,8 @@ std::string EndText(BranchEnd end, Outcome outcome) {
     case BranchEnd::kRange:
       return "the end of the range";
     case BranchEnd::kHopFails:
-      return "where the hop fails: " + std::string(SentenceOf(outcome));
+      return IsComplete(outcome) ? "where no whole hop or stride is made any more"
+                                 : "where the hop fails: it " + std::string(SentenceOf(outcome));
     case BranchEnd::kNotConverged:
       return "where no fixed point is found any more";
     case BranchEnd::kLost:
@@ -116,7 +117,7 @@ std::string StrideReport(const GaitRun& run) {
   text += fmt::format("  spectral radius    {}, {}\n", Significant(p.spectral_radius, 6),
                       p.stable() ? "stable" : "unstable");
   if (run.own_outcome != Outcome::kCompleted)
-    text += "  from its own start " + std::string(SentenceOf(run.own_outcome)) + "\n";
+    text += "  from its own start it " + std::string(SentenceOf(run.own_outcome)) + "\n";
   return text;
 }
 

@@ -15,7 +15,7 @@ namespace {
 std::string Worth(const SearchPoint& point) {
   switch (point.verdict) {
     case PointVerdict::kRunEnded:
-      return "the run ends: " + std::string(SentenceOf(point.outcome));
+      return "the run ends: it " + std::string(SentenceOf(point.outcome));
     case PointVerdict::kNoConvergence:
       return "does not converge";
     case PointVerdict::kConstraint:

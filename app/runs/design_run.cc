@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "base/text.h"
+#include "fitting/design/forecast.h"
 #include "fitting/diagnosis/diagnosis.h"
 #include "fitting/model_of_spec.h"
 
@@ -208,7 +209,9 @@ class Run {
     if (run_.search.best.empty() && !Stopped())
       run_.failure = "no design of this space can be simulated" +
                      std::string(run_.separates ? " under every cause" : "") + ": " +
-                     (run_.search.tried.empty() ? "" : run_.search.tried.front().failure);
+                     (run_.search.tried.empty()
+                          ? ""
+                          : "the simulation " + FailureText(run_.search.tried.front().failure));
   }
 
   const Dataset& dataset_;

@@ -100,9 +100,9 @@ std::string GaitRun::Failure() const {
     return "interrupted; what was not computed yet is left out";
   if (interrupted) return "interrupted; the branch ends where it was stopped";
   if (!HasStrides(hopper) && point.status == FixedPointStatus::kHopFails)
-    return "no hop can be made from the start: " + std::string(SentenceOf(point.hop.outcome));
+    return "no hop can be made from the start: it " + std::string(SentenceOf(point.hop.outcome));
   if (HasStrides(hopper) && !map)
-    return "the robot makes too few strides from its start: " +
+    return "the robot makes too few strides from its start: it " +
            std::string(SentenceOf(own_outcome)) +
            "; search its clock with `hoplab optimize`, or try another initial state";
   if (HasStrides(hopper) && !point.found())

@@ -253,6 +253,16 @@ double LogExpectedEntropy(std::span<const double> weights, const Eigen::MatrixXd
   return highest + std::log(sum);
 }
 
+std::string FailureText(const std::string& failure) {
+  const std::size_t end = std::min(failure.find(' '), failure.size());
+  for (int i = 0; i <= static_cast<int>(Outcome::kIntegrationFailed); ++i) {
+    const auto outcome = static_cast<Outcome>(i);
+    if (NameOf(outcome) == failure.substr(0, end))
+      return std::string(SentenceOf(outcome)) + failure.substr(end);
+  }
+  return failure;
+}
+
 SharpeningForecast ForecastInterval(const FittedModel& model,
                                     const RecordedInformation& information, int parameter,
                                     const TrialProblem* trial) {

@@ -51,6 +51,9 @@ double LogExpectedEntropy(std::span<const double> weights, const Eigen::MatrixXd
 /// Names of a rival's members: "air_drag + ground_slope", "none of them".
 std::string RivalName(const FittedModel& rival);
 
+/// The failure of a forecast in words: "fell: the leg tipped ... under air_drag".
+std::string FailureText(const std::string& failure);
+
 /// Half width of a value's 95 % interval [its own unit] from the recorded trials alone, and with a
 /// new one; infinite where the data do not determine it.
 struct SharpeningForecast {

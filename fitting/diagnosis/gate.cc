@@ -96,7 +96,8 @@ Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, 
     TrialEvaluation e;
     evaluator.Evaluate({null.shared, null.initial_states[i], false}, e);
     if (!e.complete && incomplete.empty())
-      incomplete = train[i].file + ": " + std::string(SentenceOf(e.trajectory.outcome));
+      incomplete =
+          train[i].file + ": the simulation " + std::string(SentenceOf(e.trajectory.outcome));
   }
   gate.checks.push_back({"events", incomplete.empty(),
                          incomplete.empty()

@@ -104,15 +104,15 @@ std::string_view SentenceOf(Outcome outcome) {
     case Outcome::kNoSupport:
       return "touched down without the leg pushing back";
     case Outcome::kStartsInGround:
-      return "the start lies below touch-down height";
+      return "starts below touch-down height";
     case Outcome::kGrazing:
       return "met an event without crossing it; no derivative exists there";
     case Outcome::kChattering:
-      return "two events undo each other at one instant";
+      return "stops where two events undo each other at one instant";
     case Outcome::kCameToRest:
-      return "the bounces crowded together: it came to rest";
+      return "came to rest: the bounces crowded together";
     case Outcome::kEventLimit:
-      return "more events than a hop trace has";
+      return "had more events than a hop trace has";
     case Outcome::kStepLimit:
       return "needs more solver steps than allowed: a stiff leg, try the integrator cvodes";
     case Outcome::kIntegrationFailed:

@@ -76,7 +76,7 @@ enum class Outcome {
   kIntegrationFailed  // the solver cannot go on: state or law left their domain
 };
 std::string_view NameOf(Outcome outcome);
-/// One sentence for a message: what happened and what it means.
+/// For a message: what happened and what it means, said of the simulation: "fell: the hip ...".
 std::string_view SentenceOf(Outcome outcome);
 inline bool IsComplete(Outcome outcome) {
   return outcome == Outcome::kCompleted || outcome == Outcome::kHopLimit;

@@ -81,7 +81,8 @@ TEST_F(DesignCli, SaysTheSameWhateverTheJobs) {
 TEST_F(DesignCli, ASpaceInWhichNothingCanBeSimulatedIsNoResultAndSaysWhy) {
   const ProcessResult run = Design({"--sharpen", "E", "--space", "height=0.01:0.02"});
   EXPECT_EQ(run.exit_code, 1) << run.err;
-  EXPECT_NE(run.err.find("starts_in_ground"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("the simulation starts below touch-down height"), std::string::npos)
+      << run.err;
 }
 
 TEST_F(DesignCli, RefusesWhatItCannotDo) {

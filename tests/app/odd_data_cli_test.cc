@@ -54,6 +54,15 @@ class OddDataCli : public ::testing::Test {
   TempFolder temp_;
 };
 
+// The dataset is called three-drops.
+TEST_F(OddDataCli, WarningsNameADatasetByItsFolder) {
+  Generate();
+  ASSERT_EQ(Hoplab({"check", "hops", "--fix", "E=1e6", "--out", "run"}).exit_code, 0);
+  const std::string warning = RecordOf("run")["warnings"][0];
+  const std::string begin = "hops/train-1.csv: at the nominal values the simulation fell: ";
+  EXPECT_EQ(warning.substr(0, begin.size()), begin);
+}
+
 TEST_F(OddDataCli, DiagnoseTellsItAndKeepsIt) {
   Generate();
   ChangeYaml("role: test", "role: train");

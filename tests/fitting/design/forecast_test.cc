@@ -103,6 +103,9 @@ TEST(ForecastInterval, NamesWhyADesignIsWorthNothing) {
   const SharpeningForecast forecast =
       ForecastInterval(fit.null, InformationOf(fit.null, fit.train), 0, &trial);
   EXPECT_EQ(forecast.failure, NameOf(Outcome::kStartsInGround));
+  EXPECT_EQ(FailureText(forecast.failure), SentenceOf(Outcome::kStartsInGround));
+  EXPECT_EQ(FailureText("fell_arc under air_drag"),
+            "fell: the leg rolled up to the hip under air_drag");
 }
 
 }  // namespace
