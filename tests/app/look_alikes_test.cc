@@ -22,7 +22,12 @@ TEST(LookAlikes, AreThoseWhoseColumnsNearlyCoincide) {
     candidates.push_back({effect});
     owner.insert(owner.end(), effect->info.parameters.size(), std::string(effect->info.name));
   }
-  Eigen::MatrixXd columns = null.With(candidates).columns;
+  const Linearisation at = null.With(candidates);
+  // What a fitted value stands for has no column of its own.
+  std::vector<Eigen::Index> seen;
+  for (Eigen::Index k = 0; k < at.columns.cols(); ++k)
+    if (Information(at, static_cast<int>(k)) > 0.0) seen.push_back(k);
+  Eigen::MatrixXd columns = at.columns(Eigen::all, seen);
   columns.colwise().normalize();
   const Eigen::MatrixXd cosines = columns.transpose() * columns;
   ASSERT_TRUE(cosines.allFinite());
@@ -30,8 +35,10 @@ TEST(LookAlikes, AreThoseWhoseColumnsNearlyCoincide) {
   std::map<std::string, std::map<std::string, double>> alike;
   for (Eigen::Index i = 0; i < cosines.rows(); ++i) {
     for (Eigen::Index j = 0; j < cosines.cols(); ++j) {
-      const std::string &a = owner[static_cast<std::size_t>(i)],
-                        &b = owner[static_cast<std::size_t>(j)];
+      const auto owner_of = [&](Eigen::Index k) -> const std::string& {
+        return owner[static_cast<std::size_t>(seen[static_cast<std::size_t>(k)])];
+      };
+      const std::string &a = owner_of(i), &b = owner_of(j);
       const double size = std::abs(cosines(i, j));
       if (a != b && size > kAlikeCosine) alike[a][b] = std::max(alike[a][b], size);
     }
