@@ -295,7 +295,7 @@ function diagnosisReport() {
     section(extension ? 'The extended model' : 'The model as it is', parameterTable(fitted, apart), intervalPlot(fitted, apart),
       paragraph(run.sentences?.determined ? `Determined, before: ${run.sentences.determined}.` : ''),
       paragraph(run.whole_trials ? `The whole trials: ${run.whole_trials.sentence}.` : ''),
-      paragraph(extension?.remainder && isNumber(extension.remainder.p_value) ? `What is left after it: chance under noise alone ${extension.remainder.p_value < 0.001 ? 'below 0.001' : significant(extension.remainder.p_value, 2)}.` : ''));
+      paragraph(run.sentences?.remainder ? `The remainder: ${run.sentences.remainder}.` : ''));
   }
   const tests = list(run.detection?.tests);
   runDetails(gradientPart(run.gradient_check, run.sentences?.gradients),

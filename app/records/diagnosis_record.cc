@@ -204,7 +204,8 @@ void AddChecks(const Diagnosis& d, Json& record) {
   record["sentences"] = {
       {"determined",
        determined ? Json(DeterminedLine(d.problem, d.uncertainty, "")) : Json(nullptr)},
-      {"gradients", CertificateLine(d.gate.certificate)}};
+      {"gradients", CertificateLine(d.gate.certificate)},
+      {"remainder", d.extension ? Json(RemainderSentence(d)) : Json(nullptr)}};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 
+#include "app/records/fit_words.h"
 #include "app/terminal/quantity.h"
 #include "base/text.h"
 #include "fitting/diagnosis/verdict.h"
@@ -19,6 +20,7 @@ constexpr double kNothingExplained = 0.005;  // of the misfit, by the best attem
 constexpr double kLoneChannel = 0.9;         // of the misfit, in one channel alone
 constexpr int kMostWords = 30;               // of a first sentence
 constexpr std::size_t kMostNamed = 3;        // in it, fewer where it gets too long
+constexpr double kSmoothMatters = 0.01;      // of the misfit, left as a smooth error
 
 // "a", "a and b", "a, b and c".
 std::string Listed(const std::vector<std::string>& words) {
@@ -156,7 +158,50 @@ std::string UnexplainedSentence(const Diagnosis& d, std::size_t most) {
                                 : "explains " + ShareText(e.explained) + " of the misfit");
 }
 
+// "a smooth error of body_x 2.51 mm over 262 ms" that is left beside what looks like noise; empty
+// where there is none.
+std::string SmoothLeft(const Diagnosis& d) {
+  const FitProblem& problem = d.naming.best.problem;
+  return problem.noise.IsWhite() ? "" : "a smooth error of " + LeftText(problem);
+}
+
+// Whether that smooth error is more than the noise of some channel, or much of the misfit.
+bool SmoothMatters(const Diagnosis& d) {
+  const FitProblem& problem = d.naming.best.problem;
+  if (problem.noise.IsWhite() || !(d.extension->explained < 1.0)) return false;
+  if (1.0 - d.extension->explained > kSmoothMatters) return true;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c)
+    if (problem.noise.AmplitudeOf(c) > 1.0) return true;
+  return false;
+}
+
+// "90.7 % of the misfit is explained, not all of it", not rounded up to all of it.
+std::string NotAllText(const ExtensionReport& e) {
+  return fmt::format("{:.1f} % of the misfit is explained, not all of it",
+                     std::floor(1e3 * e.explained) / 10.0);
+}
+
 }  // namespace
+
+std::string RemainderSentence(const Diagnosis& d) {
+  const ExtensionReport& e = *d.extension;
+  const Detection& r = e.remainder;
+  const std::string chance = " (" + ChanceText(r.p_value) + ")";
+  if (!e.SomeRemains()) {
+    const std::string noise = e.InDoubt() ? " may be noise or not" : " looks like noise";
+    const std::string smooth = SmoothLeft(d);
+    if (smooth.empty()) return "what is left" + noise + chance;
+    const std::string rest = "beside " + smooth + " the rest" + noise + chance;
+    return SmoothMatters(d) ? NotAllText(e) + ": " + rest : rest;
+  }
+  std::string text = NotAllText(e) + chance;
+  const auto most = std::max_element(
+      r.tests.begin() + static_cast<std::ptrdiff_t>(r.candidates), r.tests.end(),
+      [](const DetectionTest& a, const DetectionTest& b) { return a.statistic < b.statistic; });
+  if (most != r.tests.end() && most->dof > 0)
+    text += fmt::format("; a free {} would take up most of the rest", most->name);
+  return text;
+}
 
 std::string VerdictSentence(const Diagnosis& d) {
   if (!d.refusal.empty() || d.interrupted) return "";

@@ -9,6 +9,10 @@ namespace hoplab {
 /// The verdict in one sentence of at most thirty words, main causes only; empty if there is none.
 std::string VerdictSentence(const Diagnosis& diagnosis);
 
+/// What the extension leaves: that it looks like noise, beside a smooth error where one is, or that
+/// not all of the misfit is explained. Asks for a diagnosis with an extension.
+std::string RemainderSentence(const Diagnosis& diagnosis);
+
 /// "0.012 N s^2/m^2": a size with its unit, two significant digits.
 std::string SizeText(double value, const std::string& unit);
 

@@ -154,22 +154,6 @@ std::string EnergyTable(const EnergyLedger& ledger, bool colours) {
   return WithHeader(table.Lines(), colours);
 }
 
-std::string RemainderLine(const ExtensionReport& e) {
-  const Detection& r = e.remainder;
-  if (!e.InDoubt()) return fmt::format("what is left looks like noise ({})", ChanceText(r.p_value));
-  if (!e.SomeRemains())
-    return fmt::format("what is left may be noise or not ({})", ChanceText(r.p_value));
-  // Not rounded up to all of it.
-  std::string text = fmt::format("{:.1f} % of the misfit is explained, not all of it ({})",
-                                 std::floor(1e3 * e.explained) / 10.0, ChanceText(r.p_value));
-  const auto most = std::max_element(
-      r.tests.begin() + static_cast<std::ptrdiff_t>(r.candidates), r.tests.end(),
-      [](const DetectionTest& a, const DetectionTest& b) { return a.statistic < b.statistic; });
-  if (most != r.tests.end() && most->dof > 0)
-    text += fmt::format("; a free {} would take up most of the rest", most->name);
-  return text;
-}
-
 // ---- what next
 
 std::string ExperimentLine(const Diagnosis& d) {
@@ -232,7 +216,7 @@ std::string DiagnosisReport(const Dataset& dataset, const DiagnosisRun& run, boo
     if (!run.energy.hops.empty()) text += EnergyTable(run.energy, colours) + "\n";
     if (d.carried_on) text += Labelled("whole trials", WholeTrialsSentence(*d.carried_on), colours);
     text += Labelled("gain", GainLine(e), colours);
-    text += Labelled("remainder", RemainderLine(e), colours);
+    text += Labelled("remainder", RemainderSentence(d), colours);
     text += DoubtLines(d, colours);
   } else {
     if (!d.uncertainty.parameters.empty())

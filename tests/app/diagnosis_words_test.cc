@@ -207,6 +207,31 @@ TEST_F(VerdictSentenceTest, AnUnexplainedMisfitIsToldWithTheBestAttempt) {
   EXPECT_NE(VerdictSentence(d_).find("needs a size beyond what is physical"), std::string::npos);
 }
 
+// Noise is what is left beside the smooth error, and not all that is left.
+TEST_F(VerdictSentenceTest, TheRemainderTellsOfASmoothErrorAboveTheNoise) {
+  d_.naming.best.problem = d_.problem;
+  d_.extension->remainder.p_value = 0.12;
+  EXPECT_EQ(RemainderSentence(d_), "what is left looks like noise (p = 0.12)");
+  std::vector<double>& amplitude = d_.naming.best.problem.noise.amplitude;
+  amplitude.assign(d_.problem.channels.size(), 0.0);
+  amplitude[0] = 0.4;
+  d_.naming.best.problem.noise.time_scale = 0.262;
+  d_.extension->explained = 0.9951;
+  EXPECT_EQ(RemainderSentence(d_),
+            "beside a smooth error of body_x 0.400 mm over 262 ms the rest looks like noise (p = "
+            "0.12)");
+  amplitude[0] = 2.51;
+  EXPECT_EQ(RemainderSentence(d_),
+            "99.5 % of the misfit is explained, not all of it: beside a smooth error of body_x "
+            "2.51 mm over 262 ms the rest looks like noise (p = 0.12)");
+  amplitude[0] = 0.4;
+  d_.extension->explained = 0.907;
+  d_.extension->remainder.p_value = 0.03;
+  EXPECT_EQ(RemainderSentence(d_),
+            "90.7 % of the misfit is explained, not all of it: beside a smooth error of body_x "
+            "0.400 mm over 262 ms the rest may be noise or not (p = 0.030)");
+}
+
 TEST(DiagnosisWords, SharesAreNeverRoundedUp) {
   EXPECT_EQ(ShareText(0.9999), "99 %");
   EXPECT_EQ(ShareText(1.0), "100 %");
