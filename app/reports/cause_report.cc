@@ -32,9 +32,9 @@ void AddCauseRow(TextTable& table, const SharedParameter& s, double value,
   if (interval.ci) {
     const double half = 0.5 * (interval.ci->second - interval.ci->first) * unit.factor;
     const int decimals = DecimalsFor(half);
-    shown = Fixed(value * unit.factor, decimals);
-    range = Fixed(interval.ci->first * unit.factor, decimals) + " .. " +
-            Fixed(interval.ci->second * unit.factor, decimals);
+    shown = FixedOrMore(value * unit.factor, decimals);
+    range = FixedOrMore(interval.ci->first * unit.factor, decimals) + " .. " +
+            FixedOrMore(interval.ci->second * unit.factor, decimals);
   }
   table.AddRow({s.name, shown, interval.at_bound ? "at its bound" : range, unit.unit, remarks[0],
                 remarks[1]});
@@ -159,8 +159,8 @@ std::string DifferentlyText(const CauseReport& c, std::size_t k,
     const ReadableUnit shown = ReadableUnitOf(value.mean, unit);
     const auto [low, high] = *value.ci95;
     const int decimals = DecimalsFor(0.5 * (high - low) * shown.factor);
-    interval = fmt::format(" (95 % {} .. {})", Fixed(low * shown.factor, decimals),
-                           Fixed(high * shown.factor, decimals));
+    interval = fmt::format(" (95 % {} .. {})", FixedOrMore(low * shown.factor, decimals),
+                           FixedOrMore(high * shown.factor, decimals));
   }
   return fmt::format("{}{} in every trial, differently: mean {}{}, spread {} ({}): {}",
                      CauseText(c.cause),

@@ -26,14 +26,14 @@ std::string ValueText(const Json& own, double factor) {
   if (std::isnan(value)) return "-";
   if (!own["ci95"].is_array()) return Significant(value * factor, 4);
   const double half = 0.5 * factor * (Number(own["ci95"][1]) - Number(own["ci95"][0]));
-  return Fixed(value * factor, DecimalsFor(half));
+  return FixedOrMore(value * factor, DecimalsFor(half));
 }
 
 std::string PairText(const Json& pair, double factor) {
   if (!pair.is_array()) return "";
   const double low = factor * Number(pair[0]), high = factor * Number(pair[1]);
   const int decimals = DecimalsFor(0.5 * (high - low));
-  return Fixed(low, decimals) + " .. " + Fixed(high, decimals);
+  return FixedOrMore(low, decimals) + " .. " + FixedOrMore(high, decimals);
 }
 
 // One line a value and run.
@@ -56,7 +56,7 @@ std::vector<std::string> ValueLines(const Json& record) {
       std::string shown;
       if (std::isfinite(change))
         shown = decimals < 0 ? Significant(change * unit.factor, 3)
-                             : Fixed(change * unit.factor, decimals);
+                             : FixedOrMore(change * unit.factor, decimals);
       table.AddRow({i == 0 ? Text(value["name"]) : "", std::to_string(i + 1),
                     ValueText(own, unit.factor), PairText(own["ci95"], unit.factor), unit.unit,
                     shown, PairText(range, unit.factor), std::isnan(z) ? "" : Significant(z, 2),

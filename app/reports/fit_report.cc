@@ -26,8 +26,8 @@ std::optional<Interval> IntervalOf(const std::optional<std::pair<double, double>
 
 std::string IntervalText(const std::optional<Interval>& interval, double factor, int decimals) {
   if (!interval) return "";
-  return Fixed(interval->low * factor, decimals) + " .. " +
-         Fixed(interval->high * factor, decimals);
+  return FixedOrMore(interval->low * factor, decimals) + " .. " +
+         FixedOrMore(interval->high * factor, decimals);
 }
 
 std::string FitSentence(const FitRun& run) {
@@ -70,7 +70,8 @@ std::vector<std::string> ParameterLines(const FitRun& run) {
         std::max(noise ? DecimalsFor(noise->half_width() * unit.factor) - (between ? 1 : 0) : 0,
                  between ? DecimalsFor(between->half_width() * unit.factor) : 0);
     table.AddRow(
-        {s.name, noise ? Fixed(value * unit.factor, decimals) : Significant(value * unit.factor, 4),
+        {s.name,
+         noise ? FixedOrMore(value * unit.factor, decimals) : Significant(value * unit.factor, 4),
          noise ? IntervalText(noise, unit.factor, decimals) : "none",
          IntervalText(between, unit.factor, decimals), unit.unit, start,
          u.at_bound ? "at bound" : ""});
@@ -145,7 +146,7 @@ std::string FitReport(const Dataset& dataset, const FitRun& run, bool colours) {
     const double width = p.lower95 && p.upper95 ? 0.5 * (*p.upper95 - *p.lower95) : 0.0;
     const int decimals = DecimalsFor(width * unit.factor);
     const auto side = [&](const std::optional<double>& v) {
-      return v ? Fixed(*v * unit.factor, decimals) : std::string("open");
+      return v ? FixedOrMore(*v * unit.factor, decimals) : std::string("open");
     };
     text += Labelled(
         "profile",

@@ -44,7 +44,7 @@ std::string ForceLine(const ReconstructedForce& f) {
     const ReadableUnit unit = ReadableUnitOf(largest->value, f.group.unit);
     const double band = largest->band95 * unit.factor;
     const int decimals = DecimalsFor(band);
-    text += fmt::format(" {} +- {} {}", Fixed(largest->value * unit.factor, decimals),
+    text += fmt::format(" {} +- {} {}", FixedOrMore(largest->value * unit.factor, decimals),
                         Fixed(band, decimals), unit.unit);
     if (!against.empty()) text += fmt::format(" at {} {}", against, Significant(largest->at, 2));
   }

@@ -26,7 +26,8 @@ std::string IntervalNote(const Json& record, const Json& parameter) {
       ReadableUnitOf(NumberAt(parameter, "/value"), TextAt(parameter, "/unit"));
   const int decimals = DecimalsFor(0.5 * (high - low) * unit.factor);
   return fmt::format("95 %{}: {} to {}", between ? " between trials" : "",
-                     Fixed(low * unit.factor, decimals), Fixed(high * unit.factor, decimals));
+                     FixedOrMore(low * unit.factor, decimals),
+                     FixedOrMore(high * unit.factor, decimals));
 }
 
 // "E = 22.98 GPa".

@@ -50,6 +50,12 @@ int DecimalsFor(double half_width) {
 
 std::string Fixed(double value, int decimals) { return Formatted("%.*f", decimals, value); }
 
+std::string FixedOrMore(double value, int decimals) {
+  if (value == 0.0 || !std::isfinite(value)) return Fixed(value, decimals);
+  const int needed = 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
+  return needed > decimals ? Significant(value, 2) : Fixed(value, decimals);
+}
+
 std::string Significant(double value, int digits) {
   const double size = std::abs(value);
   if (std::isfinite(value) && size >= 1e-4 && size < 1e6) {

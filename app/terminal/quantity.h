@@ -21,6 +21,10 @@ int DecimalsFor(double half_width);
 /// `value` with so many decimals; "-" for NaN.
 std::string Fixed(double value, int decimals);
 
+/// The same with two significant digits at least, also where these decimals show fewer: a value
+/// that is small beside its interval is not zero.
+std::string FixedOrMore(double value, int decimals);
+
 /// `value` with so many significant digits, never an exponent between 1e-4 and 1e6; "-" for NaN.
 std::string Significant(double value, int digits);
 

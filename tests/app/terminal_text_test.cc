@@ -29,6 +29,15 @@ TEST(Quantity, DigitsFollowTheUncertainty) {
   EXPECT_EQ(Significant(0.0, 3), "0");
 }
 
+TEST(Quantity, AValueThatIsSmallBesideItsIntervalIsNotZero) {
+  EXPECT_EQ(FixedOrMore(-0.297, DecimalsFor(102.5)), "-0.30");
+  EXPECT_EQ(FixedOrMore(-103.2, DecimalsFor(102.5)), "-103");
+  EXPECT_EQ(FixedOrMore(3.04, 0), "3.0");
+  EXPECT_EQ(FixedOrMore(22.014, 3), "22.014");
+  EXPECT_EQ(FixedOrMore(2e-7, 2), "2e-07");
+  EXPECT_EQ(FixedOrMore(0.0, 2), "0.00");
+}
+
 TEST(Quantity, ErrorsOfLengthAreInMillimetres) {
   EXPECT_EQ(ErrorText(0.000702, "m"), "0.702 mm");
   EXPECT_EQ(ErrorText(0.25, "rad"), "0.250 rad");
