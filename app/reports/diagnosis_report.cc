@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/records/carried_on_record.h"
@@ -123,13 +124,30 @@ std::string GainLine(const ExtensionReport& e) {
   return text;
 }
 
+// Value `k` beside the causes that are told, with its interval: {"22.01", "21.88 .. 22.17"}.
+std::array<std::string, 2> ValueAfter(const ExtensionReport& e, std::size_t k, double factor) {
+  const double after = e.movements[k].after * factor;
+  const std::string alone = Significant(after, 4);
+  if (k >= e.uncertainty.parameters.size()) return {alone, ""};
+  const ParameterUncertainty& u = e.uncertainty.parameters[k];
+  if (u.at_bound) return {alone, "at its bound"};
+  // Where the model misses more than noise the trials say how far a value may be off.
+  const auto& interval = e.uncertainty.misfit ? u.Wider() : u.ci95;
+  if (!interval) return {alone, "not determined"};
+  const double low = interval->first * factor, high = interval->second * factor;
+  const int decimals = DecimalsFor(0.5 * (high - low));
+  return {FixedOrMore(after, decimals),
+          FixedOrMore(low, decimals) + " .. " + FixedOrMore(high, decimals)};
+}
+
 std::string MovedTable(const ExtensionReport& e, bool colours) {
-  TextTable table({kLeft, kRight, kRight, kLeft, kLeft});
-  table.AddRow({"parameter", "before", "after", "unit", "moved by"});
-  for (const Movement& m : e.movements) {
+  TextTable table({kLeft, kRight, kRight, kLeft, kLeft, kLeft});
+  table.AddRow({"parameter", "before", "after", "95 % interval", "unit", "moved by"});
+  for (std::size_t k = 0; k < e.movements.size(); ++k) {
+    const Movement& m = e.movements[k];
     const ReadableUnit unit = ReadableUnitOf(m.before, m.unit);
-    table.AddRow({m.name, Significant(m.before * unit.factor, 4),
-                  Significant(m.after * unit.factor, 4), unit.unit,
+    const std::array<std::string, 2> after = ValueAfter(e, k, unit.factor);
+    table.AddRow({m.name, Significant(m.before * unit.factor, 4), after[0], after[1], unit.unit,
                   m.std_errors ? fmt::format("{:+.{}f} standard errors", *m.std_errors,
                                              std::abs(*m.std_errors) < 10.0 ? 1 : 0)
                                : "not known: undetermined before"});

@@ -58,6 +58,11 @@ TEST(SizesInWords, NothingIsSaidWhereOneSizeServesAll) {
   ASSERT_TRUE(run.diagnosis.extension) << run.diagnosis.reason;
   const std::string text = DiagnosisReport(dataset, run, true, false);
   EXPECT_EQ(text.find("differently"), std::string::npos) << text;
+  // What the cause makes of the model's values, with their intervals.
+  const std::string words = Unbroken(text);
+  EXPECT_NE(words.find("before after 95 % interval unit moved by E "), std::string::npos) << text;
+  const std::string row = words.substr(words.find(" moved by E ") + 10);
+  EXPECT_LT(row.find(" .. "), row.find(" GPa ")) << row;
 }
 
 TEST(LeftOutInWords, WhatTheWholeTrialsKnowInAnotherSizeIsToldWithBoth) {
