@@ -182,7 +182,9 @@ void AddModels(const DiagnosisRun& run, Json& record) {
   record["penalty_nats"] = d.naming.log_odds > 0.0 ? Json(d.naming.log_odds) : Json(nullptr);
   record["causes"] = CausesRecord(d);
   record["set_aside"] = SetAsideRecord(d);
-  record["probability_unlisted"] = NumberOrNull(d.UnlistedProbability());
+  // A model that is adequate lacks nothing, listed or not.
+  record["probability_unlisted"] =
+      d.verdict == Verdict::kAdequate ? Json(nullptr) : NumberOrNull(d.UnlistedProbability());
   record["left"] = LeftRecord(d.naming.best.problem);
   record["left_share"] = NumberOrNull(d.left.share);
   record["posterior"] = PosteriorRecord(d);

@@ -197,7 +197,8 @@ TEST_F(DiagnoseCli, CleanDataAreAdequate) {
       << run.out;
   const nlohmann::json record = ReadRecord(temp_.path() / "run");
   EXPECT_EQ(record.at("verdict"), "adequate");
-  for (const char* key : {"cause", "extension", "separating_experiment", "free_forces"})
+  for (const char* key :
+       {"cause", "extension", "separating_experiment", "free_forces", "probability_unlisted"})
     EXPECT_TRUE(record.at(key).is_null()) << key;
   EXPECT_TRUE(record.at("effects").empty());
   EXPECT_TRUE(record.at("group").empty());
