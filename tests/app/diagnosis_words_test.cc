@@ -218,18 +218,18 @@ TEST_F(VerdictSentenceTest, TheRemainderTellsOfASmoothErrorAboveTheNoise) {
   d_.naming.best.problem.noise.time_scale = 0.262;
   d_.extension->explained = 0.9951;
   EXPECT_EQ(RemainderSentence(d_),
-            "beside a smooth error of body_x 0.400 mm over 260 ms the rest looks like noise (p = "
+            "beside a smooth error of body_x 0.400 mm over 262 ms the rest looks like noise (p = "
             "0.12)");
   amplitude[0] = 2.51;
   EXPECT_EQ(RemainderSentence(d_),
             "99.5 % of the misfit is explained, not all of it: beside a smooth error of body_x "
-            "2.51 mm over 260 ms the rest looks like noise (p = 0.12)");
+            "2.51 mm over 262 ms the rest looks like noise (p = 0.12)");
   amplitude[0] = 0.4;
   d_.extension->explained = 0.907;
   d_.extension->remainder.p_value = 0.03;
   EXPECT_EQ(RemainderSentence(d_),
             "90.7 % of the misfit is explained, not all of it: beside a smooth error of body_x "
-            "0.400 mm over 260 ms the rest may be noise or not (p = 0.030)");
+            "0.400 mm over 262 ms the rest may be noise or not (p = 0.030)");
 }
 
 TEST(DiagnosisWords, SharesAreNeverRoundedUp) {
