@@ -31,9 +31,9 @@ double ClearlyOff(double noise, double of_all, double high, double high_of_all, 
   const double by_flights = std::log(noise / of_all), by_high = std::log(high / high_of_all);
   if (!std::isfinite(by_flights) || !std::isfinite(by_high)) return 0.0;
   if (by_flights * by_high <= 0.0) return 0.0;
-  const double less = std::abs(by_flights) < std::abs(by_high) ? by_flights : by_high;
+  const double less = std::min(std::abs(by_flights), std::abs(by_high));
   const double least = std::max(std::log(kLeastFactor), kSureOf * ErrorOf(windows));
-  return std::abs(less) > least ? less : 0.0;
+  return less > least ? 0.5 * (by_flights + by_high) : 0.0;
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ double SigmaIn(const FitProblem& problem, const TrialProblem& trial, std::size_t
 /// (TrialProblem::noise_factors): a camera that hung badly that day, a marker in the dark. A trial
 /// differs by a factor of 1.3 at least and by four standard errors of its own estimate, and two
 /// estimates must agree that it does: that of EstimateNoise, against `sigma`, and that of
-/// HighFrequencyNoise, against the other trials'. The one that says less is taken. Of coordinates
-/// and speeds alone, which are parabolas in flight.
+/// HighFrequencyNoise, against the other trials'. Their mean is taken. Of coordinates and speeds
+/// alone, which are parabolas in flight.
 /// `only_louder`: of a sigma that is stated, only what is more than that counts.
 /// What was found, one sentence a trial.
 std::vector<std::string> FindTrialNoise(FitProblem& problem, std::size_t channel,

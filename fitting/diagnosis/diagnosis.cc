@@ -12,6 +12,7 @@
 #include "fitting/diagnosis/heterogeneity.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/null_fit.h"
+#include "fitting/diagnosis/own_sizes.h"
 #include "fitting/diagnosis/sizes.h"
 #include "fitting/diagnosis/verdict.h"
 
@@ -227,6 +228,16 @@ class Pipeline {
     const FittedModel& model = d_.extension ? d_.naming.best : d_.plain;
     const Linearisation at = LineariseAt(model, basis_.probes, train_, options_.fit.jobs);
     d_.free_forces = Reconstruct(at, basis_, options_.Seed(Draws::kForces));
+    NoteOwnSizes();
+  }
+
+  // What is there in every trial, of another size in each.
+  void NoteOwnSizes() {
+    const std::vector<Candidate> candidates = CandidatesOf(d_.problem, options_.candidates);
+    const auto own = BestOwnSizes(LineariseAt(d_.plain, candidates, train_, options_.fit.jobs),
+                                  candidates, train_);
+    if (own && !(d_.extension && d_.extension->explained >= own->explained))
+      d_.notes.push_back(TextOf(*own, train_));
   }
 
   const DiagnosisOptions& options_;

@@ -76,7 +76,7 @@ struct Question {
 
 inline Solution Solve(const Question& q, ExtendedRoot& root) {
   constexpr int kMaxRounds = 30;
-  constexpr double kStepTolerance = 1e-8;  // the step after it is below rounding
+  constexpr double kStepTolerance = 1e-11;  // the step after it is below rounding
   double phi = root.phi, sink = root.sink;
   if (root.u0 == root.u0) {
     const double du = q.u0 - root.u0, dy = q.y - root.y;

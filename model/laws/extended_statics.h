@@ -85,7 +85,7 @@ auto EnergyNear(double phi, double f, double f_known, elastica::Derivatives<2> k
   if constexpr (2 < kEnergyOrder<S>) {
     return elastica::EnergyTo3(phi, f);
   } else {
-    constexpr double kNear = kOfSearch<S> ? 1e-6 : 1e-11;
+    constexpr double kNear = kOfSearch<S> ? 1e-8 : 1e-11;
     const double df = f - f_known;
     if (!(std::abs(df) < kNear)) return elastica::EnergyTo2(phi, f);
     known[0][0] += df * (known[0][1] + 0.5 * df * known[0][2]);
@@ -218,7 +218,7 @@ void AddBeyondM2b(const ArcParts<S, P>& arc, const S& C, const S& Cs, const S& A
   const double phi_now = Value(at.phi), per_N = Value(unit_f), now = Value(blend) * Value(r);
   const double least = elastica::kLoadBegin / elastica::LoadScale(phi_now) / per_N;
   const double most = elastica::kLoadEnd / elastica::LoadScale(phi_now) / per_N;
-  constexpr double kLastStep = kOfSearch<S> ? 1e-5 : 1e-8;  // over the greatest force
+  constexpr double kLastStep = kOfSearch<S> ? 1e-6 : 1e-8;  // over the greatest force
   double F = at.F_near, slope = 1.0, f = 0.0;
   if (std::isnan(F)) {  // that of M2b
     const double C0 = Value(C), delta = Value(out.delta);

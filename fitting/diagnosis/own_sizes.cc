@@ -1,0 +1,75 @@
+#include "fitting/diagnosis/own_sizes.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "fitting/diagnosis/score.h"
+
+namespace hoplab {
+namespace {
+
+constexpr std::size_t kMostOwnTrials = 40;
+constexpr std::size_t kShown = 8;
+
+// The candidate's column cut to each trial in turn, what the fitted values take of it projected
+// out.
+Eigen::MatrixXd CutToTrials(const Linearisation& at, int column, std::size_t trials) {
+  const Eigen::VectorXd whole =
+      at.columns.col(column) + at.fitted_basis * at.along_fitted.col(column);
+  Eigen::MatrixXd cut = Eigen::MatrixXd::Zero(at.rows(), static_cast<Eigen::Index>(trials));
+  for (int row = 0; row < at.rows(); ++row)
+    cut(row, at.labels[static_cast<std::size_t>(row)].trial) = whole[row];
+  cut -= at.fitted_basis * (at.fitted_basis.transpose() * cut);
+  return cut;
+}
+
+}  // namespace
+
+std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Candidate> candidates,
+                                     const std::vector<TrialProblem>& train) {
+  const double misfit = at.chi2() - at.degrees_of_freedom();
+  const std::size_t n = train.size();
+  if (!(misfit > 0.0) || n < 2 || n > kMostOwnTrials || at.trials_left_out > 0) return std::nullopt;
+  // Squares that further sizes must gain, over what any cause gains with one.
+  const double price = std::log(static_cast<double>(at.samples)) * static_cast<double>(n - 1);
+  std::optional<OwnSizes> best;
+  double with_one = 0.0;
+  const std::vector<Hypothesis> hypotheses = HypothesesOf(candidates);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& c = candidates[i];
+    const int first = hypotheses[i].first;
+    with_one = std::max(with_one, ScoreOf(at, hypotheses[i]).score);
+    if (c.parameter_count() != 1 || c.effect->info.has_threshold) continue;
+    const Eigen::MatrixXd cut = CutToTrials(at, first, n);
+    if (!(cut.colwise().norm().minCoeff() > 1e-5 * at.length[first]) || !cut.allFinite()) continue;
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(cut);
+    const Eigen::VectorXd sizes = -qr.solve(at.r);
+    const double gained = at.chi2() - (at.r + cut * sizes).squaredNorm();
+    const double explained = std::min(gained / misfit, 1.0);
+    if (explained < kLeastOwn || (best && best->explained >= explained)) continue;
+    best = OwnSizes{c, {sizes.begin(), sizes.end()}, explained};
+  }
+  if (best && best->explained * misfit < with_one + price) return std::nullopt;
+  return best;
+}
+
+std::string TextOf(const OwnSizes& own, const std::vector<TrialProblem>& train) {
+  const std::string name(own.cause.effect->info.name);
+  std::string text = name + " of another size in each trial would explain " +
+                     std::to_string(static_cast<int>(100.0 * own.explained)) +
+                     " % of the misfit, to first order (";
+  for (std::size_t i = 0; i < std::min(own.sizes.size(), kShown); ++i)
+    text += (i ? ", " : "") + train[i].file + " " + Rounded(own.sizes[i]);
+  text += own.sizes.size() > kShown ? ", ..." : "";
+  const std::string_view unit = own.cause.Parameter(0).unit;
+  if (unit != "-") text += " " + std::string(unit);
+  text += ")";
+  if (name == "touchdown_angle_bias")
+    text +=
+        "; where angles are set by hand, touchdown_angle_sigma_deg lets each trial have its own";
+  return text;
+}
+
+}  // namespace hoplab
