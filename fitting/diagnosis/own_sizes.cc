@@ -25,6 +25,12 @@ Eigen::MatrixXd CutToTrials(const Linearisation& at, int column, std::size_t tri
   return cut;
 }
 
+// Sizes that the cause can have, but for a tenth of the largest: no drag pushes.
+bool InRoom(const Hypothesis& h, const Eigen::VectorXd& sizes) {
+  const double doubt = 0.1 * sizes.cwiseAbs().maxCoeff();
+  return sizes.minCoeff() >= h.lower[0] - doubt && sizes.maxCoeff() <= h.upper[0] + doubt;
+}
+
 }  // namespace
 
 std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Candidate> candidates,
@@ -43,9 +49,11 @@ std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Ca
     with_one = std::max(with_one, ScoreOf(at, hypotheses[i]).score);
     if (c.parameter_count() != 1 || c.effect->info.has_threshold) continue;
     const Eigen::MatrixXd cut = CutToTrials(at, first, n);
-    if (!(cut.colwise().norm().minCoeff() > 1e-5 * at.length[first]) || !cut.allFinite()) continue;
+    const double least = std::sqrt(kInseparable) * at.length[first];
+    if (!(cut.colwise().norm().minCoeff() > least) || !cut.allFinite()) continue;
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(cut);
     const Eigen::VectorXd sizes = -qr.solve(at.r);
+    if (!InRoom(hypotheses[i], sizes)) continue;
     const double gained = at.chi2() - (at.r + cut * sizes).squaredNorm();
     const double explained = std::min(gained / misfit, 1.0);
     if (explained < kLeastOwn || (best && best->explained >= explained)) continue;

@@ -18,8 +18,9 @@ struct OwnSizes {
   double explained = 0.0;     // share of the misfit beyond noise that they take up, 0..1
 };
 
-/// The cause of one parameter that explains most so. `at`: the candidates beside the model without
-/// causes. Absent where none explains kLeastOwn of the misfit and gains what further sizes cost.
+/// The cause of one parameter that explains most so, by sizes that it can have. `at`: the
+/// candidates beside the model without causes. Absent where none explains kLeastOwn of the misfit
+/// and gains what further sizes cost.
 inline constexpr double kLeastOwn = 0.7;
 std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Candidate> candidates,
                                      const std::vector<TrialProblem>& train);

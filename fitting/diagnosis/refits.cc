@@ -281,8 +281,7 @@ std::vector<std::pair<CandidateSet, double>> Refits::Visited() const {
 
 bool Refits::WasTried(int candidate) const {
   return std::any_of(models_.begin(), models_.end(), [&](const auto& model) {
-    const CandidateSet& set = model.first;
-    return model.second.white.ok() && std::find(set.begin(), set.end(), candidate) != set.end();
+    return model.second.white.ok() && Holds(model.first, candidate);
   });
 }
 

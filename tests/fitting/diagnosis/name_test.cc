@@ -8,7 +8,7 @@
 #include "fitting/diagnosis/pool.h"
 #include "fitting/diagnosis/refits.h"
 #include "fitting/generate.h"
-#include "tests/support/diagnosed_hops.h"
+#include "tests/support/naming.h"
 #include "tests/support/robot_drops.h"
 
 namespace hoplab {
@@ -17,30 +17,14 @@ namespace {
 using testing::CandidateOf;
 using testing::EffectOfSize;
 using testing::GroupNames;
+using testing::MembersOf;
+using testing::NameIn;
+using testing::NameSix;
 using testing::NullFit;
+using testing::ResultOf;
 
-Naming NameIn(const NullFit& fit, const std::vector<Candidate>& candidates,
-              const NamingOptions& options = {}) {
-  return NameCauses(fit.fits(), candidates, fit.Linearised(fit.settled, candidates), fit.train,
-                    options);
-}
-Naming NameSix(const NullFit& fit, const NamingOptions& options = {}) {
-  return NameIn(fit, testing::CandidatesOf(testing::kSixEffects), options);
-}
-
-std::vector<std::string> MembersOf(const Naming& n) {
-  std::vector<std::string> names;
-  for (const Candidate& c : n.best.members) names.push_back(c.Name());
-  return names;
-}
-const CandidateResult& ResultOf(const Naming& n, const std::string& name) {
-  for (const CandidateResult& c : n.candidates) {
-    if (c.candidate.Name() == name) return c;
-  }
-  throw std::logic_error("no candidate " + name);
-}
-bool Holds(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+bool Has(const std::vector<std::string>& names, const std::string& name) {
+  return std::count(names.begin(), names.end(), name) > 0;
 }
 
 TEST(NameCauses, NamesAClearEffectAndItsSize) {
@@ -67,8 +51,8 @@ TEST(NameCauses, FindsTwoEffectsAtOnce) {
   const Naming n = NameSix(fit);
   ASSERT_EQ(n.groups.size(), 2u);
   const std::vector<std::string> first = GroupNames(n, 0), second = GroupNames(n, 1);
-  EXPECT_TRUE(Holds(first, "touchdown_angle_bias") || Holds(second, "touchdown_angle_bias"));
-  EXPECT_TRUE(Holds(first, "sensor_delay") || Holds(second, "sensor_delay"));
+  EXPECT_TRUE(Has(first, "touchdown_angle_bias") || Has(second, "touchdown_angle_bias"));
+  EXPECT_TRUE(Has(first, "sensor_delay") || Has(second, "sensor_delay"));
 }
 
 // From what was found elsewhere it finds the same, without every cause tried alone.
@@ -221,44 +205,6 @@ TEST(NameCauses, ACauseThatEndsAtItsBoundGivesWayToOneThatDoesNot) {
   const double free = fit.RefittedWith(CandidateOf("touchdown_angle_bias")).ValuesOf(0)[0];
   EXPECT_EQ(group_within(1.001 * free).size(), 2u);
   EXPECT_EQ(group_within(0.999 * free), std::vector<std::string>{"twin_of_bias"});
-}
-
-TEST(NameCauses, AnEffectInOneTrialIsNamedAsSuch) {
-  Dataset d = testing::DatasetOf({});
-  d.trials[1] =
-      testing::DatasetOf({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}}).trials[1];
-  const Naming n = NameSix(NullFit(d));
-  ASSERT_FALSE(n.groups.empty());
-  EXPECT_EQ(MembersOf(n), std::vector<std::string>{"touchdown_angle_bias in train-2.csv"});
-  EXPECT_NEAR(n.best.ValuesOf(0)[0], 0.03, 0.005);
-}
-
-// In all trials alike it is their modulus, which is fitted.
-TEST(NameCauses, ASofterLegInOneTrialIsNamedAsSuch) {
-  const std::vector<Candidate> candidates =
-      testing::CandidatesOf({"leg_stiffness", "leg_hardening", "touchdown_angle_bias"});
-  Dataset d = testing::DatasetOf({});
-  d.trials[1] = testing::DatasetOf({.effects = {EffectOfSize("leg_stiffness", -0.14)}}).trials[1];
-  const Naming n = NameIn(NullFit(d), candidates);
-  EXPECT_EQ(MembersOf(n), std::vector<std::string>{"leg_stiffness in train-2.csv"});
-  EXPECT_NEAR(n.best.ValuesOf(0)[0], -0.14, 0.02);
-  EXPECT_TRUE(
-      MembersOf(NameIn(NullFit({.effects = {EffectOfSize("leg_stiffness", -0.14)}}), candidates))
-          .empty());
-}
-
-TEST(NameCauses, AScaleOfThePictureIsNoPairOfScales) {
-  const Naming n = NameIn(NullFit({.effects = {EffectOfSize("camera_scale", 0.02)}}),
-                          testing::CandidatesOf({"camera_scale", "sensor_scale_x", "sensor_scale_y",
-                                                 "clock_scale", "rest_radius_scale"}));
-  EXPECT_EQ(MembersOf(n), std::vector<std::string>{"camera_scale"});
-  EXPECT_NEAR(n.best.ValuesOf(0)[0], 0.02, 0.004);
-}
-
-TEST(NameCauses, AnEffectInEveryTrialIsNotLaidToOne) {
-  const Naming n = NameSix(NullFit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}}));
-  for (const std::string& name : GroupNames(n))
-    EXPECT_EQ(name.find(" in "), std::string::npos) << name;
 }
 
 TEST(NameCauses, AddsNoMoreEffectsThanAllowed) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
@@ -42,6 +44,48 @@ TEST(OwnSizes, OfAnglesSetByHandAreToldTrialByTrial) {
   EXPECT_NE(text.find(" rad); where angles are set by hand, touchdown_angle_sigma_deg"),
             std::string::npos)
       << text;
+}
+
+// Four trials of ten rows in which one cause alone acts, of these sizes.
+std::optional<OwnSizes> FoundWhere(const std::string& cause, std::span<const double> sizes) {
+  constexpr int kRows = 10;
+  const std::vector<Candidate> candidates = testing::CandidatesOf({cause});
+  const int rows = kRows * static_cast<int>(sizes.size());
+  Linearisation at;
+  at.columns.resize(rows, 1);
+  at.r.resize(rows);
+  for (int row = 0; row < rows; ++row) {
+    RowLabel label;
+    label.trial = row / kRows;
+    at.labels.push_back(label);
+    at.columns(row, 0) = 1000.0 * (1 + row % 3);
+    at.r[row] = -at.columns(row, 0) * sizes[static_cast<std::size_t>(label.trial)];
+  }
+  at.length = at.columns.colwise().norm().transpose();
+  at.fitted_basis.resize(rows, 0);
+  at.along_fitted.resize(0, 1);
+  at.row_count = at.samples = rows;
+  return BestOwnSizes(at, candidates, std::vector<TrialProblem>(sizes.size()));
+}
+
+// A loss gives nothing back.
+TEST(OwnSizes, AreThoseThatACauseCanHave) {
+  constexpr double kLosses[] = {0.03, 0.001, 0.02, 0.0};
+  EXPECT_TRUE(FoundWhere("touchdown_angle_bias", kOff));
+  EXPECT_FALSE(FoundWhere("touchdown_loss", kOff));
+  const std::optional<OwnSizes> losses = FoundWhere("touchdown_loss", kLosses);
+  ASSERT_TRUE(losses);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(losses->sizes[i], kLosses[i], 1e-12);
+}
+
+TEST(OwnSizes, AreToldByADiagnosisThatExplainsLess) {
+  const Diagnosis d = Diagnose(HopsOffBy(kOff), testing::OptionsWith(testing::kSixEffects));
+  ASSERT_EQ(d.verdict, Verdict::kUnexplained);
+  EXPECT_EQ(std::count_if(d.notes.begin(), d.notes.end(),
+                          [](const std::string& note) {
+                            return note.starts_with("touchdown_angle_bias of another size in each");
+                          }),
+            1);
 }
 
 TEST(OwnSizes, AreNotWhatOneSizeForAllExplains) {
