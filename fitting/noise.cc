@@ -10,7 +10,6 @@
 namespace hoplab {
 namespace {
 
-constexpr int kWindow = 12;
 constexpr int kLeastWindow = 8;
 
 // Residual variance about the parabola through one window.
@@ -36,13 +35,13 @@ double ScaleOf(std::vector<double> variances) {
   constexpr int kRounds = 20;
   if (variances.size() < 3) return std::numeric_limits<double>::quiet_NaN();
   std::sort(variances.begin(), variances.end());
-  const boost::math::chi_squared chi2(kWindow - 3);
+  const boost::math::chi_squared chi2(kNoiseWindow - 3);
   const auto quantile = [&](std::size_t count, double share) {
     const auto place = static_cast<std::size_t>(share * static_cast<double>(count));
-    return variances[place] * (kWindow - 3) / boost::math::quantile(chi2, share);
+    return variances[place] * (kNoiseWindow - 3) / boost::math::quantile(chi2, share);
   };
   double square = quantile(variances.size(), 0.25);
-  const double reach = boost::math::quantile(chi2, 0.999) / (kWindow - 3);
+  const double reach = boost::math::quantile(chi2, 0.999) / (kNoiseWindow - 3);
   for (int round = 0; round < kRounds; ++round) {
     const auto kept = static_cast<std::size_t>(
         std::upper_bound(variances.begin(), variances.end(), reach * square) - variances.begin());
@@ -66,7 +65,7 @@ double NoiseOf(std::span<const SampledColumn> columns, std::size_t apart) {
       if (std::isnan(column.values[i])) continue;
       t.push_back(column.times[i]);
       v.push_back(column.values[i]);
-      if (t.size() == kWindow) {
+      if (t.size() == kNoiseWindow) {
         variances.push_back(WindowVariance(t, v));
         t.clear();
         v.clear();

@@ -6,6 +6,9 @@
 
 namespace hoplab {
 
+/// Samples of one of its windows.
+inline constexpr int kNoiseWindow = 12;
+
 /// Standard deviation of white noise on a channel, from the traces alone: in flight a hopper's
 /// coordinates are parabolas of time, so parabolas are laid through short windows. Windows that
 /// meet a stance miss by far more than noise and are set aside; the median of the others' residual

@@ -91,10 +91,13 @@ Json SharpenedRecord(const DesignRun& run) {
           {"half_width", NumberOrNull(run.search.before)}};
 }
 
+std::string OutcomeName(const DesignTried& tried) {
+  return tried.failure ? tried.failure->Name() : "simulated";
+}
+
 Json OutcomesRecord(const DesignRun& run) {
   std::map<std::string, int> outcomes;
-  for (const DesignTried& tried : run.search.tried)
-    ++outcomes[tried.failure.empty() ? "simulated" : tried.failure];
+  for (const DesignTried& tried : run.search.tried) ++outcomes[OutcomeName(tried)];
   Json out = Json::object();
   for (const auto& [outcome, count] : outcomes) out[outcome] = count;
   return out;
@@ -102,13 +105,13 @@ Json OutcomesRecord(const DesignRun& run) {
 
 void AddCells(const DesignRun& run, const DesignTried& tried, CsvText& csv) {
   if (run.separates) {
-    const bool there = tried.failure.empty();
+    const bool there = !tried.failure;
     csv.Cell(Bits(tried.worth)).Cell(there ? Bits(std::exp(tried.log_left)) : kNaN);
     csv.Cell(tried.pair_nats).Cell(tried.pair_truth).Cell(tried.pair_other);
   } else {
     csv.Cell(tried.worth).Cell(tried.half_width);
   }
-  csv.Cell(tried.failure.empty() ? "simulated" : tried.failure);
+  csv.Cell(OutcomeName(tried));
 }
 
 void AddHeader(const DesignRun& run, std::vector<std::string>& header) {

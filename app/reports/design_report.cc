@@ -42,12 +42,12 @@ std::string RecordedText(const DesignRun& run) {
 std::string OutcomesText(const DesignRun& run) {
   std::map<std::string, int> failures;
   for (const DesignTried& tried : run.search.tried) {
-    if (!tried.failure.empty()) ++failures[tried.failure];
+    if (tried.failure) ++failures[tried.failure->Sentence()];
   }
   std::string text = Plural(static_cast<long>(run.search.tried.size()), "design") + " tried";
   std::vector<std::string> ends;
   for (const auto& [failure, count] : failures)
-    ends.push_back(fmt::format("{} ({})", count, FailureText(failure)));
+    ends.push_back(fmt::format("{} ({})", count, failure));
   return ends.empty() ? text : text + "; cannot be simulated: " + Join(ends);
 }
 

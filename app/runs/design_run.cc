@@ -211,7 +211,7 @@ class Run {
                      std::string(run_.separates ? " under every cause" : "") + ": " +
                      (run_.search.tried.empty()
                           ? ""
-                          : "the simulation " + FailureText(run_.search.tried.front().failure));
+                          : "the simulation " + run_.search.tried.front().failure->Sentence());
   }
 
   const Dataset& dataset_;

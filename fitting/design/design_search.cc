@@ -24,7 +24,7 @@ constexpr double kLeastLogarithm = -1e4;  // of a logarithm, where nothing is le
 using Fill = std::function<void(const TrialProblem& trial, DesignTried& tried)>;
 
 double RankOf(const DesignTried& tried) {
-  return tried.failure.empty() ? std::max(tried.log_left, kLeastLogarithm) : kWorthless;
+  return !tried.failure ? std::max(tried.log_left, kLeastLogarithm) : kWorthless;
 }
 
 double Apart(const DesignTried& a, const DesignTried& b) {
@@ -57,7 +57,7 @@ class Search {
     tried.design = request_.space.At(point);
     tried.worth = tried.half_width = tried.least_nats = tried.pair_nats = kNaN;
     fill(TrialOf(tried.design, request_.space.like), tried);
-    if (!tried.failure.empty()) tried.worth = kNaN;
+    if (tried.failure) tried.worth = kNaN;
     return tried;
   }
 
@@ -99,7 +99,7 @@ class Search {
     std::vector<DesignTried> distinct, fragile;
     int asked = 0;
     for (const std::size_t i : order) {
-      if (static_cast<int>(distinct.size()) == count || !tried[i].failure.empty()) break;
+      if (static_cast<int>(distinct.size()) == count || tried[i].failure) break;
       const auto differs = [&](const DesignTried& d) { return Apart(d, tried[i]) >= kAlikePlans; };
       if (!std::all_of(distinct.begin(), distinct.end(), differs)) continue;
       if (!sturdy) {
@@ -153,7 +153,7 @@ class Search {
 void Promise(SeparationForecast forecast, std::span<const FittedModel> rivals,
              std::span<const double> weights, double before, DesignTried& tried) {
   tried.failure = std::move(forecast.failure);
-  if (!tried.failure.empty()) return;
+  if (tried.failure) return;
   tried.log_left = LogExpectedEntropy(weights, forecast.nats);
   tried.worth = std::max(before - std::exp(tried.log_left), 0.0);
   tried.least_nats = std::numeric_limits<double>::infinity();
@@ -232,7 +232,7 @@ DesignSearchResult SearchSharpening(const FittedModel& model, int parameter,
                            : model.problem.shared[static_cast<std::size_t>(parameter)].scale;
   const auto tell = [&](const SharpeningForecast& forecast, DesignTried& tried) {
     tried.failure = forecast.failure;
-    if (!tried.failure.empty()) return;
+    if (tried.failure) return;
     tried.half_width = forecast.half_width;
     tried.log_left = std::min(std::log(forecast.half_width / whole), 0.5 * kWorthless);
     if (std::isfinite(out.before))
@@ -253,8 +253,7 @@ DesignSearchResult SearchSharpening(const FittedModel& model, int parameter,
                 [&](int i) { all[i] = forecast_of(points[i]); });
     SharpeningForecast worst = all.back();
     for (const SharpeningForecast& f : all) {
-      if (worst.failure.empty() && (!f.failure.empty() || f.half_width > worst.half_width))
-        worst = f;
+      if (!worst.failure && (f.failure || f.half_width > worst.half_width)) worst = f;
     }
     tell(worst, tried);
   };

@@ -23,8 +23,8 @@ struct DesignTried {
   /// What the search makes small: logarithm of the entropy or interval that remains. It tells
   /// designs apart whose worth is nearly all there is to gain.
   double log_left = 0.0;
-  std::string failure;   // "fell_angle under air_drag"; empty: it can be simulated
-  bool fragile = false;  // it cannot where a setting is off by kSettingError
+  std::optional<ForecastFailure> failure;  // none: it can be simulated
+  bool fragile = false;                    // it cannot where a setting is off by kSettingError
   bool refitted = false;
 
   // Separating: the least expected log-likelihood ratio of the first rival to another [nats], and

@@ -37,9 +37,11 @@ std::vector<KeptColumn> ColumnsOf(const FittedModel& model, const std::vector<in
   return columns;
 }
 
-std::string FailureOf(Outcome outcome, const FittedModel& model) {
-  return std::string(NameOf(outcome)) + " under " + RivalName(model);
+ForecastFailure FailureOf(Outcome outcome, const FittedModel& model) {
+  return {outcome, RivalName(model)};
 }
+
+std::string Under(const std::string& rival) { return rival.empty() ? "" : " under " + rival; }
 
 // A throw from below the height at which the leg meets the ground flies in the simulation, but
 // nobody can begin there.
@@ -71,7 +73,7 @@ Outcome Record(const FittedModel& truth, TrialProblem& trial) {
 
 struct Nats {
   double value = kNaN;
-  std::string failure;
+  std::optional<ForecastFailure> failure;
 };
 
 // By the linear model at `shared` and `start`.
@@ -85,7 +87,7 @@ Nats LinearNats(const FittedModel& rival, const RecordedInformation& information
       EliminateOwn(trial, e, rival.problem.shared_count(), ColumnsOf(rival, information.free));
   const Eigen::Index old = information.rows.rows(), fresh = reduced.columns.rows();
   const Eigen::Index n = static_cast<Eigen::Index>(information.free.size());
-  if (n == 0) return {0.5 * reduced.residuals.squaredNorm(), ""};
+  if (n == 0) return {0.5 * reduced.residuals.squaredNorm(), {}};
   Eigen::MatrixXd A(old + fresh, n);
   A << information.rows, reduced.columns;
   Eigen::VectorXd moved(n);  // from where the recorded trials have the values, per scale
@@ -97,7 +99,7 @@ Nats LinearNats(const FittedModel& rival, const RecordedInformation& information
   Eigen::VectorXd b(old + fresh);
   b << information.rows * moved, reduced.residuals;
   const Eigen::VectorXd step = A.completeOrthogonalDecomposition().solve(b);
-  return {0.5 * (b - A * step).squaredNorm(), ""};
+  return {0.5 * (b - A * step).squaredNorm(), {}};
 }
 
 // A search minimises white errors. Where a rival's noise is another, what is left under it is told
@@ -115,8 +117,8 @@ Nats RefittedNats(const FittedModel& rival, const RecordedInformation& informati
   request.max_iterations = kRefitIterations;
   request.function_tolerance = 1e-6;
   const SolveResult result = Solve(request);
-  if (!IsUsable(result.status)) return {kNaN, "no refit of " + RivalName(rival)};
-  if (rival.problem.noise.IsWhite()) return {std::max(result.cost - rival.cost, 0.0), ""};
+  if (!IsUsable(result.status)) return {kNaN, ForecastFailure{std::nullopt, RivalName(rival)}};
+  if (rival.problem.noise.IsWhite()) return {std::max(result.cost - rival.cost, 0.0), {}};
   return LinearNats(rival, information, trial, result.shared, result.initial_states.back());
 }
 
@@ -133,13 +135,13 @@ SeparationForecast Forecast(std::span<const FittedModel> rivals, const TrialProb
     out.failure = FailureOf(outcome, rivals[i]);
     return out;
   }
-  std::vector<Nats> all(static_cast<std::size_t>(k * k), Nats{0.0, ""});
+  std::vector<Nats> all(static_cast<std::size_t>(k * k), Nats{0.0, {}});
   ParallelFor(k * k, jobs, [&](int pair) {
     if (pair / k != pair % k) all[pair] = nats_of(pair % k, recorded[pair / k]);
   });
   out.nats.resize(k, k);
   for (int pair = 0; pair < k * k; ++pair) {
-    if (out.failure.empty()) out.failure = all[pair].failure;
+    if (!out.failure) out.failure = all[pair].failure;
     out.nats(pair / k, pair % k) = all[pair].value;
   }
   return out;
@@ -267,14 +269,12 @@ double LogExpectedEntropy(std::span<const double> weights, const Eigen::MatrixXd
   return highest + std::log(sum);
 }
 
-std::string FailureText(const std::string& failure) {
-  const std::size_t end = std::min(failure.find(' '), failure.size());
-  for (int i = 0; i <= static_cast<int>(Outcome::kIntegrationFailed); ++i) {
-    const auto outcome = static_cast<Outcome>(i);
-    if (NameOf(outcome) == failure.substr(0, end))
-      return std::string(SentenceOf(outcome)) + failure.substr(end);
-  }
-  return failure;
+std::string ForecastFailure::Name() const {
+  return outcome ? std::string(NameOf(*outcome)) + Under(under) : "no refit of " + under;
+}
+
+std::string ForecastFailure::Sentence() const {
+  return outcome ? std::string(SentenceOf(*outcome)) + Under(under) : "no refit of " + under;
 }
 
 SharpeningForecast ForecastInterval(const FittedModel& model,
@@ -286,10 +286,10 @@ SharpeningForecast ForecastInterval(const FittedModel& model,
   if (trial) {
     TrialProblem recorded = *trial;
     const Outcome outcome = Record(model, recorded);
-    if (!IsComplete(outcome)) return {0.0, std::string(NameOf(outcome))};
+    if (!IsComplete(outcome)) return {0.0, ForecastFailure{outcome, ""}};
     TrialEvaluation e;
     TrialEvaluator(model.problem, recorded).Evaluate({model.shared, recorded.start, true}, e);
-    if (!e.complete) return {0.0, std::string(NameOf(e.trajectory.outcome))};
+    if (!e.complete) return {0.0, ForecastFailure{e.trajectory.outcome, ""}};
     const EliminatedTrial fresh =
         EliminateOwn(recorded, e, model.problem.shared_count(), ColumnsOf(model, information.free));
     S.resize(information.rows.rows() + fresh.columns.rows(), n);

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "fitting/diagnosis/fitted_model.h"
+#include "model/hybrid/automaton.h"
 
 namespace hoplab {
 
@@ -18,13 +20,21 @@ struct RecordedInformation {
 };
 RecordedInformation InformationOf(const FittedModel& model, const std::vector<TrialProblem>& train);
 
+/// Why a design has no forecast.
+struct ForecastFailure {
+  std::optional<Outcome> outcome;  // of its simulation; none: no refit of the rival
+  std::string under;               // the rival; empty where there is one model
+
+  std::string Name() const;      // "fell_angle under air_drag"
+  std::string Sentence() const;  // "fell: the leg tipped ... under air_drag"
+};
+
 /// What a trial is expected to say for rival models.
 struct SeparationForecast {
   /// (i, j): log-likelihood by which j, refitted to old and new data, misses what i predicts in the
   /// new trial [nats].
   Eigen::MatrixXd nats;
-  /// Why there is none: "fell_angle under air_drag"; empty if there is one.
-  std::string failure;
+  std::optional<ForecastFailure> failure;
 };
 
 /// By the linear model of each rival at its fitted values.
@@ -52,14 +62,11 @@ double LogExpectedEntropy(std::span<const double> weights, const Eigen::MatrixXd
 /// Names of a rival's members: "air_drag + ground_slope", "none of them".
 std::string RivalName(const FittedModel& rival);
 
-/// The failure of a forecast in words: "fell: the leg tipped ... under air_drag".
-std::string FailureText(const std::string& failure);
-
 /// Half width of a value's 95 % interval [its own unit] from the recorded trials alone, and with a
 /// new one; infinite where the data do not determine it.
 struct SharpeningForecast {
   double half_width = 0.0;
-  std::string failure;  // "fell_angle"; empty: it can be simulated
+  std::optional<ForecastFailure> failure;
 };
 SharpeningForecast ForecastInterval(const FittedModel& model,
                                     const RecordedInformation& information, int parameter,

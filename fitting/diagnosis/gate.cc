@@ -4,24 +4,80 @@
 #include <cmath>
 
 #include "fitting/noise.h"
+#include "fitting/noise_correlation.h"
 #include "fitting/trial_evaluator.h"
 #include "fitting/trial_noise.h"
+#include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
 
 constexpr double kNoiseExcess = 1.25;
 
-// Estimated noise of a channel over all trials; NaN where there are too few samples. Only
-// coordinates and speeds are parabolas in flight.
-double EstimatedNoise(const FitProblem& problem, std::size_t channel) {
-  if (problem.channels[channel].channel > Channel::kBodyVy)
-    return std::numeric_limits<double>::quiet_NaN();
-  const std::vector<std::vector<double>> samples = SamplesOf(problem, channel);
+using Samples = std::vector<std::vector<double>>;
+std::vector<SampledColumn> ColumnsOf(const FitProblem& problem, const Samples& samples) {
   std::vector<SampledColumn> columns;
   for (std::size_t i = 0; i < samples.size(); ++i)
     columns.push_back({problem.trials[i].row_times, samples[i]});
-  return EstimateNoise(columns);
+  return columns;
+}
+
+// The samples in the upper two thirds of each trial's highest flight, the others missing; none of a
+// robot, whose legs land one by one.
+Samples HighUp(const FitProblem& problem, Samples samples) {
+  const MechanismTraits& traits = TraitsOf(problem.law);
+  std::size_t y = 0;
+  while (y < problem.channels.size() && problem.channels[y].channel != Channel::kBodyY) ++y;
+  if (y == problem.channels.size() || traits.lands_leg_by_leg) return Samples(samples.size());
+  const Samples heights = SamplesOf(problem, y);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double contact = traits.touchdown_height(problem.trials[i].parameters);
+    double top = contact;
+    for (const double height : heights[i]) top = std::fmax(top, height);
+    for (std::size_t row = 0; row < samples[i].size(); ++row)
+      if (!(heights[i][row] > contact + (top - contact) / 3.0))
+        samples[i][row] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return samples;
+}
+
+// Coordinates come of one instrument, and so do speeds.
+bool ComeTogether(Channel a, Channel b) {
+  return (a <= Channel::kBodyY) == (b <= Channel::kBodyY) && std::max(a, b) <= Channel::kBodyVy;
+}
+
+// How alike the noise of neighbouring samples is in the channels that come with this one, each in
+// units of its own noise.
+double CorrelationOf(const FitProblem& problem, std::size_t channel) {
+  std::vector<Samples> high;
+  std::vector<SampledColumn> flights;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    if (!ComeTogether(problem.channels[c].channel, problem.channels[channel].channel)) continue;
+    const Samples samples = SamplesOf(problem, c);
+    const std::vector<SampledColumn> columns = ColumnsOf(problem, samples);
+    if (IsSmoothed(columns)) return 0.0;
+    const double noise = EstimateNoise(columns);
+    high.push_back(HighUp(problem, samples));
+    for (std::vector<double>& column : high.back())
+      for (double& value : column) value /= noise;
+  }
+  for (const Samples& of_channel : high)
+    for (const SampledColumn& column : ColumnsOf(problem, of_channel)) flights.push_back(column);
+  return NoiseCorrelation(flights);
+}
+
+// Noise of a channel over all trials, and how alike it is in neighbouring samples; NaN where there
+// are too few samples. Only coordinates and speeds are parabolas in flight.
+struct FlightNoise {
+  double sigma = std::numeric_limits<double>::quiet_NaN(), correlation = 0.0;
+};
+FlightNoise NoiseInFlight(const FitProblem& problem, std::size_t channel) {
+  FlightNoise noise;
+  if (problem.channels[channel].channel > Channel::kBodyVy) return noise;
+  noise.correlation = CorrelationOf(problem, channel);
+  const Samples samples = SamplesOf(problem, channel);
+  noise.sigma = EstimateNoise(ColumnsOf(problem, samples)) / SeenByParabolas(noise.correlation);
+  return noise;
 }
 
 std::string Text(const char* format, double a, double b = 0.0) {
@@ -61,18 +117,26 @@ std::vector<std::string> CorrectNoise(FitProblem& problem) {
   std::vector<std::string> notes;
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     ChannelProblem& channel = problem.channels[c];
-    if (channel.sigma_estimated) continue;
-    const double estimate = EstimatedNoise(problem, c);
-    if (estimate > kNoiseExcess * channel.sigma) {
-      notes.push_back(std::string(NameOf(channel.channel)) +
-                      Text(": the flights scatter by %.3g, more than the stated sigma %.3g; the "
-                           "larger one is used",
-                           estimate, channel.sigma));
-      channel.sigma = estimate;
-      channel.sigma_estimated = true;
+    const FlightNoise noise = NoiseInFlight(problem, c);
+    const std::string name(NameOf(channel.channel));
+    if (!channel.sigma_estimated) {
+      if (noise.sigma > kNoiseExcess * channel.sigma) {
+        notes.push_back(name + Text(": the flights scatter by %.3g, more than the stated sigma "
+                                    "%.3g; the larger one is used",
+                                    noise.sigma, channel.sigma));
+        channel.sigma = noise.sigma;
+        channel.sigma_estimated = true;
+      }
+      for (std::string& found : FindTrialNoise(problem, c, !channel.sigma_estimated))
+        notes.push_back(std::move(found));
+    } else if (noise.correlation > 0.0) {
+      channel.sigma = noise.sigma;
     }
-    for (std::string& found : FindTrialNoise(problem, c, !channel.sigma_estimated))
-      notes.push_back(std::move(found));
+    if (!(noise.correlation > 0.0)) continue;
+    channel.sigma *= WhiteStrength(noise.correlation);
+    notes.push_back(name + Text(": the noise of neighbouring samples is alike (correlation %.2f), "
+                                "so it counts as white noise of %.3g",
+                                noise.correlation, channel.sigma));
   }
   return notes;
 }

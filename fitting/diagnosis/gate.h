@@ -39,8 +39,10 @@ GateCheck CheckGradients(const GradientCertificate& certificate);
 Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, int jobs);
 
 /// Replaces stated noise that the flights contradict (estimated more than a quarter above it) by
-/// the estimate, and gives trials that scatter more a noise of their own (FindTrialNoise); notes
-/// say so. A diagnosis with noise stated too small would see causes everywhere.
+/// the estimate, gives trials that scatter more a noise of their own (FindTrialNoise), and counts
+/// noise that is alike in neighbouring samples as white noise that does the same to slow motion
+/// (NoiseCorrelation); notes say so. A diagnosis with noise stated too small would see causes
+/// everywhere.
 std::vector<std::string> CorrectNoise(FitProblem& problem);
 
 }  // namespace hoplab

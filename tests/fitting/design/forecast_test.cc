@@ -81,7 +81,7 @@ TEST(SeparationForecast, ByRefitsIsUnderTheNoiseOfTheRivals) {
     rival.problem.noise.time_scale = 0.1;
   }
   const SeparationForecast refitted = forecast(true), linear = forecast(false);
-  for (const SeparationForecast* f : {&white, &refitted, &linear}) ASSERT_EQ(f->failure, "");
+  for (const SeparationForecast* f : {&white, &refitted, &linear}) ASSERT_FALSE(f->failure);
   for (const auto& [i, j] : {std::pair(0, 1), std::pair(1, 0)}) {
     EXPECT_GT(white.nats(i, j), 0.5);
     EXPECT_LT(refitted.nats(i, j), 0.5 * white.nats(i, j));
@@ -117,7 +117,7 @@ TEST(ForecastInterval, IsTheIntervalOfTheFitWithThatTrial) {
       AssessUncertainty(fit.problem, more, fit.null.shared, initial_states, {}, 1);
   for (int k = 0; k < fit.problem.shared_count(); ++k) {
     const SharpeningForecast forecast = ForecastInterval(fit.null, information, k, &trial);
-    ASSERT_EQ(forecast.failure, "");
+    ASSERT_FALSE(forecast.failure);
     EXPECT_NEAR(forecast.half_width / (1.959963984540054 * *then.parameters[k].std_error), 1.0,
                 1e-6);
     EXPECT_LT(forecast.half_width, 1.959963984540054 * *now.parameters[k].std_error);
@@ -132,10 +132,13 @@ TEST(ForecastInterval, NamesWhyADesignIsWorthNothing) {
   const TrialProblem trial = TrialOf(design, space.like);
   const SharpeningForecast forecast =
       ForecastInterval(fit.null, InformationOf(fit.null, fit.train), 0, &trial);
-  EXPECT_EQ(forecast.failure, NameOf(Outcome::kStartsInGround));
-  EXPECT_EQ(FailureText(forecast.failure), SentenceOf(Outcome::kStartsInGround));
-  EXPECT_EQ(FailureText("fell_arc under air_drag"),
-            "fell: the leg rolled up to the hip under air_drag");
+  ASSERT_TRUE(forecast.failure);
+  EXPECT_EQ(forecast.failure->Name(), NameOf(Outcome::kStartsInGround));
+  EXPECT_EQ(forecast.failure->Sentence(), SentenceOf(Outcome::kStartsInGround));
+  const ForecastFailure of_a_rival{Outcome::kFellArc, "air_drag"};
+  EXPECT_EQ(of_a_rival.Name(), "fell_arc under air_drag");
+  EXPECT_EQ((ForecastFailure{std::nullopt, "air_drag"}.Name()), "no refit of air_drag");
+  EXPECT_EQ(of_a_rival.Sentence(), "fell: the leg rolled up to the hip under air_drag");
 }
 
 }  // namespace

@@ -1,0 +1,110 @@
+#include "fitting/noise_correlation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "base/random.h"
+#include "datasets/read_dataset.h"
+#include "fitting/diagnosis/gate.h"
+#include "tests/support/diagnosed_hops.h"
+
+namespace hoplab {
+namespace {
+
+using testing::DatasetOf;
+
+constexpr double kMarginal = 1e-3;  // m
+
+// Hops whose noise is alike in neighbouring samples, of first order in time.
+Dataset HopsWithAlikeNoise(std::uint64_t seed, double rho) {
+  Dataset d = DatasetOf({.train = 6, .seed = seed, .sigma_m = 1e-9, .rate_hz = 200.0});
+  for (ChannelSpec& c : d.channels) c.sigma = kMarginal;
+  RandomStream random(seed, 78);
+  for (Trial& trial : d.trials) {
+    for (TraceColumn& column : trial.trace.columns) {
+      double noise = random.Normal();
+      for (double& value : column.values) {
+        value += kMarginal * noise;
+        noise = rho * noise + std::sqrt(1.0 - rho * rho) * random.Normal();
+      }
+    }
+  }
+  return d;
+}
+// What a diagnosis makes of a stated noise, as the correlation that this is.
+double CorrelationIn(const Dataset& dataset, std::size_t channel) {
+  FitProblem problem = MakeProblem(dataset, {});
+  const double stated = problem.channels[channel].sigma;
+  CorrectNoise(problem);
+  const double square = std::pow(problem.channels[channel].sigma / stated, 2);
+  return (square - 1.0) / (square + 1.0);
+}
+
+TEST(NoiseCorrelation, OfWhiteNoiseIsNone) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const std::size_t channel : {0, 1})
+      EXPECT_EQ(CorrelationIn(HopsWithAlikeNoise(seed, 0.0), channel), 0.0) << seed;
+  }
+  for (const char* name : {"rig-drops", "rig-controlled", "rig-drops-undamped", "robot-drops",
+                           "robot-pronk", "robot-walk"}) {
+    const Dataset rig = ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/" + name);
+    for (const std::size_t channel : {0, 1}) EXPECT_EQ(CorrelationIn(rig, channel), 0.0) << name;
+  }
+}
+
+TEST(NoiseCorrelation, IsThatOfNeighboursInFlight) {
+  for (const double rho : {0.5, 0.7}) {
+    double sum = 0.0;
+    constexpr int kSeeds = 10;
+    for (int seed = 1; seed <= kSeeds; ++seed)
+      sum += CorrelationIn(HopsWithAlikeNoise(static_cast<std::uint64_t>(seed), rho), 1);
+    EXPECT_NEAR(sum / kSeeds, rho, 0.1);
+  }
+}
+
+TEST(NoiseCorrelation, OfAFlightThatTrembles) {
+  // White noise beside a vibration is alike in neighbouring samples, too, but no noise of first
+  // order is as smooth.
+  constexpr double kRate_Hz = 214.0, kNoise = 4e-5, kSwing = 4e-4;
+  RandomStream random(5, 79);
+  std::vector<double> times, white, trembling;
+  for (int i = 0; i < 2000; ++i) {
+    times.push_back(i / kRate_Hz);
+    white.push_back(kNoise * random.Normal());
+    trembling.push_back(white.back() +
+                        kSwing * std::sin(2.0 * std::numbers::pi * 23.0 * times.back()));
+  }
+  const SampledColumn columns[] = {{times, white}, {times, trembling}};
+  EXPECT_EQ(NoiseCorrelation({columns, 1}), 0.0);
+  EXPECT_EQ(NoiseCorrelation({columns + 1, 1}), 0.0);
+}
+
+TEST(NoiseCorrelation, CountsAsWhiteNoiseOfTheSameStrengthWhereMotionIsSlow) {
+  // The mean of n samples has the variance sigma^2 (1 + rho)/((1 - rho) n) for large n.
+  constexpr double kRho = 0.6;
+  constexpr int kSamples = 4000;
+  double sum = 0.0;
+  for (int lag = -kSamples; lag <= kSamples; ++lag)
+    sum += (1.0 - std::abs(lag) / static_cast<double>(kSamples)) * std::pow(kRho, std::abs(lag));
+  EXPECT_NEAR(WhiteStrength(kRho), std::sqrt(sum), 1e-3);
+  EXPECT_EQ(WhiteStrength(0.0), 1.0);
+  EXPECT_NEAR(SeenByParabolas(0.0), 1.0, 1e-12);
+}
+
+TEST(NoiseCorrelation, OfADiagnosisMakesTheStatedNoiseStronger) {
+  FitProblem white = MakeProblem(HopsWithAlikeNoise(3, 0.0), {});
+  EXPECT_TRUE(CorrectNoise(white).empty());
+  FitProblem alike = MakeProblem(HopsWithAlikeNoise(3, 0.6), {});
+  const std::vector<std::string> notes = CorrectNoise(alike);
+  ASSERT_EQ(notes.size(), alike.channels.size());
+  EXPECT_NE(notes[0].find("the noise of neighbouring samples is alike (correlation 0."),
+            std::string::npos);
+  for (const ChannelProblem& c : alike.channels)
+    EXPECT_NEAR(c.sigma / kMarginal, WhiteStrength(0.6), 0.5);
+}
+
+}  // namespace
+}  // namespace hoplab
