@@ -158,5 +158,46 @@ TEST(GradientCertificate, ADifferenceIsShorterBesideAGraze) {
               c.max_error_without_flags == c.max_relative_error);
 }
 
+// A held force that jumps at the very instant of a bounce: a bounce before it goes on with the old
+// force, one after it does not begin with it.
+TEST(GradientCertificate, WhereAnEventFallsOnAJumpOfAHeldInputDifferencesAreOfOneSide) {
+  PushedBall ball(0.0, 1.0, Eigen::Vector4d(0.0, 0.45, 1.5, 0.0));
+  const double fall =
+      std::sqrt(2.0 * (0.45 - ContactHeight()) / testing::BallRequest().parameters.g);
+  DrivenColumn force{InputKind::kBodyForceX};
+  force.held = true;
+  force.times = {0.0, fall, 2.0};
+  force.values = {0.0, 3.0, 3.0};
+  ball.trials[0].inputs = {force};
+  const auto wrong = [](double by) {
+    return
+        [by](const TrialEvaluator& evaluator, const EvaluationRequest& request, Trajectory& out) {
+          evaluator.Simulate(request, {}, out);
+          for (double& s : out.sensitivities) s *= by;
+        };
+  };
+  const GradientCertificate right = CertifyGradients(ball.problem, ball.trials, Eigen::VectorXd(),
+                                                     ball.initial_states, 1, wrong(1.0));
+  EXPECT_LT(right.max_relative_error, 1e-5) << right.worst_parameter;
+  const GradientCertificate off = CertifyGradients(ball.problem, ball.trials, Eigen::VectorXd(),
+                                                   ball.initial_states, 1, wrong(1.001));
+  EXPECT_GT(off.max_relative_error, 9e-4);
+}
+
+TEST(GradientCertificate, AColumnThatIsZeroButForRoundingIsNone) {
+  // No height depends on the place along the ground.
+  Dataset d = SmallDataset();
+  std::erase_if(d.channels, [](const ChannelSpec& c) { return c.id != Channel::kBodyY; });
+  const FitProblem p = MakeProblem(d, {});
+  const std::vector<TrialProblem> trials = TrialsOf(p, TrialRole::kTrain);
+  for (const double x : {0.0, 0.1, 1.0 / 3.0}) {
+    std::vector<OwnValues> starts = NominalInitialStates(trials);
+    for (OwnValues& start : starts) start[0] = x;
+    const GradientCertificate c = CertifyGradients(p, trials, InitialShared(p), starts, 1);
+    EXPECT_LT(c.max_relative_error, 1e-6) << c.worst_parameter;
+    EXPECT_EQ(c.columns.size(), 2u + 2u * 3u) << "x0 is in none";
+  }
+}
+
 }  // namespace
 }  // namespace hoplab
