@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "base/text.h"
 #include "base/units.h"
@@ -96,6 +97,7 @@ class Inspector {
     if (!has_test)
       Warn(dataset_.origin.place,
            "no trial has role: test, so nothing is held out to measure a fit on");
+    InspectSection(dataset_.mechanism);
     for (const Trial& trial : dataset_.trials) {
       InspectAngle(trial);
       InspectLength(trial);
@@ -117,6 +119,17 @@ class Inspector {
     const std::string& yaml = dataset_.origin.place;
     const std::size_t slash = yaml.rfind('/');
     return (slash == yaml.npos ? "" : yaml.substr(0, slash + 1)) + trial.file;
+  }
+
+  // A strip is far thinner than its arc is wide.
+  void InspectSection(const MechanismSpec& mechanism) {
+    const std::optional<double>& thickness = mechanism.c_leg.thickness_m;
+    if (mechanism.type != MechanismKind::kCLeg || !thickness ||
+        *thickness < mechanism.c_leg.rest_radius_m)
+      return;
+    Warn(dataset_.origin.place, "thickness_m = " + Rounded(*thickness) +
+                                    " is more than the leg's radius; in metres it may be " +
+                                    Rounded(1e-3 * *thickness));
   }
 
   void InspectAngle(const Trial& trial) {

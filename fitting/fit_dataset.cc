@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fitting/apex_segments.h"
+#include "fitting/carried_beginnings.h"
 #include "fitting/carried_trials.h"
 #include "fitting/discrepancy/estimate_discrepancy.h"
 #include "fitting/followed_part.h"
@@ -115,6 +116,19 @@ std::string WhyByHop(const DatasetFit& whole, Segmentation span) {
   return WhyNotWhole(whole) + ", so it was fitted hop by hop, each hop with a start of its own";
 }
 
+// Whole trials of a hopper or a ball, but for ends that cannot be simulated.
+std::optional<DatasetFit> FitButForEnds(const DatasetFit& whole, const FitOptions& options) {
+  if (!whole.result.ok || whole.result.stop.complete) return std::nullopt;
+  std::optional<BeginningsFit> cut = FitBeginnings(whole.problem, whole.result, options);
+  if (!cut) return std::nullopt;
+  DatasetFit fit;
+  fit.problem = std::move(cut->problem);
+  fit.result = std::move(cut->result);
+  fit.left_out = std::move(cut->left_out);
+  if (!Disagreement(fit, nullptr, options.jobs).empty()) return std::nullopt;
+  return fit;
+}
+
 // What can be fitted of the trials of a robot.
 std::optional<DatasetFit> FitInPart(const DatasetFit& whole, const FitOptions& options) {
   std::optional<FollowedPart> part = FitFollowedPart(whole.problem, options);
@@ -161,6 +175,8 @@ DatasetFit FitUnderWhiteNoise(FitProblem problem, const FitOptions& fit_options,
   }
   if (span == Segmentation::kAuto && TraitsOf(fit.problem.law).lands_leg_by_leg) {
     if (std::optional<DatasetFit> part = FitInPart(fit, fit_options)) return std::move(*part);
+  } else if (span == Segmentation::kAuto) {
+    if (std::optional<DatasetFit> most = FitButForEnds(fit, fit_options)) return std::move(*most);
   }
   DatasetFit pieces;
   pieces.problem = SplitIntoHops(fit.problem);

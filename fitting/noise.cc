@@ -11,6 +11,10 @@ namespace hoplab {
 namespace {
 
 constexpr int kLeastWindow = 8;
+// At a low rate a window as long as usual is longer than a flight. Where it lasts longer than this
+// [s], windows of this many samples are looked at, too.
+constexpr double kLongWindow = 0.25;
+constexpr int kShortWindow = 5;
 
 // Residual variance about the parabola through one window.
 double WindowVariance(const std::vector<double>& t, const std::vector<double>& v) {
@@ -31,17 +35,17 @@ double WindowVariance(const std::vector<double>& t, const std::vector<double>& v
 // in five windows meet a stance. So it starts from the lower quartile; then windows beyond the
 // 99.9 % point of their chi-square are set aside and the median of the rest counts, until that
 // settles. (The plain median came out a quarter too large, enough to overrule a stated sigma.)
-double ScaleOf(std::vector<double> variances) {
+double ScaleOf(std::vector<double> variances, int window) {
   constexpr int kRounds = 20;
   if (variances.size() < 3) return std::numeric_limits<double>::quiet_NaN();
   std::sort(variances.begin(), variances.end());
-  const boost::math::chi_squared chi2(kNoiseWindow - 3);
+  const boost::math::chi_squared chi2(window - 3);
   const auto quantile = [&](std::size_t count, double share) {
     const auto place = static_cast<std::size_t>(share * static_cast<double>(count));
-    return variances[place] * (kNoiseWindow - 3) / boost::math::quantile(chi2, share);
+    return variances[place] * (window - 3) / boost::math::quantile(chi2, share);
   };
   double square = quantile(variances.size(), 0.25);
-  const double reach = boost::math::quantile(chi2, 0.999) / (kNoiseWindow - 3);
+  const double reach = boost::math::quantile(chi2, 0.999) / (window - 3);
   for (int round = 0; round < kRounds; ++round) {
     const auto kept = static_cast<std::size_t>(
         std::upper_bound(variances.begin(), variances.end(), reach * square) - variances.begin());
@@ -56,8 +60,8 @@ double ScaleOf(std::vector<double> variances) {
 
 namespace {
 
-// Of every `apart`-th sample; NaN when there are too few.
-double NoiseOf(std::span<const SampledColumn> columns, std::size_t apart) {
+// By windows of so many samples of every `apart`-th one; NaN when there are too few.
+double NoiseOf(std::span<const SampledColumn> columns, std::size_t apart, int window) {
   std::vector<double> variances;
   for (const SampledColumn& column : columns) {
     std::vector<double> t, v;
@@ -65,23 +69,40 @@ double NoiseOf(std::span<const SampledColumn> columns, std::size_t apart) {
       if (std::isnan(column.values[i])) continue;
       t.push_back(column.times[i]);
       v.push_back(column.values[i]);
-      if (t.size() == kNoiseWindow) {
+      if (static_cast<int>(t.size()) == window) {
         variances.push_back(WindowVariance(t, v));
         t.clear();
         v.clear();
       }
     }
-    if (t.size() >= kLeastWindow) variances.push_back(WindowVariance(t, v));
+    if (window == kNoiseWindow && t.size() >= kLeastWindow)
+      variances.push_back(WindowVariance(t, v));
   }
-  return ScaleOf(std::move(variances));
+  return ScaleOf(std::move(variances), window);
+}
+
+// Longer than a flight of a hopper may be: the median over the columns.
+bool IsWindowLong(std::span<const SampledColumn> columns) {
+  std::vector<double> steps;
+  for (const SampledColumn& column : columns) {
+    if (column.times.size() > 1)
+      steps.push_back((column.times.back() - column.times.front()) /
+                      static_cast<double>(column.times.size() - 1));
+  }
+  if (steps.empty()) return false;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle * (kNoiseWindow - 1) > kLongWindow;
 }
 
 }  // namespace
 
 double EstimateNoise(std::span<const SampledColumn> columns) {
   std::size_t apart = IsSmoothed(columns) ? ApartIn(columns) : 1;
-  double noise = NoiseOf(columns, apart);
-  for (; std::isnan(noise) && apart > 1; noise = NoiseOf(columns, apart)) apart /= 2;
+  double noise = NoiseOf(columns, apart, kNoiseWindow);
+  for (; std::isnan(noise) && apart > 1; noise = NoiseOf(columns, apart, kNoiseWindow)) apart /= 2;
+  if (apart == 1 && IsWindowLong(columns))
+    noise = std::fmin(noise, NoiseOf(columns, 1, kShortWindow));
   return noise;
 }
 

@@ -154,6 +154,8 @@ std::string FitRun::Failure() const {
 
 std::string FitRun::Caveat() const {
   if (const std::string failure = Failure(); !failure.empty()) return failure;
+  if (!left_out.empty() && !by_hop)
+    return "left out, since no values found let it be simulated: " + Join(left_out);
   if (!left_out.empty())
     return fmt::format(
         "{} of {} train hops are left out, since no values found let them be "

@@ -86,6 +86,19 @@ std::string Text(const char* format, double a, double b = 0.0) {
   return text;
 }
 
+// The first trial that the model does not simulate to its end, and how it ends; empty: none.
+std::string NotSimulated(const FittedModel& model, const std::vector<TrialProblem>& train) {
+  for (std::size_t i = 0; i < std::min(train.size(), model.initial_states.size()); ++i) {
+    TrialEvaluation e;
+    TrialEvaluator(model.problem, train[i])
+        .Evaluate({model.shared, model.initial_states[i], false}, e);
+    if (!e.complete)
+      return train[i].file + ": the simulation " + std::string(SentenceOf(e.trajectory.outcome)) +
+             Text(", at %.3f s", train[i].begin_s + e.trajectory.end_time);
+  }
+  return "";
+}
+
 }  // namespace
 
 bool Gate::passed() const {
@@ -143,11 +156,15 @@ std::vector<std::string> CorrectNoise(FitProblem& problem) {
 
 Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, int jobs) {
   Gate gate;
+  const std::string incomplete = NotSimulated(null, train);
   if (!null.ok()) {
     gate.checks.push_back({"fit", false,
-                           "the fit without further effects ended as " +
-                               std::string(NameOf(null.status)) +
-                               "; try --starts 8 or another law with `hoplab fit`"});
+                           IsUsable(null.status)
+                               ? "no values found let every train trial be simulated to its end (" +
+                                     incomplete + "); try another law or --span whole_else_hops"
+                               : "the fit without further effects ended as " +
+                                     std::string(NameOf(null.status)) +
+                                     "; try --starts 8 or another law with `hoplab fit`"});
     return gate;
   }
   const StopCheck stop = CheckStop(null.problem, train, null.shared, null.initial_states, {}, jobs);
@@ -158,15 +175,6 @@ Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, 
                          stop.IsMinimum()
                              ? "the model without further effects is at its optimum"
                              : "the fit without further effects is no minimum: " + fault});
-  std::string incomplete;
-  for (std::size_t i = 0; i < train.size(); ++i) {
-    const TrialEvaluator evaluator(null.problem, train[i]);
-    TrialEvaluation e;
-    evaluator.Evaluate({null.shared, null.initial_states[i], false}, e);
-    if (!e.complete && incomplete.empty())
-      incomplete =
-          train[i].file + ": the simulation " + std::string(SentenceOf(e.trajectory.outcome));
-  }
   gate.checks.push_back({"events", incomplete.empty(),
                          incomplete.empty()
                              ? "the simulation goes through every contact of every train trial"

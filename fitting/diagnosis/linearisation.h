@@ -44,7 +44,8 @@ struct Linearisation {
   int row_count = 0;         // rows before they were compressed, if they were
   int samples = 0;           // of them from data
   int trials_left_out = 0;   // their simulation ends before their data
-  /// Tested candidates whose columns are zeros because no run could be differentiated by them.
+  /// Tested candidates whose columns are zeros because no run could be differentiated by them. By
+  /// others that may be so in some trials: there their columns are zeros.
   std::vector<std::string> failed;
 
   int rows() const { return static_cast<int>(r.size()); }

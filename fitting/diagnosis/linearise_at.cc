@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -30,6 +31,9 @@ int CostClass(const Candidate& candidate, bool of_robot) {
   effect.hooks0.change_parameters(at_null.values.data(), p);
   return p.law_terms.active ? 1 : 0;
 }
+
+// Of the tolerances of a run that is repeated.
+constexpr double kTightened = 1e-2;
 
 using Places = std::vector<int>;
 
@@ -107,9 +111,11 @@ class TrialColumns {
   }
 
  private:
-  TrialEvaluation EvaluateWith(std::span<const Candidate> part,
-                               std::optional<ColumnRange> only) const {
-    const FitProblem problem = ExtendWithoutTrials(part);
+  TrialEvaluation EvaluateWith(std::span<const Candidate> part, std::optional<ColumnRange> only,
+                               double tightened = 1.0) const {
+    FitProblem problem = ExtendWithoutTrials(part);
+    problem.integrator.relative_tolerance *= tightened;
+    problem.integrator.absolute_tolerance *= tightened;
     Eigen::VectorXd shared(problem.shared_count());
     shared << model_.shared, NullValues(part);
     TrialEvaluation e;
@@ -132,7 +138,8 @@ class TrialColumns {
   }
 
   // Differentiated together. Where that fails, as it may for one that asks for too many steps, in
-  // halves; one that fails alone keeps columns of zeros.
+  // halves; one that fails alone is differentiated along a more accurate run, since a search may
+  // have ended right beside a graze, and else keeps columns of zeros.
   void Add(std::span<const int> places, std::set<int>& failed) {
     std::vector<Candidate> part;
     for (const int place : places) part.push_back(tested_[static_cast<std::size_t>(place)]);
@@ -140,6 +147,9 @@ class TrialColumns {
         EvaluateWith(part, ColumnRange{model_.problem.shared_count(), ParameterCount(part)});
     if (e.complete && e.jacobian.allFinite()) return Take(places, e);
     if (places.size() == 1) {
+      const TrialEvaluation tight = EvaluateWith(
+          part, ColumnRange{model_.problem.shared_count(), ParameterCount(part)}, kTightened);
+      if (tight.complete && tight.jacobian.allFinite()) return Take(places, tight);
       failed.insert(places.front());
       return;
     }
@@ -187,10 +197,12 @@ Linearisation LineariseAt(const FittedModel& model, std::span<const Candidate> t
   });
 
   std::vector<LinearisedTrial> trials(parts.size());
-  std::set<int> failed;
+  std::map<int, int> failures;  // in how many trials, by place
+  int simulated = 0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     Part& p = parts[i];
-    failed.insert(p.failed.begin(), p.failed.end());
+    simulated += !p.rows.empty();
+    for (const int place : p.failed) ++failures[place];
     LinearisedTrial& t = trials[i];
     const auto f = static_cast<Eigen::Index>(fitted.size());
     t.fitted = p.rows.columns.leftCols(p.rows.empty() ? 0 : f);
@@ -205,7 +217,8 @@ Linearisation LineariseAt(const FittedModel& model, std::span<const Candidate> t
     t.labels.assign(static_cast<std::size_t>(t.r.size()), label);
   }
   Linearisation out = Assemble(trials, static_cast<int>(fitted.size()), columns);
-  for (const int place : failed) {
+  for (const auto& [place, count] : failures) {
+    if (count < simulated) continue;
     const auto i = static_cast<std::size_t>(place);
     out.failed.push_back(tested[i].Name());
     for (int k = first_column[i]; k < first_column[i] + tested[i].parameter_count(); ++k) {

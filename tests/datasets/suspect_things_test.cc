@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
@@ -224,6 +225,22 @@ TEST(ApparentGravity, IsThatOfAFreeFall) {
 
 TEST(ApparentGravity, IsUnknownForAShortTrace) {
   EXPECT_TRUE(std::isnan(ApparentGravity({0, 1}, {0, 1})));
+}
+
+TEST(SuspectThings, ALegThickerThanItsRadiusIsToldInMillimetres) {
+  Dataset dataset = Bouncing();
+  dataset.mechanism.type = MechanismKind::kCLeg;
+  dataset.mechanism.c_leg.rest_radius_m = 0.09;
+  dataset.mechanism.c_leg.thickness_m = 0.0022;
+  const std::size_t usual = SuspectThings(dataset).size();
+  dataset.mechanism.c_leg.thickness_m = 2.2;
+  const std::vector<std::string> warnings = SuspectThings(dataset);
+  ASSERT_EQ(warnings.size(), usual + 1);
+  EXPECT_NE(
+      std::find(warnings.begin(), warnings.end(),
+                "hops/dataset.yaml: thickness_m = 2.2 is more than the leg's radius; in metres "
+                "it may be 0.0022"),
+      warnings.end());
 }
 
 }  // namespace

@@ -145,6 +145,8 @@ std::vector<LookAlike> LookAlikes() {
     if (AppliesTo(*FindEffect("rest_radius_scale"), law))
       add("rest_radius_scale", [](SimulationRequest& q) { q.parameters.r *= 1.0 + kMu; });
     if (law == Law::kStraightLeg)
+      add("rest_length_scale", [](SimulationRequest& q) { q.parameters.l0 *= 1.0 + kMu; });
+    if (law == Law::kStraightLeg)
       add("leg_material_damping",
           [](SimulationRequest& q) { q.parameters.d += kMu * q.parameters.k; });
   }

@@ -211,6 +211,18 @@ TEST(LineariseAt, LeavesOutOneCandidateWhoseSimulationFailsAndSaysWhich) {
   }
 }
 
+TEST(LineariseAt, TestsACandidateThatFailsInSomeTrialsByTheOthers) {
+  NullFit fit = WithStepsForSmoothEffectsOnly();
+  const std::array tested = {CandidateOf("guide_coulomb_friction")};
+  ASSERT_EQ(LineariseAt(fit.null, tested, fit.train, 1).failed.size(), 1u);
+  // A second trial: of the first flight alone, which takes few steps.
+  fit.train.push_back(FirstPart(fit.problem, fit.train.front(), 0.1));
+  fit.null.initial_states.push_back(fit.null.initial_states.front());
+  const Linearisation at = LineariseAt(fit.null, tested, fit.train, 1);
+  EXPECT_TRUE(at.failed.empty());
+  EXPECT_GT(at.columns.col(0).norm(), 0.0);
+}
+
 TEST(LineariseAt, HasTheSumsOfProductsOfEveryRow) {
   for (const bool white : {true, false}) {
     NullFit fit({.effects = {testing::EffectOfSize("touchdown_angle_bias", 0.03)}});
