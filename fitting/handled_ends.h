@@ -27,8 +27,8 @@ std::optional<std::size_t> FindCatch(const Samples& heights, double sigma, doubl
                                      double lands_m);
 
 /// The sample at the top of the first flight of a record that begins in a stance: its first sample
-/// lies 15 mm and `doubt` below `lands_m`, where the leg lands. It rises above that later, and what
-/// is left from there on is no less than `fewest` samples.
+/// lies 3 mm and `doubt` below `lands_m`, where the leg lands, and it or a later one 15 mm. It
+/// rises above that later, and what is left from there on is no less than `fewest` samples.
 std::optional<std::size_t> FindTopAfterStance(const Samples& heights, double lands_m, double doubt,
                                               std::size_t fewest);
 

@@ -265,6 +265,11 @@ void CheckApplies(const Effect& effect, Law law, LegMass mass, const std::string
                       "is of half circles, and this robot's legs are straight",
                       "Leave it out; `hoplab effects` says what there is."});
   }
+  if (robot_legs.count > 0 && !robot_legs.straight && effect.info.rods_only) {
+    throw InputError({place, "effect " + std::string(effect.info.name),
+                      "is of straight legs, and this robot's are half circles",
+                      "Leave it out; `hoplab effects` says what there is."});
+  }
   if (AppliesTo(effect, law, mass, kEveryInput)) {
     throw InputError({place, "effect " + std::string(effect.info.name),
                       "changes a logged input, and nothing of the kind drives these runs",

@@ -30,8 +30,12 @@ std::vector<Law> AllLaws() {
 
 std::vector<Law> LawsWith(const Effect& effect) {
   std::vector<Law> laws = AllLaws();
-  std::erase_if(laws,
-                [&](Law law) { return !AppliesTo(effect, law, LegMass::kNone, kEveryInput); });
+  std::erase_if(laws, [&](Law law) {
+    const auto applies = [&](RobotLegs legs) {
+      return AppliesTo(effect, law, LegMass::kNone, kEveryInput, legs);
+    };
+    return !applies({}) && !applies({kMaxLegs, /*are_straight=*/true});
+  });
   return laws;
 }
 

@@ -123,6 +123,17 @@ Eigen::VectorXd FittedModel::ValuesOf(int i) const {
   return shared.segment(PlaceOf(i), members[static_cast<std::size_t>(i)].parameter_count());
 }
 
+bool FittedModel::AtNull(int i) const {
+  const int first = PlaceOf(i);
+  const Candidate& member = members[static_cast<std::size_t>(i)];
+  for (int k = 0; k < member.parameter_count(); ++k) {
+    const EffectParameter& p = member.Parameter(k);
+    if (!p.is_shape && std::abs(shared[first + k] - p.null) > 1e-6 * std::abs(p.typical))
+      return false;
+  }
+  return true;
+}
+
 bool FittedModel::AtPhysicalBound(int i) const {
   const int first = PlaceOf(i);
   const Candidate& member = members[static_cast<std::size_t>(i)];

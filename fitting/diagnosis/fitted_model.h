@@ -32,6 +32,8 @@ struct FittedModel {
   int PlaceOf(int i) const;
   /// Fitted values of member `i`.
   Eigen::VectorXd ValuesOf(int i) const;
+  /// All values of member `i` are at their nulls: it is not there.
+  bool AtNull(int i) const;
   /// A member's value lies on a bound other than its null: physics would have to give more.
   bool AtPhysicalBound(int i) const;
   int parameter_count() const { return ParameterCount(members); }

@@ -46,8 +46,11 @@ double Refits::LogPrior(const CandidateSet& set) const {
 double Refits::Worth(const CandidateSet& set) const {
   const FittedModel& model = At(set);
   double worth = model.evidence.log_z() + LogPrior(set);
-  for (std::size_t i = 0; i < set.size(); ++i)
-    if (model.AtPhysicalBound(static_cast<int>(i))) worth -= kAtBound;
+  for (int i = 0; i < static_cast<int>(set.size()); ++i) {
+    // The set without it says as much.
+    if (model.AtNull(i)) return -std::numeric_limits<double>::infinity();
+    if (model.AtPhysicalBound(i)) worth -= kAtBound;
+  }
   return worth;
 }
 

@@ -33,6 +33,11 @@ void WeighWhatIsLeft(Diagnosis& d, double material) {
   d.left.material = d.left.probability > 0.5 && d.left.share > material;
 }
 
+// What the extension leaves, as MisfitOverNoise.
+double LeftOverNoise(const Diagnosis& d) {
+  return std::sqrt(std::max(d.left.share, 0.0)) * MisfitOverNoise(d.detection);
+}
+
 // Something stands out, but it is much less than the noise and no main cause is likely.
 void JudgeSlight(Diagnosis& d) {
   d.verdict = Verdict::kAdequate;
@@ -61,7 +66,9 @@ void JudgeWhatIsSeen(Diagnosis& d) {
   }
   const ExtensionReport& e = *d.extension;
   const double chance = e.Probability();
-  const bool remains = d.left.material, likely = chance >= kLikely;
+  const bool remains = d.left.material;
+  // Where what is left is more than the noise itself, even odds are not enough.
+  const bool likely = chance >= (LeftOverNoise(d) > 1.0 ? kProbable : kLikely);
   if (e.at_bound) {
     d.verdict = Verdict::kUnexplained;
     d.reason =

@@ -46,7 +46,7 @@ bool AppliesTo(const Effect& effect, Law law, LegMass mass, InputSet inputs, Rob
   if (mass == LegMass::kAtToe && info.massless_leg_only) return false;
   if (MechanismOf(law) == MechanismKind::kRobot)
     return info.for_robot && std::max(info.robot_leg, info.least_legs) <= robot_legs.count &&
-           !(info.arcs_only && robot_legs.straight);
+           !(robot_legs.straight ? info.arcs_only : info.rods_only);
   if (!(MechanismOf(law) == MechanismKind::kBall ? info.for_ball : info.for_legs)) return false;
   if (MechanismOf(law) != MechanismKind::kBall && !InfoOf(law).takes_terms &&
       BringsLawTerms(effect))

@@ -56,6 +56,7 @@ struct EffectInfo {
   bool for_robot = false;     // applies to a robot, too
   int least_legs = 1;         // that it must have
   bool arcs_only = false;     // of a robot whose legs are half circles
+  bool rods_only = false;     // of a robot whose legs are straight
   int robot_leg = 0;  // it is of this leg of a robot alone, 1 the hindmost; 0: of no one leg
   /// What it is about: a search leaves it alone where no trial has such a part.
   MachinePart about = MachinePart::kNone;

@@ -19,7 +19,9 @@ struct RestLengthScale {
                                        .for_ball = false,
                                        .dissipative = false,
                                        .parameters = kParameters,
-                                       .only_laws = kLaws};
+                                       .only_laws = kLaws,
+                                       .for_robot = true,
+                                       .rods_only = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

@@ -305,5 +305,18 @@ TEST(FindTopAfterStance, SaysNothingOfFlightsAndOfWhatNeverFlies) {
   EXPECT_EQ(*top, 16U);
 }
 
+TEST(FindTopAfterStance, SeesAStanceByItsDepthWhereTheRecordBeginsAtItsStart) {
+  Samples s;
+  for (int i = 0; i < 100; ++i) {
+    s.t.push_back(0.002 * i);
+    s.y.push_back(0.15 - 0.02 * std::sin(0.1 * i));  // 5 mm below, 25 mm later
+    s.row.push_back(static_cast<std::size_t>(i));
+  }
+  const auto top = FindTopAfterStance(s, 0.155, 0.001, 10);
+  ASSERT_TRUE(top);
+  EXPECT_EQ(*top, 47U);
+  EXPECT_FALSE(FindTopAfterStance(s, 0.152, 0.001, 10));  // 2 mm: it may be landing
+}
+
 }  // namespace
 }  // namespace hoplab

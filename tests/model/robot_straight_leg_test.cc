@@ -297,8 +297,9 @@ TEST(RobotOnRods, EffectsHaveTheDerivativesOfDifferences) {
   p.robot->friction = 0.6;
   p.robot->rotor_inertia = 4e-3;
   SimulationRequest q = RobotDrop(p, {0.0, 0.19, 0.3, -0.2, 0.03, 0.2}, 0.12);
-  for (const char* name : {"leg_stiffness_1", "leg_stiffness_2", "leg_damping_2", "motor_gain_1",
-                           "com_offset", "swinging_leg_mass", "ground_slope"}) {
+  for (const char* name :
+       {"leg_stiffness_1", "leg_stiffness_2", "leg_damping_2", "motor_gain_1", "com_offset",
+        "swinging_leg_mass", "ground_slope", "rest_length_scale", "lateral_stiffness_scale"}) {
     const Effect& effect = *FindEffect(name);
     EXPECT_TRUE(AppliesTo(effect, Law::kRobot, LegMass::kNone, 0, {2, true})) << name;
     std::array<EffectSetting, 1> effects = {EffectSetting::Null(effect)};
@@ -308,6 +309,8 @@ TEST(RobotOnRods, EffectsHaveTheDerivativesOfDifferences) {
   }
   EXPECT_FALSE(
       AppliesTo(*FindEffect("rest_radius_scale"), Law::kRobot, LegMass::kNone, 0, {2, true}));
+  for (const char* of_rods : {"rest_length_scale", "lateral_stiffness_scale"})
+    EXPECT_FALSE(AppliesTo(*FindEffect(of_rods), Law::kRobot, LegMass::kNone, 0, {2, false}));
 }
 
 }  // namespace

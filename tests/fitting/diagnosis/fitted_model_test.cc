@@ -169,6 +169,13 @@ TEST(AtPhysicalBound, IsNotSaidOfANullThatLiesOnABound) {
   EXPECT_FALSE(Holding("air_drag", 0.0).AtPhysicalBound(0));
 }
 
+TEST(AtNull, IsSaidOfACauseThatIsNotThere) {
+  EXPECT_TRUE(Holding("air_drag", 0.0).AtNull(0));
+  EXPECT_TRUE(Holding("gravity_scale", 0.0).AtNull(0));
+  EXPECT_FALSE(Holding("air_drag", 1e-3).AtNull(0));
+  EXPECT_FALSE(Holding("gravity_scale", -1e-4).AtNull(0));
+}
+
 TEST(AtPhysicalBound, IsSaidOfEitherEndOfTheRange) {
   const EffectParameter& p = FindEffect("gravity_scale")->info.parameters[0];
   EXPECT_TRUE(Holding("gravity_scale", p.lower).AtPhysicalBound(0));

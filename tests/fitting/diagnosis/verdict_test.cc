@@ -175,6 +175,12 @@ TEST(Verdict, GoesByTheProbabilityOfTheNameBeforeWhatItLeaves) {
   EXPECT_EQ(VerdictOf(0.15, 1.0), Verdict::kUnexplained);
 }
 
+TEST(Verdict, AsksForMoreThanEvenOddsWhereMoreIsLeftThanTheNoise) {
+  EXPECT_EQ(Judged(0.79, 0.96, 20.0).verdict, Verdict::kUnexplained);
+  EXPECT_EQ(Judged(0.81, 0.96, 20.0).verdict, Verdict::kConfounded);
+  EXPECT_EQ(Judged(0.79, 0.999, 20.0).verdict, Verdict::kConfounded);  // 0.6 of the noise is left
+}
+
 // A model of another engine is never quite right: where no cause is likely, a misfit of a tenth of
 // the noise asks for none.
 TEST(Verdict, AMisfitFarBelowTheNoiseNamesNoUnlikelyCause) {
@@ -261,10 +267,14 @@ TEST(Diagnose, StatedNoiseThatIsTooSmallRaisesNoAlarm) {
 
 TEST(Diagnose, ADatasetThatCannotBeFittedIsRefusedWithTheReason) {
   DiagnosisOptions options = OptionsWith(testing::kSixEffects);
-  options.problem.fix = {{"E", 1e8}};  // a leg like rubber
   options.span = Segmentation::kWhole;
-  const Diagnosis d = Diagnose(DatasetOf({.train = 1}), options);
-  EXPECT_NE(d.refusal, "");
+  Dataset dataset = DatasetOf({.train = 1});
+  for (Trial& t : dataset.trials) t.mechanism.c_leg.rest_radius_m = 0.2;  // lands above its start
+  const Diagnosis d = Diagnose(dataset, options);
+  EXPECT_NE(
+      d.refusal.find("no values found let every train trial be simulated to its end (train-1.csv"),
+      std::string::npos)
+      << d.refusal;
   EXPECT_TRUE(d.naming.candidates.empty());
 }
 
