@@ -18,8 +18,8 @@ long TrainSamples(const FitProblem& problem) {
   return samples;
 }
 
-// Cuts the trials of a role that are not simulated to their end at these values. False: one has no
-// beginning.
+// Cuts the trials of a role that are not simulated to their end at these values. False: a train
+// trial has no beginning; such a test trial is left whole.
 bool Cut(FitProblem& problem, TrialRole role, const FitResult& fit) {
   std::size_t train = 0;
   for (TrialProblem& trial : problem.trials) {
@@ -29,8 +29,10 @@ bool Cut(FitProblem& problem, TrialRole role, const FitResult& fit) {
     TrialEvaluator(problem, trial).Evaluate({fit.shared, start, false}, e);
     if (e.complete) continue;
     const std::optional<TrialProblem> beginning = CarriedBeginning(problem, trial, e.trajectory);
-    if (!beginning) return false;
-    trial = *beginning;
+    if (beginning)
+      trial = *beginning;
+    else if (role == TrialRole::kTrain)
+      return false;
   }
   return true;
 }

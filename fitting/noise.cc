@@ -81,13 +81,16 @@ double NoiseOf(std::span<const SampledColumn> columns, std::size_t apart, int wi
   return ScaleOf(std::move(variances), window);
 }
 
-// Longer than a flight of a hopper may be: the median over the columns.
+// Longer than a flight of a hopper may be: the median over the columns, of the samples that are
+// there.
 bool IsWindowLong(std::span<const SampledColumn> columns) {
   std::vector<double> steps;
   for (const SampledColumn& column : columns) {
-    if (column.times.size() > 1)
+    const auto samples = std::count_if(column.values.begin(), column.values.end(),
+                                       [](double v) { return !std::isnan(v); });
+    if (samples > 1)
       steps.push_back((column.times.back() - column.times.front()) /
-                      static_cast<double>(column.times.size() - 1));
+                      static_cast<double>(samples - 1));
   }
   if (steps.empty()) return false;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);

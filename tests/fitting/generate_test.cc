@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/nan.h"
 #include "fitting/noise.h"
 #include "tests/support/hop_scenarios.h"
 #include "tests/support/input_error_of.h"
@@ -141,6 +142,33 @@ TEST(EstimateNoise, StancesInTheWindowsOfALowRateDoNotRaiseIt) {
     mean += estimate / kSeeds;
   }
   EXPECT_NEAR(mean, 1e-3, 0.05e-3);
+}
+
+// At 25 pictures a second twelve are longer than a flight; so they are where the log has blank rows
+// between them.
+TEST(EstimateNoise, IsThatOfShorterWindowsWhereAllOthersMeetAStance) {
+  Scenario s = HopScenario(3);
+  for (const int blanks : {0, 3}) {
+    s.dataset->sample_rate_hz = 25.0 * (1 + blanks);
+    double mean = 0.0;
+    constexpr int kSeeds = 20;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      GenerateOptions options;
+      options.seed = static_cast<std::uint64_t>(seed);
+      Dataset d = GenerateDataset(s, options).dataset;
+      std::vector<SampledColumn> columns;
+      for (Trial& t : d.trials) {
+        std::vector<double>& heights = t.trace.columns[1].values;
+        for (std::size_t row = 0; row < heights.size(); ++row)
+          if (row % static_cast<std::size_t>(1 + blanks) != 0) heights[row] = kNaN;
+        columns.push_back({t.trace.time_s, heights});
+      }
+      const double estimate = EstimateNoise(columns);
+      EXPECT_LT(estimate, 2e-3) << seed;
+      mean += estimate / kSeeds;
+    }
+    EXPECT_NEAR(mean, 1e-3, 0.15e-3) << blanks;
+  }
 }
 
 // A pose that is early ends before the other channels do: rows stay, their pose is blank.
