@@ -15,6 +15,8 @@ constexpr int kLeastWindow = 8;
 // [s], windows of this many samples are looked at, too.
 constexpr double kLongWindow = 0.25;
 constexpr int kShortWindow = 5;
+// Their result counts where it is less than this share of the usual one, which stances have raised.
+constexpr double kClearlyLess = 0.5;
 
 // Residual variance about the parabola through one window.
 double WindowVariance(const std::vector<double>& t, const std::vector<double>& v) {
@@ -104,9 +106,9 @@ double EstimateNoise(std::span<const SampledColumn> columns) {
   std::size_t apart = IsSmoothed(columns) ? ApartIn(columns) : 1;
   double noise = NoiseOf(columns, apart, kNoiseWindow);
   for (; std::isnan(noise) && apart > 1; noise = NoiseOf(columns, apart, kNoiseWindow)) apart /= 2;
-  if (apart == 1 && IsWindowLong(columns))
-    noise = std::fmin(noise, NoiseOf(columns, 1, kShortWindow));
-  return noise;
+  if (apart > 1 || !IsWindowLong(columns)) return noise;
+  const double brief = NoiseOf(columns, 1, kShortWindow);
+  return std::isnan(noise) || brief < kClearlyLess * noise ? brief : noise;
 }
 
 }  // namespace hoplab

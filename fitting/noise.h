@@ -16,7 +16,7 @@ inline constexpr int kNoiseWindow = 12;
 /// Noise that was smoothed (IsSmoothed) does not show among neighbours: of it every sample is left
 /// out but those kApart_s from another.
 /// At a low rate, where such a window is longer than a flight, shorter ones are looked at, too, and
-/// the smaller result counts.
+/// count where they give less than half.
 /// NaN when there are fewer than 3 windows of 8 samples.
 double EstimateNoise(std::span<const SampledColumn> columns);
 
