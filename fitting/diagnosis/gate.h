@@ -26,15 +26,11 @@ struct Gate {
   std::string Refusal() const;
 };
 
-/// Sensitivities agree with differences where they differ by less.
+/// Sensitivities must agree with differences this well to be trusted with a diagnosis.
 inline constexpr double kGradientBound = 1e-4;
-/// Those that differ by less can be trusted with a diagnosis: a search for causes that goes by a
-/// column which is off by a hundredth foretells its gain to two, and what is told is refitted.
-inline constexpr double kGradientTrust = 1e-2;
 
 /// A wrong model may fit best right where an event is met without crossing it: there a derivative
-/// ends, which the certificate flags, and beside it changes quickly. It is trusted where it is not
-/// far off, or where the other trials have the right ones.
+/// ends, which the certificate flags. It is trusted where the other trials have the right ones.
 GateCheck CheckGradients(const GradientCertificate& certificate);
 
 /// Whether the null fit may be diagnosed: every train trial is simulated through all its data, the

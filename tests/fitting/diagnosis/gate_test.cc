@@ -74,8 +74,8 @@ TEST(Gate, RefusesNoiseThatIsNotKnown) {
 TEST(Gate, RefusesGradientsThatDifferFromDifferences) {
   // A solver that takes a hop in a few coarse steps differentiates its own errors.
   NullFit fit{testing::World{}};
-  fit.null.problem.integrator.relative_tolerance = 0.3;
-  fit.null.problem.integrator.absolute_tolerance = 0.3;
+  fit.null.problem.integrator.relative_tolerance = 1e-2;
+  fit.null.problem.integrator.absolute_tolerance = 1e-2;
   const std::string refusal = RefusalOf(fit);
   EXPECT_EQ(refusal.rfind("gradients: ", 0), 0u) << refusal;
 }
@@ -87,13 +87,6 @@ GradientCertificate Certificate(double worst, double clear) {
   c.max_error_without_flags = clear;
   c.worst_parameter = "E";
   return c;
-}
-
-TEST(Gate, TrustsWhatIsALittleOffBesideAGrazeAndSaysSo) {
-  const GateCheck little = CheckGradients(Certificate(2e-3, 2e-3));
-  EXPECT_TRUE(little.passed);
-  EXPECT_NE(little.text.find("differ from differences by 2.0e-03 (E)"), std::string::npos);
-  EXPECT_FALSE(CheckGradients(Certificate(2e-2, 2e-2)).passed);
 }
 
 TEST(Gate, TrustsGradientsThatDifferOnlyWhereAnEventGrazes) {

@@ -267,6 +267,15 @@ TEST(Diagnose, StatedNoiseThatIsTooSmallRaisesNoAlarm) {
 
 TEST(Diagnose, ADatasetThatCannotBeFittedIsRefusedWithTheReason) {
   DiagnosisOptions options = OptionsWith(testing::kSixEffects);
+  options.problem.fix = {{"E", 1e8}};  // a leg like rubber
+  options.span = Segmentation::kWhole;
+  const Diagnosis d = Diagnose(DatasetOf({.train = 1}), options);
+  EXPECT_NE(d.refusal, "");
+  EXPECT_TRUE(d.naming.candidates.empty());
+}
+
+TEST(Diagnose, ATrialThatNoValuesLetBeSimulatedIsNamed) {
+  DiagnosisOptions options = OptionsWith(testing::kSixEffects);
   options.span = Segmentation::kWhole;
   Dataset dataset = DatasetOf({.train = 1});
   for (Trial& t : dataset.trials) t.mechanism.c_leg.rest_radius_m = 0.2;  // lands above its start
@@ -275,7 +284,6 @@ TEST(Diagnose, ADatasetThatCannotBeFittedIsRefusedWithTheReason) {
       d.refusal.find("no values found let every train trial be simulated to its end (train-1.csv"),
       std::string::npos)
       << d.refusal;
-  EXPECT_TRUE(d.naming.candidates.empty());
 }
 
 TEST(Diagnose, AnUnknownEffectIsRefusedBeforeAnythingIsFitted) {
