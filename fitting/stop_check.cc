@@ -26,6 +26,15 @@ bool IsWall(const SharedParameter& s, Side side) {
   return bound != 0.0 && bound != 1.0 && bound != s.initial;
 }
 
+std::vector<int> IndicesAtWall(const FitProblem& problem, const Eigen::VectorXd& shared) {
+  std::vector<int> at_wall;
+  for (int k = 0; k < problem.shared_count(); ++k) {
+    const SharedParameter& s = problem.shared[static_cast<std::size_t>(k)];
+    if (IsWall(s, SideOf(s, shared[k]))) at_wall.push_back(k);
+  }
+  return at_wall;
+}
+
 // Gain of a Gauss-Newton step that does not cross the bounds values lie on already, and that step.
 double PromisedNats(const FitProblem& problem, const Eigen::VectorXd& shared,
                     const EliminatedTrial& all, Eigen::VectorXd& of_shared) {
@@ -77,6 +86,13 @@ std::optional<double> StopCheck::PromisedErrors(const Eigen::VectorXd& std_error
   return most;
 }
 
+std::vector<std::string> AtWall(const FitProblem& problem, const Eigen::VectorXd& shared) {
+  std::vector<std::string> names;
+  for (const int k : IndicesAtWall(problem, shared))
+    names.push_back(problem.shared[static_cast<std::size_t>(k)].name);
+  return names;
+}
+
 StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                     const Eigen::VectorXd& shared, const std::vector<OwnValues>& initial_states,
                     const Loss& loss, int jobs) {
@@ -113,9 +129,8 @@ StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& 
   if (count > 1)
     out.faults.back() +=
         " (and " + std::to_string(count - 1) + " more of " + std::to_string(trials.size()) + ")";
-  for (int k = 0; k < problem.shared_count(); ++k) {
+  for (const int k : IndicesAtWall(problem, shared)) {
     const SharedParameter& s = problem.shared[static_cast<std::size_t>(k)];
-    if (!IsWall(s, SideOf(s, shared[k]))) continue;
     out.at_wall.push_back(s.name);
     out.faults.push_back(s.name + Text(" ended at the end of its range, %.3g ", shared[k]) +
                          s.unit);

@@ -42,6 +42,9 @@ inline constexpr double kOfNoConsequence = 0.3;
 /// A search that creeps along an edge promises less than this share of the cost.
 inline constexpr double kShareOfCost = 1e-3;
 
+/// Shared values that lie where no physics ends (StopCheck::at_wall).
+std::vector<std::string> AtWall(const FitProblem& problem, const Eigen::VectorXd& shared);
+
 /// Linearises `trials` (of `problem`) at the values where a search has ended.
 StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& trials,
                     const Eigen::VectorXd& shared, const std::vector<OwnValues>& initial_states,

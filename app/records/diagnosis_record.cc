@@ -101,6 +101,7 @@ Json ExtensionRecord(const Diagnosis& d) {
           {"gain_nats", NumberOrNull(best.GainOver(d.null))},
           {"explained", NumberOrNull(e.explained)},
           {"at_bound", e.at_bound},
+          {"at_wall", e.at_wall},
           {"chi2_per_dof", NumberOrNull(e.uncertainty.chi2_per_dof)},
           {"misfit", e.uncertainty.misfit},
           {"remainder", DetectionRecord(e.remainder)},

@@ -140,7 +140,7 @@ std::string UnexplainedSentence(const Diagnosis& d, std::size_t most) {
       "Something is missing that the catalogue does not hold" + LoneChannelClause(d);
   if (!d.extension) return missing + ".";
   const ExtensionReport& e = *d.extension;
-  if (e.explained < kNothingExplained && !e.at_bound)
+  if (e.explained < kNothingExplained && !e.IsBeyondPhysics())
     return missing + ", and no cause in it explains any of the misfit.";
   std::vector<std::string> names, groups;
   double share = 0.0;
@@ -149,12 +149,12 @@ std::string UnexplainedSentence(const Diagnosis& d, std::size_t most) {
     groups.push_back(GroupText(d, *c, most));
     share += e.OfMisfit(c->share);
   }
-  if (e.ToldProbability() >= kLikely && ActsBeside(e) && !e.at_bound)
+  if (e.ToldProbability() >= kLikely && ActsBeside(e) && !e.IsBeyondPhysics())
     return fmt::format("{}; {} (P {:.2f}) {} {} of the misfit.", missing, FirstOf(groups, most),
                        e.ToldProbability(), groups.size() > 1 ? "explain" : "explains",
                        ShareText(share));
   return fmt::format("{}; the best attempt, {}, {}.", missing, FirstOf(names, most),
-                     e.at_bound ? "needs a size beyond what is physical"
+                     e.IsBeyondPhysics() ? WhatItNeeds(e)
                                 : "explains " + ShareText(e.explained) + " of the misfit");
 }
 

@@ -113,7 +113,7 @@ class StageByStage {
   static double Sureness(const Diagnosis& d) {
     if (!d.extension) return 1.0 - d.naming.unlisted_probability;
     const double told = d.extension->ToldProbability();
-    return d.extension->at_bound ? std::min(told, kMostAtBound) : told;
+    return d.extension->IsBeyondPhysics() ? std::min(told, kMostAtBound) : told;
   }
   void Tell(const Diagnosis& d) const {
     if (!options_.stage) return;
@@ -189,7 +189,7 @@ Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
       TraitsOf(problem.law).lands_leg_by_leg && options.span == Segmentation::kAuto;
   d = by_stages ? StageByStage(std::move(problem), options).Run()
                 : DiagnoseFitted(FitPlain(std::move(problem), options, options.span), options);
-  if (d.extension && d.extension->at_bound) BelieveLessAtBound(d.extension->causes);
+  if (d.extension && d.extension->IsBeyondPhysics()) BelieveLessAtBound(d.extension->causes);
   TellBesides(d, options);
   d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
   d.warnings = std::move(warnings);

@@ -15,6 +15,7 @@
 #include "fitting/diagnosis/own_sizes.h"
 #include "fitting/diagnosis/sizes.h"
 #include "fitting/diagnosis/verdict.h"
+#include "fitting/stop_check.h"
 
 namespace hoplab {
 namespace {
@@ -158,6 +159,10 @@ class Pipeline {
       const int member = static_cast<int>(d_.naming.MemberOf(c->candidate));
       d_.extension->at_bound |= d_.naming.best.AtPhysicalBound(member);
     }
+    const std::vector<std::string> at_wall = AtWall(d_.naming.best.problem, d_.naming.best.shared);
+    for (const SharedParameter& plain : d_.null.problem.shared)
+      if (std::find(at_wall.begin(), at_wall.end(), plain.name) != at_wall.end())
+        d_.extension->at_wall.push_back(plain.name);
   }
 
   // Nothing is told: the model as it is, with intervals that hold what the evidence wanted.

@@ -135,6 +135,7 @@ struct ExtensionReport {
   double explained = 0.0;     // share of the excess chi-square, 0..1
   double white_square = 0.0;  // squares left when fitted under white noise
   bool at_bound = false;      // a told cause's size lies on a physical bound
+  std::vector<std::string> at_wall;  // fitted values of the plain model at the end of their range
 
   std::vector<CauseReport> causes;   // the members, the largest share first
   std::optional<SizesReport> sizes;  // absent where none varies that may matter
@@ -148,6 +149,8 @@ struct ExtensionReport {
   /// Some misfit is left for certain, or may be: one of the members may stand in for another cause.
   bool SomeRemains() const { return remainder.p_value <= kDetectionLevel; }
   bool InDoubt() const { return remainder.p_value <= kDoubtLevel; }
+  /// Only a size or a value that cannot be makes the extension fit.
+  bool IsBeyondPhysics() const { return at_bound || !at_wall.empty(); }
   std::vector<const CauseReport*> MainCauses() const;
   /// The main causes; all of them where none is main.
   std::vector<const CauseReport*> ToldCauses() const;

@@ -69,10 +69,9 @@ void JudgeWhatIsSeen(Diagnosis& d) {
   const bool remains = d.left.material;
   // Where what is left is more than the noise itself, even odds are not enough.
   const bool likely = chance >= (LeftOverNoise(d) > 1.0 ? kProbable : kLikely);
-  if (e.at_bound) {
+  if (e.IsBeyondPhysics()) {
     d.verdict = Verdict::kUnexplained;
-    d.reason =
-        "the best extension, " + NamesOf(d.naming.best) + ", needs a size beyond what is physical";
+    d.reason = "the best extension, " + NamesOf(d.naming.best) + ", " + WhatItNeeds(e);
   } else if (remains && e.explained < kExplained && chance < kProbable) {
     d.verdict = Verdict::kUnexplained;
     char text[96];
@@ -116,6 +115,11 @@ bool IsSlight(const Detection& seen, const ExtensionReport& report) {
   return std::abs(square) < kSlight * kSlight &&
          std::none_of(told.begin(), told.end(),
                       [](const CauseReport* c) { return c->group_probability >= kLikely; });
+}
+
+std::string WhatItNeeds(const ExtensionReport& e) {
+  return e.at_bound ? "needs a size beyond what is physical"
+                    : "leaves " + e.at_wall.front() + " at the end of its range";
 }
 
 bool NamesSomething(const Diagnosis& d) { return d.extension && d.verdict != Verdict::kAdequate; }

@@ -20,6 +20,9 @@ double MisfitOverNoise(const Detection& seen);
 /// `report` tells is likely.
 bool IsSlight(const Detection& seen, const ExtensionReport& report);
 
+/// What an extension that is beyond physics needs, after its name.
+std::string WhatItNeeds(const ExtensionReport& e);
+
 /// Whether causes are told.
 bool NamesSomething(const Diagnosis& diagnosis);
 
