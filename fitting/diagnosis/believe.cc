@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fitting/diagnosis/verdict.h"
+
 namespace hoplab {
 namespace {
 
@@ -21,7 +23,19 @@ bool SomeMainIsLikely(const std::vector<CauseReport>& causes) {
                      [](const CauseReport& c) { return c.main && c.group_probability >= kLikely; });
 }
 
+// What nothing explains, as a share of the misfit, as far as it is more than the noise.
+double UnexplainedShare(const ExtensionReport& report, const Detection& seen) {
+  const double share = 1.0 - report.explained;
+  const double over_noise = LeftOverNoise(seen, share);
+  return over_noise > 1.0 ? share * (1.0 - 1.0 / (over_noise * over_noise)) : 0.0;
+}
+
 }  // namespace
+
+double MostBelievable(double explained, double unexplained) {
+  return unexplained > 0.0 ? std::max(explained, 0.0) / (std::max(explained, 0.0) + unexplained)
+                           : 1.0;
+}
 
 double Disagreement(std::span<const Heterogeneity> sizes, const Candidate& of) {
   const auto typical = [&](std::size_t k) {
@@ -49,6 +63,7 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
   common.remainder = Rarity(report.remainder.p_value);
   const double gain = best.evidence.log_z() - diagnosis.null.evidence.log_z();
   common.gain = std::log10(1.0 + std::max(gain, 0.0));
+  const double unexplained = UnexplainedShare(report, diagnosis.detection);
   common.others = std::min(static_cast<double>(best.members.size() - 1), kMostOthers);
   for (CauseReport& c : report.causes) {
     const std::size_t member = naming.MemberOf(c.candidate);
@@ -58,7 +73,8 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
     const auto first = sizes.begin() + best.PlaceOf(static_cast<int>(member));
     c.sizes.assign(first, first + c.cause.parameter_count());
     f.heterogeneity = Disagreement(c.sizes, c.cause);
-    c.group_probability = CalibratedProbability(f);
+    c.group_probability =
+        std::min(CalibratedProbability(f), MostBelievable(report.OfMisfit(c.share), unexplained));
     c.probability = c.group_probability * naming.group_weights[member].front();
   }
 }

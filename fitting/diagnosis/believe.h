@@ -12,6 +12,11 @@ namespace hoplab {
 /// measured, in typical sizes, against the largest of them.
 double Disagreement(std::span<const Heterogeneity> sizes, const Candidate& of);
 
+/// The probability that a name has at most: the odds that it is right are no better than what it
+/// explains of the misfit against what nothing explains and the noise does not hide. A search finds
+/// a small corner of an error of the model that some cause fits, without any of it being there.
+double MostBelievable(double explained, double unexplained);
+
 /// How sure each name of `report` is, by what cases that looked like it turned out to be
 /// (NameFeatures). `sizes`: of the shared values of the extension.
 void Believe(ExtensionReport& report, const Diagnosis& diagnosis,

@@ -33,11 +33,6 @@ void WeighWhatIsLeft(Diagnosis& d, double material) {
   d.left.material = d.left.probability > 0.5 && d.left.share > material;
 }
 
-// What the extension leaves, as MisfitOverNoise.
-double LeftOverNoise(const Diagnosis& d) {
-  return std::sqrt(std::max(d.left.share, 0.0)) * MisfitOverNoise(d.detection);
-}
-
 // Something stands out, but it is much less than the noise and no main cause is likely.
 void JudgeSlight(Diagnosis& d) {
   d.verdict = Verdict::kAdequate;
@@ -68,7 +63,8 @@ void JudgeWhatIsSeen(Diagnosis& d) {
   const double chance = e.Probability();
   const bool remains = d.left.material;
   // Where what is left is more than the noise itself, even odds are not enough.
-  const bool likely = chance >= (LeftOverNoise(d) > 1.0 ? kProbable : kLikely);
+  const bool likely =
+      chance >= (LeftOverNoise(d.detection, d.left.share) > 1.0 ? kProbable : kLikely);
   if (e.IsBeyondPhysics()) {
     d.verdict = Verdict::kUnexplained;
     d.reason = "the best extension, " + NamesOf(d.naming.best) + ", " + WhatItNeeds(e);
@@ -107,6 +103,10 @@ void WithdrawExclusions(Diagnosis& d) {
 double MisfitOverNoise(const Detection& seen) {
   const double excess = seen.chi2 - seen.degrees_of_freedom;
   return excess > 0.0 ? std::sqrt(excess / seen.degrees_of_freedom) : 0.0;
+}
+
+double LeftOverNoise(const Detection& seen, double share) {
+  return std::sqrt(std::max(share, 0.0)) * MisfitOverNoise(seen);
 }
 
 bool IsSlight(const Detection& seen, const ExtensionReport& report) {

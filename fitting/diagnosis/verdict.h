@@ -16,6 +16,9 @@ void Judge(Diagnosis& diagnosis, double material);
 /// What the model misses, root mean square over the noise; 0 where it misses no more than that.
 double MisfitOverNoise(const Detection& seen);
 
+/// What is left of that, a share of its square, root mean square over the noise.
+double LeftOverNoise(const Detection& seen, double share);
+
 /// Whether something stands out that is much less than the noise (kSlight), and no cause that
 /// `report` tells is likely.
 bool IsSlight(const Detection& seen, const ExtensionReport& report);

@@ -63,6 +63,7 @@ TEST(EffectRegistry, SaysWhatPartOfAMachineAnEffectIsAbout) {
                               : info.name.starts_with("guide_")  ? MachinePart::kGuideOfBall
                               : info.name == "torque_limit_loss" ? MachinePart::kTorqueLimit
                               : info.name == "camera_scale"      ? MachinePart::kTwoAxes
+                              : info.name == "wind"              ? MachinePart::kTwoAxes
                                                                  : MachinePart::kNone;
     EXPECT_EQ(info.about, about) << info.name;
     const bool of_motors = about == MachinePart::kClock || about == MachinePart::kTorqueLimit;
@@ -258,6 +259,51 @@ TEST(AirDrag, OnAFallingBallReachesTheTerminalSpeed) {
   // v = v_t tanh(g t/v_t), v_t^2 = m g/c.
   const double terminal = std::sqrt(q.parameters.m * q.parameters.g / 0.2);
   EXPECT_NEAR(run.final_state[3], -terminal * std::tanh(q.parameters.g * 6.0 / terminal), 1e-10);
+}
+
+// The drag in air that moves with w along the ground, F = -c |v - w| (v - w), by small steps of
+// Heun's rule.
+std::array<double, 2> PlaceInMovingAir(double c, double w, double seconds, double mass, double g,
+                                       std::array<double, 4> s) {
+  const auto rate = [&](const std::array<double, 4>& at) {
+    const double ux = at[2] - w, uy = at[3], drag = c * std::hypot(ux, uy) / mass;
+    return std::array<double, 4>{at[2], at[3], -drag * ux, -drag * uy - g};
+  };
+  constexpr int kSteps = 20000;
+  const double h = seconds / kSteps;
+  for (int i = 0; i < kSteps; ++i) {
+    const std::array<double, 4> a = rate(s);
+    std::array<double, 4> ahead = s;
+    for (std::size_t k = 0; k < 4; ++k) ahead[k] += h * a[k];
+    const std::array<double, 4> b = rate(ahead);
+    for (std::size_t k = 0; k < 4; ++k) s[k] += 0.5 * h * (a[k] + b[k]);
+  }
+  return {s[0], s[1]};
+}
+
+TEST(Wind, AndDragAreTheDragInMovingAir) {
+  constexpr double kDrag = 0.01, kSeconds = 2.0;
+  const std::array<double, 4> start = {0.0, 500.0, 1.0, -4.0};
+  SimulationRequest q = RequestOf(Law::kBall);
+  q.initial = {start[0], start[1], start[2], start[3]};
+  q.horizon = kSeconds;
+  q.integrator.relative_tolerance = kOracleRelative;
+  q.integrator.absolute_tolerance = kOracleAbsolute;
+  std::array effects = {EffectSetting::Null(*FindEffect("air_drag")),
+                        EffectSetting::Null(*FindEffect("wind"))};
+  effects[0].values[0] = kDrag;
+  q.effects = effects;
+  const auto off = [&](double w, double told) {
+    effects[1].values[0] = kDrag * w;
+    effects[1].values[1] = told;
+    const Trajectory run = Simulate(q);
+    const std::array<double, 2> exact =
+        PlaceInMovingAir(kDrag, w, kSeconds, q.parameters.m, q.parameters.g, start);
+    return std::hypot(run.final_state[0] - exact[0], run.final_state[1] - exact[1]);
+  };
+  for (const double w : {-3.0, 0.4, 8.0}) EXPECT_LT(off(w, w), 1e-7) << w;
+  EXPECT_GT(off(0.0, 0.0) + off(0.4, 0.0), 1e-4);
+  EXPECT_NEAR(off(0.4, 0.0) / off(0.2, 0.0), 4.0, 0.4);  // the first order in w
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ class Diagnose(unittest.TestCase):
 
     def test_bad_input_names_the_argument(self):
         for kwargs, place in (
-            ({"effects": ["wind"]}, "effects"),
-            ({"without": ["wind"]}, "without"),
+            ({"effects": ["storm"]}, "effects"),
+            ({"without": ["storm"]}, "without"),
             ({"max_effects": 0}, "max_effects"),
         ):
             with self.subTest(kwargs=kwargs), self.assertRaises(hoplab.InputError) as caught:

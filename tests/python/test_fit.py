@@ -88,7 +88,7 @@ class Fit(unittest.TestCase):
             ({"law": "rubber"}, "law"),
             ({"free": ["Q"]}, "free"),
             ({"fix": {"Q": 1.0}}, "fix"),
-            ({"with_": ["wind"]}, "with_"),
+            ({"with_": ["storm"]}, "with_"),
             ({"strategy": "luck"}, "strategy"),
             ({"starts": 0}, "starts"),
             ({"starts": 2**40}, "starts"),

@@ -3,14 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
+#include "fitting/diagnosis/verdict.h"
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
 namespace {
 
 using testing::CandidateOf;
+using testing::DatasetOf;
+using testing::OptionsWith;
 
 Heterogeneity Sizes(double mean, double spread, double p_value) {
   Heterogeneity h;
@@ -39,6 +43,29 @@ TEST(Disagreement, OfSeveralParametersIsMeasuredAgainstTheLargest) {
               1e-12);
   EXPECT_NEAR(Disagreement(std::array{Sizes(0.0, 0.0, 1.0), Sizes(0.0, 5e-4, 1e-6)}, mass), 3.0,
               1e-12);
+}
+
+// A search finds a corner of the model's error that some cause fits.
+TEST(Believe, NoNameIsLikelierThanWhatItExplainsAgainstWhatNothingExplains) {
+  EXPECT_NEAR(MostBelievable(0.03, 0.97), 0.03, 1e-12);
+  EXPECT_NEAR(MostBelievable(0.6, 0.2), 0.75, 1e-12);
+  EXPECT_EQ(MostBelievable(-0.1, 0.5), 0.0);
+  EXPECT_EQ(MostBelievable(1e-4, 0.0), 1.0);  // nothing is left that the noise does not hide
+
+  Dataset shaken = DatasetOf({});
+  for (Trial& t : shaken.trials) {
+    for (std::size_t i = 0; i < t.trace.time_s.size(); ++i)
+      t.trace.columns[1].values[i] += 0.02 * std::sin(2.0 * M_PI * 2.5 * t.trace.time_s[i]);
+  }
+  const Diagnosis d = Diagnose(shaken, OptionsWith(testing::kSixEffects));
+  EXPECT_EQ(NameOf(d.verdict), "unexplained") << d.reason;
+  ASSERT_TRUE(d.extension);
+  const ExtensionReport& e = *d.extension;
+  EXPECT_GT(LeftOverNoise(d.detection, 1.0 - e.explained), 3.0);
+  for (const CauseReport& c : e.causes)
+    EXPECT_LE(c.group_probability,
+              e.OfMisfit(c.share) / (e.OfMisfit(c.share) + 8.0 / 9.0 * (1.0 - e.explained)))
+        << c.cause.Name();
 }
 
 TEST(BelieveLessAtBound, LeavesNoNameLikelyAndTheSharesOfAGroupAsTheyAre) {

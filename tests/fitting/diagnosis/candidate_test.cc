@@ -208,7 +208,7 @@ TEST(Candidates, AnUnknownNameIsRefusedWithTheNearestOne) {
 }
 
 TEST(Candidates, AnUnknownNameToLeaveOutSaysWhichOptionItWas) {
-  const std::string error = InputErrorOf([] { CandidatesOf(Problem(), {.without = {"wind"}}); });
+  const std::string error = InputErrorOf([] { CandidatesOf(Problem(), {.without = {"storm"}}); });
   EXPECT_EQ(error.rfind("--without", 0), 0u) << error;
 }
 

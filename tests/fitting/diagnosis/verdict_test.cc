@@ -292,7 +292,7 @@ TEST(Diagnose, ADatasetThatCannotBeFittedIsRefusedWithTheReason) {
 
 TEST(Diagnose, AnUnknownEffectIsRefusedBeforeAnythingIsFitted) {
   const std::string error =
-      testing::InputErrorOf([] { Diagnose(DatasetOf({.train = 1}), OptionsWith({"wind"})); });
+      testing::InputErrorOf([] { Diagnose(DatasetOf({.train = 1}), OptionsWith({"storm"})); });
   EXPECT_EQ(error.rfind("--effects", 0), 0u) << error;
 }
 
