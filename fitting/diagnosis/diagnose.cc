@@ -29,6 +29,24 @@ std::string WithTwoDecimals(double value) {
 // needs time, or up to three. More of them stand for the model's own error, which grows.
 constexpr int kMostLateOnes = 3;
 
+// Diagnoses `problem`, by finer steps where its derivatives cannot be trusted with the usual ones.
+template <class Diagnosing>
+Diagnosis WithStepsThatServe(FitProblem& problem, const DiagnosisOptions& options,
+                             const Diagnosing& diagnose) {
+  Diagnosis d = diagnose();
+  const bool can_be_finer = problem.integrator.relative_tolerance > kFinerSteps.relative_tolerance;
+  if (!d.gate.OnlyGradientsFailed() || !can_be_finer || d.interrupted) return d;
+  if (options.stage) options.stage("again with finer steps: " + d.refusal);
+  problem.integrator.relative_tolerance = kFinerSteps.relative_tolerance;
+  problem.integrator.absolute_tolerance =
+      std::min(problem.integrator.absolute_tolerance, kFinerSteps.absolute_tolerance);
+  d = diagnose();
+  if (d.refusal.empty() && !d.interrupted)
+    d.notes.emplace_back(
+        "simulated with finer steps than usual, since an event is met almost without crossing it");
+  return d;
+}
+
 class StageByStage {
  public:
   StageByStage(FitProblem whole, const DiagnosisOptions& options)
@@ -41,7 +59,8 @@ class StageByStage {
   Diagnosis Run() {
     std::optional<Diagnosis> last;
     for (Parts parts(whole_); parts.IsLeft();) {
-      Diagnosis longer = OfFirst(parts.until(), last);
+      Diagnosis longer =
+          WithStepsThatServe(whole_, options_, [&] { return OfFirst(parts.until(), last); });
       if (longer.interrupted) return CutShort(std::move(last), std::move(longer));
       if (const std::string why = WhyNoVerdict(longer, parts); !why.empty()) {
         if (options_.stage) options_.stage("no verdict of that: " + why);
@@ -63,7 +82,8 @@ class StageByStage {
     const bool nothing_early = last && last->verdict == Verdict::kAdequate;
     if (nothing_early) late.max_effects = std::min(late.max_effects, kMostLateOnes);
     const bool far_off = IsFarOff(WholeNull());
-    Diagnosis whole = DiagnoseFitted(std::move(WholeNull()), late, FoundIn(last, whole_));
+    Diagnosis whole = WithStepsThatServe(
+        whole_, late, [&] { return DiagnoseFitted(WholeNull(), late, FoundIn(last, whole_)); });
     if (late.max_effects < options_.max_effects && whole.extension)
       whole.notes.push_back("nothing is seen in the first stances, so no more than " +
                             std::to_string(late.max_effects) +
@@ -124,7 +144,9 @@ class StageByStage {
     options_.stage(text);
   }
   DatasetFit& WholeNull() {
-    if (!whole_null_) whole_null_ = FitPlain(whole_, options_, Segmentation::kWhole);
+    const bool fits_steps = whole_null_ && whole_null_->problem.integrator.relative_tolerance ==
+                                               whole_.integrator.relative_tolerance;
+    if (!fits_steps) whole_null_ = FitPlain(whole_, options_, Segmentation::kWhole);
     return *whole_null_;
   }
   bool WholeIsMinimum() {
@@ -188,7 +210,9 @@ Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
   const bool by_stages =
       TraitsOf(problem.law).lands_leg_by_leg && options.span == Segmentation::kAuto;
   d = by_stages ? StageByStage(std::move(problem), options).Run()
-                : DiagnoseFitted(FitPlain(std::move(problem), options, options.span), options);
+                : WithStepsThatServe(problem, options, [&] {
+                    return DiagnoseFitted(FitPlain(problem, options, options.span), options);
+                  });
   if (d.extension && d.extension->IsBeyondPhysics()) BelieveLessAtBound(d.extension->causes);
   TellBesides(d, options);
   d.notes.insert(d.notes.begin(), notes.begin(), notes.end());

@@ -54,6 +54,11 @@ inline constexpr double kExplained = 0.95, kProbable = 0.8, kUnlikely = 0.2;
 inline constexpr IntegratorOptions kDiagnosisSteps{.relative_tolerance = 1e-7,
                                                    .absolute_tolerance = 1e-8};
 
+/// Where an event is met almost without crossing it derivatives change quickly, and those of a
+/// neighbouring run are others.
+inline constexpr IntegratorOptions kFinerSteps{.relative_tolerance = 1e-10,
+                                               .absolute_tolerance = 1e-11};
+
 /// What draws random numbers, each from a stream of its own.
 enum class Draws : std::uint64_t { kDetection = 11, kRemainder, kBootstrap, kForces };
 

@@ -105,6 +105,12 @@ bool Gate::passed() const {
   return std::all_of(checks.begin(), checks.end(), [](const GateCheck& c) { return c.passed; });
 }
 
+bool Gate::OnlyGradientsFailed() const {
+  return !passed() && std::all_of(checks.begin(), checks.end(), [](const GateCheck& c) {
+    return c.passed || c.name == "gradients";
+  });
+}
+
 std::string Gate::Refusal() const {
   for (const GateCheck& c : checks) {
     if (!c.passed) return c.name + ": " + c.text;

@@ -24,6 +24,8 @@ struct Gate {
   bool passed() const;
   /// The first condition that failed, in words; empty if none did.
   std::string Refusal() const;
+  /// Nothing failed but the check of the gradients.
+  bool OnlyGradientsFailed() const;
 };
 
 /// Sensitivities must agree with differences this well to be trusted with a diagnosis.

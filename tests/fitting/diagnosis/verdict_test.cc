@@ -277,6 +277,23 @@ TEST(Diagnose, NothingIsNamedWhereTheModelNeedsAValueThatCannotBe) {
   for (const CauseReport& c : d.extension->causes) EXPECT_LE(c.group_probability, 0.49);
 }
 
+// With steps so coarse that derivatives are not to be trusted, finer ones are taken.
+TEST(Diagnose, StepsAreFinerWhereDerivativesCannotBeTrusted) {
+  DiagnosisOptions options = OptionsWith({"air_drag", "sensor_delay"});
+  options.problem.integrator.relative_tolerance = 1e-3;
+  options.problem.integrator.absolute_tolerance = 1e-4;
+  options.span = Segmentation::kWhole;
+  const Diagnosis d = Diagnose(DatasetOf({.effects = {EffectOfSize("air_drag", 0.05)}}), options);
+  EXPECT_EQ(d.refusal, "");
+  ASSERT_TRUE(d.extension);
+  EXPECT_EQ(d.extension->ToldCauses().front()->cause.Name(), "air_drag");
+  EXPECT_EQ(d.problem.integrator.relative_tolerance, kFinerSteps.relative_tolerance);
+  EXPECT_LE(d.problem.integrator.absolute_tolerance, kFinerSteps.absolute_tolerance);
+  EXPECT_TRUE(std::any_of(d.notes.begin(), d.notes.end(), [](const std::string& note) {
+    return note.starts_with("simulated with finer steps");
+  }));
+}
+
 TEST(Diagnose, ADatasetThatCannotBeFittedIsRefusedWithTheReason) {
   DiagnosisOptions options = OptionsWith(testing::kSixEffects);
   options.span = Segmentation::kWhole;
