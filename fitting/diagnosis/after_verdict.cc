@@ -51,6 +51,26 @@ HeldOutErrors ErrorsOf(const FittedModel& alone, const Diagnosis& d, int jobs) {
   return MeasureHeldOut(alike, jobs, /*test_only=*/true, &d.before);
 }
 
+// Motion alone tells forces per mass: where nothing weighs the body, what is fitted goes with the
+// stated mass, and no interval holds that.
+void NoteMass(Diagnosis& d) {
+  if (d.problem.trials.empty() || d.problem.shared.empty()) return;
+  const Effect* scale = FindEffect("body_mass_scale");
+  const bool unseen = std::any_of(
+      d.naming.candidates.begin(), d.naming.candidates.end(), [&](const CandidateResult& c) {
+        return c.candidate.effect == scale && c.candidate.only_recording.empty() &&
+               c.status == CandidateStatus::kNotTested;
+      });
+  if (!unseen) return;
+  const std::string& first = d.problem.shared.front().name;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "%s is that of a body of %.4g kg: nothing here weighs it, and a body 1 %% heavier "
+                "would have %s 1 %% larger",
+                first.c_str(), d.problem.trials.front().parameters.m, first.c_str());
+  d.notes.emplace_back(text);
+}
+
 // Gravity that is turned looks like a steady force: the camera was turned with its track.
 void NoteTilt(Diagnosis& d) {
   if (!d.extension || d.problem.trials.empty()) return;
@@ -102,8 +122,9 @@ void ProposeNextTrial(Diagnosis& d, const DiagnosisOptions& options) {
 }  // namespace
 
 void TellBesides(Diagnosis& d, const DiagnosisOptions& options) {
-  const bool something_was_tried = d.extension || !d.set_aside.empty();
-  if (!d.refusal.empty() || !something_was_tried) return;
+  if (!d.refusal.empty()) return;
+  NoteMass(d);
+  if (!d.extension && d.set_aside.empty()) return;
   NoteShapes(d);
   NoteTilt(d);
   if (options.fit.IsStopped()) return;

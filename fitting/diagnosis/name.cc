@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fitting/diagnosis/candidate_status.h"
+#include "fitting/diagnosis/in_one_trial.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/pairs.h"
 #include "fitting/diagnosis/pool.h"
@@ -19,7 +20,6 @@ namespace {
 
 // Models settled at each step of the search.
 constexpr int kSingleWidth = 4, kForwardWidth = 3, kPairsSettled = 2;
-constexpr std::size_t kScoreWidth = 4;
 // Nats a further cause must promise by the linear model to be tried.
 constexpr double kWorthATry = 4.0;
 // It must promise this share of the misfit beyond noise, or this in nats a sample (a fiftieth of
@@ -30,6 +30,8 @@ constexpr double kLeastShare = 1e-3, kLeastPerSample = 0.01;
 // of play in a gear beside a soft leg.)
 constexpr double kMuch = 5e-3;
 constexpr int kJoin = 3;
+// A cause in one trial that promises this share of what a set leaves is looked at beside it.
+constexpr double kMostOfWhatIsLeft = 0.5;
 // A set that leaves less than this share explains the data by and large.
 constexpr double kLittle = 0.1;
 // Rounds in which a set is put in order; each but the last changes it.
@@ -46,6 +48,7 @@ class Search {
         null_at_(null_at),
         train_(train),
         options_(options),
+        given_(static_cast<int>(candidates.size())),
         refits_(*null.plain, *null.settled, train, options, naming_) {
     FillPool(naming_, candidates, null_at, train, options);
   }
@@ -58,7 +61,7 @@ class Search {
       return std::move(naming_);
     }
     const CandidateSet begun = Begun();
-    CandidateSet current = Grown(begun.empty() ? OneByOne() : begun);
+    CandidateSet current = BesideInOneTrial(Grown(begun.empty() ? OneByOne() : begun));
     if (LeavesMuch(current)) {
       const CandidateSet exchanged = Exchanged(current);
       if (exchanged != current) current = Grown(exchanged);
@@ -94,7 +97,7 @@ class Search {
   }
 
   CandidateSet OneByOne() {
-    const CandidateSet single = refits_.Better({}, Singles(), kSingleWidth, BestScored());
+    const CandidateSet single = refits_.Better({}, Singles(), kSingleWidth, BestScored(naming_));
     CandidateSet current = refits_.Better(single, Pairs(), kPairsSettled);
     const bool slow_ones = SeeksSlowOnes(current);
     if (slow_ones) current = refits_.Better(current, SlowOnes(current), kPairsSettled);
@@ -114,6 +117,18 @@ class Search {
     return Tidy(set);
   }
 
+  // What acts in one trial shows once the set explains what acts in all. It is looked for where one
+  // such cause promises most of what is left.
+  CandidateSet BesideInOneTrial(const CandidateSet& set) {
+    if (set.empty() || !options_.in_one_trial || !MisfitIsSeen(set) || Stopped()) return set;
+    const std::vector<int> places = NotIn(set, given_);
+    const Linearisation at =
+        LineariseAt(refits_.White(set), CandidatesAt(places), train_, options_.jobs);
+    if (!AddInOneTrial(naming_, at, places, train_, kMostOfWhatIsLeft * Left(set))) return set;
+    ranked_.clear();
+    return Grown(set);
+  }
+
   // A set whose members are each needed, by small steps, too.
   CandidateSet Confirmed(CandidateSet set) {
     for (int round = 0; round < kRounds && refits_.SettleByLeadingOut(set); ++round) {
@@ -125,6 +140,19 @@ class Search {
   }
 
   const Effect* EffectOf(int i) const { return naming_.candidates[i].candidate.effect; }
+  // Those of the first `count` candidates whose effect does not act in the set.
+  std::vector<int> NotIn(const CandidateSet& set, int count) const {
+    std::vector<int> places;
+    for (int i = 0; i < count; ++i)
+      if (std::none_of(set.begin(), set.end(), [&](int m) { return EffectOf(m) == EffectOf(i); }))
+        places.push_back(i);
+    return places;
+  }
+  std::vector<Candidate> CandidatesAt(const std::vector<int>& places) const {
+    std::vector<Candidate> at;
+    for (const int i : places) at.push_back(naming_.candidates[i].candidate);
+    return at;
+  }
   std::vector<CandidateSet> Singles() const {
     std::vector<CandidateSet> sets;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
@@ -134,35 +162,15 @@ class Search {
     return sets;
   }
 
-  // The candidates of the best scores under the null fit's own noise.
-  std::vector<CandidateSet> BestScored() const {
-    std::vector<std::pair<double, int>> ranked;
-    for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
-      if (naming_.candidates[i].separable)
-        ranked.emplace_back(-naming_.candidates[i].score.predicted_gain, static_cast<int>(i));
-    }
-    std::stable_sort(ranked.begin(), ranked.end());
-    if (ranked.size() > kScoreWidth) ranked.resize(kScoreWidth);
-    std::vector<CandidateSet> sets;
-    for (const auto& [gain, i] : ranked) sets.push_back({i});
-    return sets;
-  }
-
   // Pool members not in `model`, the best expected gain beside it first. Of the same fit it is
   // asked more than once.
   const Ranking& Ranked(const CandidateSet& model, const FittedModel& fitted) {
     const auto [known, is_first] = ranked_.try_emplace({model, fitted.cost});
     Ranking& ranked = known->second;
     if (!is_first) return ranked;
-    std::vector<int> rest;
-    std::vector<Candidate> tested;
-    for (int i = 0; i < static_cast<int>(naming_.candidates.size()); ++i) {
-      const auto acts_already = [&](int m) { return EffectOf(m) == EffectOf(i); };
-      if (!naming_.candidates[i].separable || std::any_of(model.begin(), model.end(), acts_already))
-        continue;
-      rest.push_back(i);
-      tested.push_back(naming_.candidates[i].candidate);
-    }
+    std::vector<int> rest = NotIn(model, static_cast<int>(naming_.candidates.size()));
+    std::erase_if(rest, [&](int i) { return !naming_.candidates[i].separable; });
+    const std::vector<Candidate> tested = CandidatesAt(rest);
     const Linearisation at = LineariseAt(fitted, tested, train_, options_.jobs);
     const std::vector<Hypothesis> hypotheses = HypothesesOf(tested);
     for (std::size_t i = 0; i < rest.size(); ++i)
@@ -333,6 +341,7 @@ class Search {
   const Linearisation& null_at_;
   const std::vector<TrialProblem>& train_;
   const NamingOptions& options_;
+  const int given_;  // candidates, before those of single trials
   Naming naming_;
   Refits refits_;
   std::map<std::pair<CandidateSet, double>, Ranking> ranked_;  // by set and cost of its fit

@@ -13,6 +13,9 @@ namespace hoplab {
 void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linearisation& null_at,
               const std::vector<TrialProblem>& train, const NamingOptions& options);
 
+/// The candidates of the best scores under the null fit's own noise, each alone.
+std::vector<CandidateSet> BestScored(const Naming& naming);
+
 /// The candidate without which candidate i hardly shows (EffectInfo::shows_beside).
 std::optional<int> ShowsBeside(const Naming& naming, int i);
 

@@ -93,6 +93,20 @@ TEST(AfterVerdict, AForceIsToldAsATiltOfGroundAndCameraToo) {
             0);
 }
 
+// Twice the mass and twice all forces is the same motion.
+TEST(AfterVerdict, AStiffnessIsThatOfTheStatedMassWhereNothingWeighsTheBody) {
+  const auto tells = [](const Diagnosis& d) {
+    return std::any_of(d.notes.begin(), d.notes.end(), [](const std::string& note) {
+      return note.starts_with("E is that of a body of ");
+    });
+  };
+  EXPECT_TRUE(tells(Diagnose(DatasetOf({}), OptionsWith({"air_drag", "body_mass_scale"}))));
+  // A stated modulus weighs it.
+  DiagnosisOptions known = OptionsWith({"air_drag", "body_mass_scale"});
+  known.problem.fix = {{"E", 22e9}};
+  EXPECT_FALSE(tells(Diagnose(DatasetOf({}), known)));
+}
+
 TEST(AfterVerdict, NothingIsAddedToADiagnosisThatIsStopped) {
   const std::atomic<bool> stop = true;
   DiagnosisOptions options = LookAlikeOptions();
