@@ -155,7 +155,7 @@ std::string UnexplainedSentence(const Diagnosis& d, std::size_t most) {
                        ShareText(share));
   return fmt::format("{}; the best attempt, {}, {}.", missing, FirstOf(names, most),
                      e.IsBeyondPhysics() ? WhatItNeeds(e)
-                                : "explains " + ShareText(e.explained) + " of the misfit");
+                                         : "explains " + ShareText(e.explained) + " of the misfit");
 }
 
 // "a smooth error of body_x 2.51 mm over 262 ms" that is left beside what looks like noise; empty

@@ -136,10 +136,10 @@ struct ExtensionReport {
   HeldOutGain gain;
   std::vector<std::string> left_out;  // held-out trials that could not be compared
   std::vector<Movement> movements;
-  Detection remainder;        // the other candidates and the probes at the extension
-  double explained = 0.0;     // share of the excess chi-square, 0..1
-  double white_square = 0.0;  // squares left when fitted under white noise
-  bool at_bound = false;      // a told cause's size lies on a physical bound
+  Detection remainder;               // the other candidates and the probes at the extension
+  double explained = 0.0;            // share of the excess chi-square, 0..1
+  double white_square = 0.0;         // squares left when fitted under white noise
+  bool at_bound = false;             // a told cause's size lies on a physical bound
   std::vector<std::string> at_wall;  // fitted values of the plain model at the end of their range
 
   std::vector<CauseReport> causes;   // the members, the largest share first

@@ -7,6 +7,8 @@
 #include <set>
 #include <string>
 
+#include "fitting/diagnosis/pool.h"
+
 namespace hoplab {
 namespace {
 
@@ -71,9 +73,7 @@ bool AddInOneTrial(Naming& naming, const Linearisation& at, std::span<const int>
   std::set<std::string> recordings;
   for (const TrialProblem& t : train) recordings.insert(t.recording);
   if (recordings.size() < 2) return false;
-  std::vector<Candidate> tested;
-  for (const int place : places)
-    tested.push_back(naming.candidates[static_cast<std::size_t>(place)].candidate);
+  const std::vector<Candidate> tested = CandidatesAt(naming, places);
   const std::vector<Hypothesis> hypotheses = HypothesesOf(tested);
   const double price = std::max(naming.local_log_odds + kLocalSlack, least_gain);
   std::vector<Local> locals;

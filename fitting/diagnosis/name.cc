@@ -121,9 +121,9 @@ class Search {
   // such cause promises most of what is left.
   CandidateSet BesideInOneTrial(const CandidateSet& set) {
     if (set.empty() || !options_.in_one_trial || !MisfitIsSeen(set) || Stopped()) return set;
-    const std::vector<int> places = NotIn(set, given_);
+    const std::vector<int> places = PlacesBeside(naming_, set, given_);
     const Linearisation at =
-        LineariseAt(refits_.White(set), CandidatesAt(places), train_, options_.jobs);
+        LineariseAt(refits_.White(set), CandidatesAt(naming_, places), train_, options_.jobs);
     if (!AddInOneTrial(naming_, at, places, train_, kMostOfWhatIsLeft * Left(set))) return set;
     ranked_.clear();
     return Grown(set);
@@ -140,19 +140,6 @@ class Search {
   }
 
   const Effect* EffectOf(int i) const { return naming_.candidates[i].candidate.effect; }
-  // Those of the first `count` candidates whose effect does not act in the set.
-  std::vector<int> NotIn(const CandidateSet& set, int count) const {
-    std::vector<int> places;
-    for (int i = 0; i < count; ++i)
-      if (std::none_of(set.begin(), set.end(), [&](int m) { return EffectOf(m) == EffectOf(i); }))
-        places.push_back(i);
-    return places;
-  }
-  std::vector<Candidate> CandidatesAt(const std::vector<int>& places) const {
-    std::vector<Candidate> at;
-    for (const int i : places) at.push_back(naming_.candidates[i].candidate);
-    return at;
-  }
   std::vector<CandidateSet> Singles() const {
     std::vector<CandidateSet> sets;
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
@@ -168,9 +155,10 @@ class Search {
     const auto [known, is_first] = ranked_.try_emplace({model, fitted.cost});
     Ranking& ranked = known->second;
     if (!is_first) return ranked;
-    std::vector<int> rest = NotIn(model, static_cast<int>(naming_.candidates.size()));
+    std::vector<int> rest =
+        PlacesBeside(naming_, model, static_cast<int>(naming_.candidates.size()));
     std::erase_if(rest, [&](int i) { return !naming_.candidates[i].separable; });
-    const std::vector<Candidate> tested = CandidatesAt(rest);
+    const std::vector<Candidate> tested = CandidatesAt(naming_, rest);
     const Linearisation at = LineariseAt(fitted, tested, train_, options_.jobs);
     const std::vector<Hypothesis> hypotheses = HypothesesOf(tested);
     for (std::size_t i = 0; i < rest.size(); ++i)

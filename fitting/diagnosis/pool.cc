@@ -61,6 +61,23 @@ std::vector<CandidateSet> BestScored(const Naming& naming) {
   return sets;
 }
 
+std::vector<int> PlacesBeside(const Naming& naming, const CandidateSet& set, int count) {
+  const auto effect_of = [&](int i) {
+    return naming.candidates[static_cast<std::size_t>(i)].candidate.effect;
+  };
+  std::vector<int> places;
+  for (int i = 0; i < count; ++i)
+    if (std::none_of(set.begin(), set.end(), [&](int m) { return effect_of(m) == effect_of(i); }))
+      places.push_back(i);
+  return places;
+}
+
+std::vector<Candidate> CandidatesAt(const Naming& naming, std::span<const int> places) {
+  std::vector<Candidate> at;
+  for (const int i : places) at.push_back(naming.candidates[static_cast<std::size_t>(i)].candidate);
+  return at;
+}
+
 std::optional<int> ShowsBeside(const Naming& naming, int i) {
   const Candidate& candidate = naming.candidates[static_cast<std::size_t>(i)].candidate;
   for (std::size_t k = 0; k < naming.candidates.size(); ++k) {

@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
+#include "fitting/diagnosis/in_one_trial.h"
+#include "fitting/diagnosis/linearise_at.h"
+#include "fitting/diagnosis/pool.h"
 #include "tests/support/naming.h"
 
 namespace hoplab {
@@ -36,6 +42,42 @@ TEST(NameCauses, ASofterLegInOneTrialIsNamedAsSuch) {
   EXPECT_TRUE(
       MembersOf(NameIn(NullFit({.effects = {EffectOfSize("leg_stiffness", -0.14)}}), candidates))
           .empty());
+}
+
+// What acts in all of them hides it: in the model without that no cause in one trial promises half
+// of the misfit.
+TEST(NameCauses, ASofterLegInOneTrialIsFoundBesideALargerCauseInAll) {
+  const std::vector<Candidate> candidates = testing::CandidatesOf(
+      {"leg_material_damping", "leg_stiffness", "leg_hardening", "touchdown_loss",
+       "hip_coulomb_friction", "air_drag", "touchdown_angle_bias"});
+  const EffectSpec damping = EffectOfSize("leg_material_damping", 8e-4);
+  Dataset d = testing::DatasetOf({.effects = {damping}, .train = 6});
+  d.trials[2] =
+      testing::DatasetOf({.effects = {damping, EffectOfSize("leg_stiffness", -0.06)}, .train = 6})
+          .trials[2];
+  const NullFit fit(d);
+  const Naming found = NameIn(fit, candidates);
+  EXPECT_EQ(MembersOf(found),
+            (std::vector<std::string>{"leg_material_damping", "leg_stiffness in train-3.csv"}));
+
+  const auto looked_for = [&](const FittedModel& model, std::vector<int> places) {
+    Naming naming;
+    FillPool(naming, candidates, fit.Linearised(fit.null, candidates), fit.train,
+             {.in_one_trial = false});
+    const Linearisation at =
+        LineariseAt(model, CandidatesAt(naming, places), fit.train, /*jobs=*/1);
+    const double left = 0.5 * (at.chi2() - at.degrees_of_freedom());
+    AddInOneTrial(naming, at, places, fit.train, 0.5 * left);
+    return naming.candidates;
+  };
+  EXPECT_EQ(looked_for(fit.null, {0, 1, 2, 3, 4, 5, 6}).size(), candidates.size());
+  const Naming in_all = NameIn(fit, candidates, {.max_effects = 1, .in_one_trial = false});
+  ASSERT_EQ(MembersOf(in_all), std::vector<std::string>{"leg_material_damping"});
+  FittedModel with_damping = in_all.best;
+  with_damping.problem.noise = fit.null.problem.noise;
+  const std::vector<CandidateResult> beside = looked_for(with_damping, {1, 2, 3, 4, 5, 6});
+  ASSERT_GT(beside.size(), candidates.size());
+  EXPECT_EQ(beside[candidates.size()].candidate.Name(), "leg_stiffness in train-3.csv");
 }
 
 TEST(NameCauses, AScaleOfThePictureIsNoPairOfScales) {
