@@ -203,8 +203,12 @@ std::string FormulaLine(const Diagnosis& d, bool formula_sought, bool colours) {
 
 std::string NoVerdict(const Diagnosis& d, const std::string& failure, bool colours) {
   std::string text = "\n" + Labelled("no verdict", failure, colours);
-  for (const GateCheck& c : d.gate.checks)
-    text += Labelled(c.passed ? "passed" : "failed", c.name + ": " + c.text, colours);
+  for (const GateCheck& c : d.gate.checks) {
+    // A fit that is no minimum may be diagnosed: an extension of it may be one.
+    const bool in_doubt = c.name == "fit" && !d.gate.at_minimum;
+    text += Labelled(!c.passed ? "failed" : (in_doubt ? "in doubt" : "passed"),
+                     c.name + ": " + c.text, colours);
+  }
   return text;
 }
 

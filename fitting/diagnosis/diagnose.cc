@@ -40,11 +40,7 @@ Diagnosis WithStepsThatServe(FitProblem& problem, const DiagnosisOptions& option
   problem.integrator.relative_tolerance = kFinerSteps.relative_tolerance;
   problem.integrator.absolute_tolerance =
       std::min(problem.integrator.absolute_tolerance, kFinerSteps.absolute_tolerance);
-  d = diagnose();
-  if (d.refusal.empty() && !d.interrupted)
-    d.notes.emplace_back(
-        "simulated with finer steps than usual, since an event is met almost without crossing it");
-  return d;
+  return diagnose();
 }
 
 class StageByStage {
@@ -215,6 +211,10 @@ Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
                   });
   if (d.extension && d.extension->IsBeyondPhysics()) BelieveLessAtBound(d.extension->causes);
   TellBesides(d, options);
+  if (d.refusal.empty() &&
+      d.problem.integrator.relative_tolerance < options.problem.integrator.relative_tolerance)
+    d.notes.emplace_back(
+        "simulated with finer steps than usual, since an event is met almost without crossing it");
   d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
   d.warnings = std::move(warnings);
   return d;

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "fitting/diagnosis/believe.h"
@@ -239,10 +240,32 @@ class Pipeline {
   // What is there in every trial, of another size in each.
   void NoteOwnSizes() {
     const std::vector<Candidate> candidates = CandidatesOf(d_.problem, options_.candidates);
-    const auto own = BestOwnSizes(LineariseAt(d_.plain, candidates, train_, options_.fit.jobs),
-                                  candidates, train_);
+    std::optional<OwnSizes> own = BestOwnSizes(
+        LineariseAt(d_.plain, candidates, train_, options_.fit.jobs), candidates, train_);
+    std::optional<OwnSizes> beside = OwnSizesBesideLargest(candidates);
+    if (beside && !(own && own->explained >= beside->explained)) own = std::move(beside);
     if (own && !(d_.extension && d_.extension->explained >= own->explained))
       d_.notes.push_back(TextOf(*own, train_));
+  }
+
+  // The same, beside the told cause that explains most in all trials.
+  std::optional<OwnSizes> OwnSizesBesideLargest(const std::vector<Candidate>& candidates) const {
+    const CauseReport* largest = nullptr;
+    for (const CauseReport* c :
+         d_.extension ? d_.extension->ToldCauses() : std::vector<const CauseReport*>())
+      if (c->cause.only_recording.empty() && !(largest && largest->share >= c->share)) largest = c;
+    if (!largest) return std::nullopt;
+    FittedModel alone = d_.naming.candidates[static_cast<std::size_t>(largest->candidate)].alone;
+    if (!alone.ok()) return std::nullopt;
+    alone.problem.noise = d_.plain.problem.noise;
+    const std::vector<Candidate> others = CandidatesBeside(alone, candidates);
+    const Linearisation at = LineariseAt(alone, others, train_, options_.fit.jobs);
+    std::optional<OwnSizes> own = BestOwnSizes(at, others, train_);
+    if (!own) return std::nullopt;
+    const double left = LeftShare(d_.detection, at.chi2(), alone.parameter_count());
+    own->explained = 1.0 - left * (1.0 - own->explained);
+    own->beside = largest->cause.Name();
+    return own;
   }
 
   const DiagnosisOptions& options_;

@@ -12,6 +12,11 @@ namespace {
 
 constexpr std::size_t kMostOwnTrials = 40;
 constexpr std::size_t kShown = 8;
+// Of the most that a combination of sizes moves: what moves less is not told by the data, and is
+// taken as none. What is fitted may stand for what the sizes have in common.
+constexpr double kUndetermined = 1e-3;
+// Causes whose shares differ by less do as well; the one of the more usual sizes is told.
+constexpr double kAlike = 0.01;
 
 // The candidate's column cut to each trial in turn, what the fitted values take of it projected
 // out.
@@ -41,7 +46,7 @@ std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Ca
   // Squares that further sizes must gain, over what any cause gains with one.
   const double price = std::log(static_cast<double>(at.samples)) * static_cast<double>(n - 1);
   std::optional<OwnSizes> best;
-  double with_one = 0.0;
+  double with_one = 0.0, least_unusual = 0.0;
   const std::vector<Hypothesis> hypotheses = HypothesesOf(candidates);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& c = candidates[i];
@@ -51,13 +56,19 @@ std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Ca
     const Eigen::MatrixXd cut = CutToTrials(at, first, n);
     const double least = std::sqrt(kInseparable) * at.length[first];
     if (!(cut.colwise().norm().minCoeff() > least) || !cut.allFinite()) continue;
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(cut);
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
+    qr.setThreshold(kUndetermined);
+    qr.compute(cut);
     const Eigen::VectorXd sizes = -qr.solve(at.r);
     if (!InRoom(hypotheses[i], sizes)) continue;
     const double gained = at.chi2() - (at.r + cut * sizes).squaredNorm();
     const double explained = std::min(gained / misfit, 1.0);
-    if (explained < kLeastOwn || (best && best->explained >= explained)) continue;
-    best = OwnSizes{c, {sizes.begin(), sizes.end()}, explained};
+    if (explained < kLeastOwn) continue;
+    const double unusual = sizes.norm() / c.Parameter(0).typical;
+    const bool alike = best && std::abs(explained - best->explained) < kAlike;
+    if (best && (alike ? unusual >= least_unusual : explained <= best->explained)) continue;
+    least_unusual = unusual;
+    best = OwnSizes{c, {sizes.begin(), sizes.end()}, explained, ""};
   }
   if (best && best->explained * misfit < with_one + price) return std::nullopt;
   return best;
@@ -65,7 +76,8 @@ std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Ca
 
 std::string TextOf(const OwnSizes& own, const std::vector<TrialProblem>& train) {
   const std::string name(own.cause.effect->info.name);
-  std::string text = name + " of another size in each trial would explain " +
+  const std::string with = own.beside.empty() ? "" : own.beside + " in all trials and ";
+  std::string text = with + name + " of another size in each trial would explain " +
                      std::to_string(static_cast<int>(100.0 * own.explained)) +
                      " % of the misfit, to first order (";
   for (std::size_t i = 0; i < std::min(own.sizes.size(), kShown); ++i)

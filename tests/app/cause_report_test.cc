@@ -2,6 +2,9 @@
 // not confirm.
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <string>
+
 #include "app/records/cause_record.h"
 #include "app/reports/diagnosis_report.h"
 #include "fitting/diagnosis/believe.h"
@@ -96,6 +99,27 @@ TEST(LeftOutInWords, WhatTheWholeTrialsKnowInAnotherSizeIsToldWithBoth) {
   EXPECT_EQ(record[0].at("name"), "sensor_delay");
   EXPECT_EQ(record[0].at("parameters").at(0).at("value"), 0.0064);
   EXPECT_EQ(record[0].at("parameters_by_whole_trials").at(0).at("value"), 0.0025);
+}
+
+TEST(DiagnosisReport, AFitThatIsNoMinimumHasNotPassed) {
+  DiagnosisRun run;
+  Diagnosis& d = run.diagnosis;
+  d.gate.checks = {{"fit", true, "the fit is no minimum"}, {"events", true, "all are there"}};
+  d.gate.checks.push_back({"gradients", false, "differ from differences"});
+  d.refusal = d.gate.Refusal();
+  EXPECT_TRUE(d.gate.OnlyGradientsFailed());
+  const auto label_of = [&](const std::string& check) {
+    std::istringstream lines(DiagnosisReport(Dataset(), run, true, false));
+    for (std::string line; std::getline(lines, line);)
+      if (const auto at = line.find(check + ": "); at != std::string::npos)
+        if (line.find("no verdict") == std::string::npos) return line.substr(2, 8);
+    return std::string();
+  };
+  EXPECT_EQ(label_of("fit"), "in doubt");
+  EXPECT_EQ(label_of("events"), "passed  ");
+  EXPECT_EQ(label_of("gradients"), "failed  ");
+  d.gate.at_minimum = true;
+  EXPECT_EQ(label_of("fit"), "passed  ");
 }
 
 }  // namespace

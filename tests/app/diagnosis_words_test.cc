@@ -205,6 +205,10 @@ TEST_F(VerdictSentenceTest, AnUnexplainedMisfitIsToldWithTheBestAttempt) {
             "explains 60 % of the misfit.");
   d_.extension->at_bound = true;
   EXPECT_NE(VerdictSentence(d_).find("needs a size beyond what is physical"), std::string::npos);
+  d_.extension->at_bound = false;
+  d_.extension->at_wall = {"d"};
+  EXPECT_NE(VerdictSentence(d_).find("air_drag, leaves d at the end of its range."),
+            std::string::npos);
 }
 
 // Noise is what is left beside the smooth error, and not all that is left.

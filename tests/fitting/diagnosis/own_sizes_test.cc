@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
+#include <string>
 
 #include "tests/support/diagnosed_hops.h"
 
@@ -44,6 +46,44 @@ TEST(OwnSizes, OfAnglesSetByHandAreToldTrialByTrial) {
   EXPECT_NE(text.find(" rad); where angles are set by hand, touchdown_angle_sigma_deg"),
             std::string::npos)
       << text;
+}
+
+// A larger cause acts in all trials: beside it the angles are seen.
+TEST(OwnSizes, AreLookedForBesideTheLargestCauseToo) {
+  const EffectSpec drag = EffectOfSize("air_drag", 0.15);
+  Dataset d = DatasetOf({.effects = {drag}, .train = 6});
+  const double off[] = {0.03, -0.025, 0.02, -0.03, 0.025, -0.02};
+  for (std::size_t i = 0; i < std::size(off); ++i)
+    d.trials[i] =
+        DatasetOf({.effects = {drag, EffectOfSize("touchdown_angle_bias", off[i])}, .train = 6})
+            .trials[i];
+  const Diagnosis found =
+      Diagnose(d, testing::OptionsWith({"air_drag", "touchdown_angle_bias", "touchdown_loss"}));
+  EXPECT_TRUE(std::any_of(found.notes.begin(), found.notes.end(), [](const std::string& note) {
+    return note.starts_with(
+        "air_drag in all trials and touchdown_angle_bias of another size in each trial would "
+        "explain ");
+  })) << found.reason;
+}
+
+// What they have in common is the modulus.
+TEST(OwnSizes, OfLegsThatDifferAreAboutNone) {
+  Dataset d = DatasetOf({.train = 4});
+  const double loss[] = {0.06, -0.05, 0.04, -0.05};
+  for (std::size_t i = 0; i < std::size(loss); ++i)
+    d.trials[i] =
+        DatasetOf({.effects = {EffectOfSize("leg_stiffness", loss[i])}, .train = 4}).trials[i];
+  const NullFit fit(d);
+  const std::vector<Candidate> candidates =
+      testing::CandidatesOf({"body_mass_scale", "leg_stiffness", "air_drag"});
+  const std::optional<OwnSizes> own =
+      BestOwnSizes(fit.Linearised(fit.null, candidates), candidates, fit.train);
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->cause.Name(), "leg_stiffness");
+  double mean = 0.0;
+  for (const double size : own->sizes) mean += size / 4.0;
+  EXPECT_NEAR(mean, 0.0, 0.02);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(own->sizes[i] - mean, loss[i], 0.02) << i;
 }
 
 // Four trials of ten rows in which one cause alone acts, of these sizes.
