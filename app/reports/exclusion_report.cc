@@ -27,6 +27,7 @@ std::string BoundText(const CandidateResult& c) {
   std::vector<std::string> parts;
   for (int k = 0;
        k < std::min<int>(c.candidate.parameter_count(), static_cast<int>(c.bound95.size())); ++k) {
+    if (c.candidate.Parameter(k).is_of_first) continue;
     if (!std::isfinite(c.bound95[k])) return "";
     parts.push_back(SizeText(c.bound95[k], std::string(c.candidate.Parameter(k).unit)));
   }
@@ -66,7 +67,8 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
     } else if (c.status == CandidateStatus::kNotTested) {
       std::vector<std::string> sizes;
       for (const OpenParameter& p : c.candidate.parameters)
-        sizes.push_back(SizeText(p.info.typical, std::string(p.info.unit)));
+        if (!p.info.is_of_first)
+          sizes.push_back(SizeText(p.info.typical, std::string(p.info.unit)));
       unseen.push_back(c.candidate.Name() + " " + Join(sizes, " and "));
     }
   }

@@ -123,7 +123,7 @@ void ProposeNextTrial(Diagnosis& d, const DiagnosisOptions& options) {
 
 void TellBesides(Diagnosis& d, const DiagnosisOptions& options) {
   if (!d.refusal.empty()) return;
-  NoteMass(d);
+  if (!d.interrupted) NoteMass(d);
   if (!d.extension && d.set_aside.empty()) return;
   NoteShapes(d);
   NoteTilt(d);

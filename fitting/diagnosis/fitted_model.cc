@@ -128,7 +128,8 @@ bool FittedModel::AtNull(int i) const {
   const Candidate& member = members[static_cast<std::size_t>(i)];
   for (int k = 0; k < member.parameter_count(); ++k) {
     const EffectParameter& p = member.Parameter(k);
-    if (!p.is_shape && std::abs(shared[first + k] - p.null) > 1e-6 * std::abs(p.typical))
+    if (!p.is_shape && !p.is_of_first &&
+        std::abs(shared[first + k] - p.null) > 1e-6 * std::abs(p.typical))
       return false;
   }
   return true;

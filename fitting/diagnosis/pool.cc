@@ -29,6 +29,7 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
     c.separable = c.score.rank > 0;
     c.power = std::numeric_limits<double>::infinity();
     for (int k = 0; k < hypotheses[i].count; ++k) {
+      if (candidates[i].Parameter(k).is_of_first) continue;
       const double typical = candidates[i].Parameter(k).typical;
       c.power =
           std::min(c.power, typical * typical * Information(null_at, hypotheses[i].first + k));

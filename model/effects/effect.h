@@ -29,6 +29,8 @@ struct EffectParameter {
   bool is_shape = false;
   /// It adds to this stated value; a fit may take up to nine tenths of that away, below `lower`.
   std::optional<ParameterId> adds_to = std::nullopt;
+  /// It says how the effect's first parameter acts, and moves nothing while that is at its null.
+  bool is_of_first = false;
 };
 
 struct EffectInfo {

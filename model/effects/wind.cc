@@ -8,7 +8,13 @@ namespace {
 struct Wind {
   static constexpr std::array kParameters = {
       EffectParameter{"c_wind", "N s/m", 0.0, -10.0, 10.0, 0.02},
-      EffectParameter{"w", "m/s", 0.0, -40.0, 40.0, 1.0}};
+      EffectParameter{.name = "w",
+                      .unit = "m/s",
+                      .null = 0.0,
+                      .lower = -40.0,
+                      .upper = 40.0,
+                      .typical = 1.0,
+                      .is_of_first = true}};
   static constexpr EffectInfo kInfo = {
       .name = "wind",
       .kind = EffectKind::kForce,

@@ -7,6 +7,7 @@
 #include "model/effects/effect.h"
 #include "model/leg_compliance.h"
 #include "tests/support/effect_requests.h"
+#include "tests/support/moving_air.h"
 
 namespace hoplab {
 namespace {
@@ -261,26 +262,6 @@ TEST(AirDrag, OnAFallingBallReachesTheTerminalSpeed) {
   EXPECT_NEAR(run.final_state[3], -terminal * std::tanh(q.parameters.g * 6.0 / terminal), 1e-10);
 }
 
-// The drag in air that moves with w along the ground, F = -c |v - w| (v - w), by small steps of
-// Heun's rule.
-std::array<double, 2> PlaceInMovingAir(double c, double w, double seconds, double mass, double g,
-                                       std::array<double, 4> s) {
-  const auto rate = [&](const std::array<double, 4>& at) {
-    const double ux = at[2] - w, uy = at[3], drag = c * std::hypot(ux, uy) / mass;
-    return std::array<double, 4>{at[2], at[3], -drag * ux, -drag * uy - g};
-  };
-  constexpr int kSteps = 20000;
-  const double h = seconds / kSteps;
-  for (int i = 0; i < kSteps; ++i) {
-    const std::array<double, 4> a = rate(s);
-    std::array<double, 4> ahead = s;
-    for (std::size_t k = 0; k < 4; ++k) ahead[k] += h * a[k];
-    const std::array<double, 4> b = rate(ahead);
-    for (std::size_t k = 0; k < 4; ++k) s[k] += 0.5 * h * (a[k] + b[k]);
-  }
-  return {s[0], s[1]};
-}
-
 TEST(Wind, AndDragAreTheDragInMovingAir) {
   constexpr double kDrag = 0.01, kSeconds = 2.0;
   const std::array<double, 4> start = {0.0, 500.0, 1.0, -4.0};
@@ -297,8 +278,9 @@ TEST(Wind, AndDragAreTheDragInMovingAir) {
     effects[1].values[0] = kDrag * w;
     effects[1].values[1] = told;
     const Trajectory run = Simulate(q);
-    const std::array<double, 2> exact =
-        PlaceInMovingAir(kDrag, w, kSeconds, q.parameters.m, q.parameters.g, start);
+    const testing::BallInMovingAir air{
+        .drag = kDrag, .wind = w, .mass = q.parameters.m, .g = q.parameters.g};
+    const std::array<double, 4> exact = air.At({kSeconds}, start).front();
     return std::hypot(run.final_state[0] - exact[0], run.final_state[1] - exact[1]);
   };
   for (const double w : {-3.0, 0.4, 8.0}) EXPECT_LT(off(w, w), 1e-7) << w;
