@@ -39,6 +39,7 @@ struct LawTerms {
   bool foot_friction_active = false;
   bool higher_order_active = false;
   bool material_damping_active = false;
+  bool sole_active = false;
   T hardening{0.0};          // beta [-]
   T rolling{0.0};            // share of the other rolling law [-]
   T tip{0.0};                // share of the tip's rotation [-]
@@ -51,6 +52,7 @@ struct LawTerms {
   T foot_friction{0.0};      // 1/mu under the foot [-]
   T material_damping{0.0};   // tau of the strip's Kelvin-Voigt material [s]
   T higher_order{0.0};       // share of what large_deflection lacks of the elastica [-]
+  T sole{0.0};               // from the line that bends to the ground under it [m]
 };
 
 /// Everything physical about one trial, in SI units and radians. Fields a mechanism does not use

@@ -24,8 +24,9 @@ ArcRate<T> RateOfArc(const Parameters<T>& p, Law law, const T* z, const Place<T>
                      const Residuals<T>& by, const std::optional<LegForce<T>>& softened) {
   T tip_phi = by.by_phi.tip, ground_phi = by.by_phi.ground;
   if (IsElastic(law)) {
-    tip_phi += p.r * by.by_u.tip;
-    ground_phi += p.r * by.by_u.ground;
+    const T outside = p.r + p.law_terms.sole;
+    tip_phi += outside * by.by_u.tip;
+    ground_phi += outside * by.by_u.ground;
   }
   T tip_rest(0.0), ground_rest = -z[kVy];  // what time does to both with phi, Y and u0 held
   if (softened) {
@@ -71,7 +72,7 @@ Place<T> PlaceOf(const Parameters<T>& p, const Solution& solution, const Place<T
   Place<T> there = held;
   const T turned = m[0][0] * tip + m[0][1] * ground;
   there.phi -= turned;
-  if (rolls_on_arc) there.u -= p.r * turned;
+  if (rolls_on_arc) there.u -= (p.r + p.law_terms.sole) * turned;
   there.Y -= m[1][0] * tip + m[1][1] * ground;
   return there;
 }
@@ -112,7 +113,8 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
     return {nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan};
   }
   const T phi(solution.phi);
-  const Place<T> held{phi, rolls_on_arc ? T(u0 + p_.r * phi) : u0, T(solution.Y), softer};
+  const Place<T> held{phi, rolls_on_arc ? T(u0 + (p_.r + p_.law_terms.sole) * phi) : u0,
+                      T(solution.Y), softer};
   const StaticsInputs<double> values{solution.phi, Value(Chord(held)), Value(at.torque),
                                      Value(softer), solution.F};
   // The place in T's directions, by the statics evaluated there.
@@ -156,8 +158,8 @@ void ExtendedLeg<T>::TurnContact(const T* z, const LegConditions<T>& at,
                                  LegLoad<T>& load) const {
   const T& blend = p_.law_terms.rolling;
   const ThesisReading reading = law_ == Law::kThesis ? p_.reading : ThesisReading();
-  const T full = p_.r, flat = RadiusOfM7(p_.r, reading, along.sin, along.cos,
-                                         load.l);  // M8, M11; M7
+  const T full = p_.r + p_.law_terms.sole, flat = RadiusOfM7(p_.r, reading, along.sin, along.cos,
+                                                             load.l);  // M8, M11; M7
   const T rho = law_ == Law::kThesis ? T((1.0 - blend) * flat + blend * full)
                                      : T((1.0 - blend) * full + blend * flat);
   const T beyond = IsElastic(law_) ? T(rho - full) : rho;  // X0 moves by what is not rolled off
@@ -195,10 +197,10 @@ template <class T>
 void ExtendedLeg<T>::TurnHub(bool rolling, const T* z, const LegForceAlong<T>& along,
                              LegLoad<T>& load) const {
   using std::sqrt;
-  const T square = load.l * load.l;
   if (rolling) {
-    const T lead_rate = load.contact_rate - p_.r * load.angle_rate - z[kVx];
-    load.angle_rate = 2.0 * (load.y * lead_rate - load.u * z[kVy]) / square;
+    const T &sole = p_.law_terms.sole, y = load.y - sole;  // over the line that bends
+    const T lead_rate = load.contact_rate - (p_.r + sole) * load.angle_rate - z[kVx];
+    load.angle_rate = 2.0 * (y * lead_rate - load.u * z[kVy]) / (load.u * load.u + y * y);
     return;
   }
   const T& sine = along.tip_turn.value;  // less the sine of the tip's angle to the chord
@@ -212,9 +214,15 @@ void ExtendedLeg<T>::AddViscousForce(const T& softer, const T* z, const Tangent<
   const T l_x = load.u * (load.place_x - 1.0) / load.l;
   const T l_y = (load.u * load.place_y + load.y) / load.l;
   const T stiffness = p_.E * p_.I / softer, per_N = p_.r * p_.r / stiffness;
-  const T f = per_N * F.value;
-  const T f_x = per_N * (F.rate[0] * load.arc_x + F.rate[1] * l_x);
-  const T f_y = per_N * (F.rate[0] * load.arc_y + F.rate[1] * l_y);
+  T f = per_N * F.value;
+  T f_x = per_N * (F.rate[0] * load.arc_x + F.rate[1] * l_x);
+  T f_y = per_N * (F.rate[0] * load.arc_y + F.rate[1] * l_y);
+  if (p_.law_terms.sole_active) {  // what bends the strip
+    const SoleGeometry<T> sole = SoleAt(load.phi, p_.r, p_.law_terms.sole);
+    f_x = sole.spread * (f_x + sole.spread_slope * load.arc_x * f);
+    f_y = sole.spread * (f_y + sole.spread_slope * load.arc_y * f);
+    f = sole.spread * f;
+  }
   const double phi0 = Value(load.phi), f0 = Value(f);
   const elastica::Dissipation table = elastica::DissipationAt(phi0, f0);
   const auto lift = [&](const elastica::Derivatives<1>& d) {
@@ -235,8 +243,10 @@ T ExtendedLeg<T>::StrainEnergy(Mode, const LegLoad<T>& load, const LegConditions
   const Statics<T> leg = statics_->Whole({load.phi, load.l, at.torque, Softer(p_, at.time)});
   const T lift = leg.F * load.y / load.l;
   const T ground = 0.5 * p_.law_terms.ground_compliance * lift * lift;
-  if (IsElastic(law_))
-    return leg.F * leg.F * (0.5 * leg.C + 2.0 / 3.0 * leg.F * leg.A2) + leg.beyond + ground;
+  if (IsElastic(law_)) {
+    const T& bends = p_.law_terms.sole_active ? leg.soft_F : leg.F;
+    return bends * bends * (0.5 * leg.C + 2.0 / 3.0 * bends * leg.A2) + leg.beyond + ground;
+  }
   const T hardening = p_.law_terms.hardening / (law_ == Law::kStraightLeg ? p_.l0 : p_.r);
   const T& F = leg.soft_F;
   return F * F * (0.5 * leg.C + 2.0 / 3.0 * F * leg.A2) +

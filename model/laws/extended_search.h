@@ -83,7 +83,7 @@ inline Solution Solve(const Question& q, ExtendedRoot& root) {
     if (q.rolling) phi += root.phi_u0 * du + root.phi_y * dy;
     sink += root.sink_u0 * du + root.sink_y * dy;
   }
-  const double roll = q.rolling && IsElastic(q.law) ? q.p.r : 0.0;
+  const double roll = q.rolling && IsElastic(q.law) ? q.p.r + q.p.law_terms.sole : 0.0;
   const auto place = [&] { return Place<double>{phi, q.u0 + roll * phi, q.y + sink, q.softer}; };
   NearForce force = root.force;
   Solution s;

@@ -7,49 +7,13 @@
 #include <type_traits>
 
 #include "model/effects/effect.h"
+#include "model/laws/arc_shapes.h"
 #include "model/laws/elastica/energy.h"
-#include "model/laws/tangent.h"
+#include "model/laws/sole.h"
 #include "model/leg_compliance.h"
 #include "model/parameters.h"
 
 namespace hoplab {
-
-// The k-th derivative of a function of one variable at x, given all of them at its value.
-inline double Lift(double, const double* derivatives, int k) { return derivatives[k]; }
-template <int N>
-Jet<N> Lift(const Jet<N>& x, const double* derivatives, int k) {
-  return Jet<N>(derivatives[k], derivatives[k + 1] * x.v);
-}
-template <class T>
-Tangent<T> Lift(const Tangent<T>& x, const double* derivatives, int k) {
-  const T slope = Lift(x.value, derivatives, k + 1);
-  return {Lift(x.value, derivatives, k), slope * x.rate[0], slope * x.rate[1]};
-}
-
-// Shape functions of an arc with as many derivatives as the rates of the tip's angle need.
-struct ArcShapes {
-  std::array<double, 3> sin, cos;  // of phi/2
-  std::array<double, 5> bending;   // M1
-  std::array<double, 4> axial, shear, second_order;
-
-  explicit ArcShapes(double phi) {
-    const HalfAngle a(phi);
-    const double h = a.h, S = a.sin, K = a.cos;
-    const double sin_phi = 2.0 * S * K, cos_phi = 1.0 - 2.0 * S * S;
-    sin = {S, 0.5 * K, -0.25 * S};
-    cos = {K, -0.5 * S, -0.25 * K};
-    const ShapeValue b = BendingShape(a), n = AxialShape(a), s = ShearShape(a),
-                     g = SecondOrderShape(a);
-    bending = {b.value, b.d1, b.d2, phi * sin_phi, sin_phi + phi * cos_phi};
-    axial = {n.value, n.d1, n.d2, -3.0 * cos_phi};
-    shear = {s.value, s.d1, s.d2, cos_phi};
-    const double S2 = S * S, K2 = K * K;
-    const double g3 = 2.0 * h * S * (6.0 * S2 - 21.0 * K2) + h * h * K * (60.0 * S2 - 21.0 * K2) +
-                      K * (30.0 * S2 - 15.0 * K2 + 1.5) + h * S * (105.0 * K2 - 30.0 * S2 - 1.5) +
-                      K * (12.0 * K2 - 73.5 * S2 + 1.5);
-    second_order = {g.value, g.d1, g.d2, 0.125 * g3};
-  }
-};
 
 // The next terms of the elastica after M24 and M25, in F N and N^2 (M24b, M25b), as M2b is in F^2:
 // chord in units of r (r^2/(E I))^2, lead u/l in units of (r^2/(E I))^2.
@@ -148,7 +112,8 @@ struct Situation {
 template <class S>
 struct Statics {
   S sin, cos, delta, C, A2, F;
-  S soft_F;    // F without leg_hardening, where that is a share of a spring's force
+  S soft_F;    // what its energy goes by: F without leg_hardening, where that is a share of a
+               // spring's force; of a leg on a sole, what bends it
   S tip_turn;  // M10 (M10b, M25) is u/l + tip_turn = 0
   S beyond;    // strain energy that M2b has not (M65) [J]; not along the arc or the chord
 };
@@ -183,6 +148,12 @@ struct ArcParts {
     return at.softer * (radius * radius * radius * flex * shape(of.bending) +
                         radius * stretch * shape(of.axial)) +
            radius * slide * shape(of.shear);
+  }
+
+  SoleSecondOrder<S> SecondOrderOfSole() const {
+    return SoleSecondOrderOf<S, P>(at.phi, Lifted(shapes.sin, 0), Lifted(shapes.cos, 0),
+                                   0.5 * Lifted(shapes.bending, 0), 0.5 * Lifted(shapes.bending, 1),
+                                   Lifted(shapes.second_order, 0), Lifted(shapes.second_order, 1));
   }
 
   ArcParts(const Parameters<P>& parameters, Law law, const P& torque, const Situation<S>& given)
@@ -273,6 +244,12 @@ void SetElastic(const ArcParts<S, P>& arc, Statics<S>& out) {
   if (arc.second_order) {
     out.A2 = out.A2 + arc.softer2 * (r * arc.unit * arc.Lifted(arc.shapes.second_order, 0));
     A2s = A2s + arc.C2s;
+    if (terms.sole_active) {
+      const auto sole = arc.SecondOrderOfSole();
+      const P unit = terms.sole * arc.unit;
+      out.A2 = out.A2 + arc.softer2 * (unit * sole.value);
+      A2s = A2s + arc.softer2 * (unit / r * sole.slope);
+    }
   }
   S C = out.C;
   if (terms.torque_active && arc.second_order) {
@@ -314,6 +291,23 @@ void SetSpring(const ArcParts<S, P>& arc, const ThesisReading& reading, Statics<
   out.tip_turn = terms.tip * (turned + arc.turn) - out.cos;
 }
 
+// M113: the law of the strip under lambda F, its chord and its tip's turn seen from the ground
+// under its sole.
+template <class S, class P>
+void SetOnSole(const Parameters<P>& p, Law law, const P& torque, Situation<S> at, Statics<S>& out) {
+  const P outside = p.r + p.law_terms.sole;
+  const SoleGeometry<S> sole = SoleAt(at.phi, p.r, p.law_terms.sole);
+  at.F_near *= Value(sole.spread);
+  const ArcParts<S, P> arc(p, law, torque, at);
+  const S chord = sole.rest - at.l - p.r * (arc.N * arc.bending1);
+  out.delta = chord / sole.spread;
+  SetElastic(arc, out);
+  out.soft_F = out.F;
+  out.F = out.F / sole.spread;
+  out.tip_turn = (p.r / outside) * (sole.spread * (out.tip_turn + out.cos)) - sole.lead +
+                 (1.0 / outside) * (sole.spread_slope * chord);
+}
+
 template <class S, class P>
 [[gnu::flatten]] Statics<S> StaticsAt(const Parameters<P>& p, Law law, const P& torque,
                                       const Situation<S>& at) {
@@ -327,7 +321,9 @@ template <class S, class P>
   out.sin = arc.Lifted(arc.shapes.sin, 0);
   out.cos = arc.Lifted(arc.shapes.cos, 0);
   out.delta = 2.0 * (p.r * out.sin) - at.l - p.r * (arc.N * arc.bending1);
-  if (IsElastic(law))
+  if (p.law_terms.sole_active)
+    SetOnSole(p, law, torque, at, out);
+  else if (IsElastic(law))
     SetElastic(arc, out);
   else
     SetSpring(arc, law == Law::kThesis ? p.reading : ThesisReading(), out);

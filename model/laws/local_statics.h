@@ -11,7 +11,7 @@ namespace hoplab {
 
 // The parameters that the statics of a leg read.
 template <class T>
-std::array<T*, 12> ReadByStatics(Parameters<T>& p) {
+std::array<T*, 13> ReadByStatics(Parameters<T>& p) {
   LawTerms<T>& terms = p.law_terms;
   return {&p.E,
           &p.I,
@@ -24,7 +24,8 @@ std::array<T*, 12> ReadByStatics(Parameters<T>& p) {
           &terms.hardening,
           &terms.second_order,
           &terms.higher_order,
-          &terms.tip};
+          &terms.tip,
+          &terms.sole};
 }
 
 // What else they know.
@@ -54,7 +55,7 @@ class LocalStatics {
   static constexpr bool kHasDirections = kJetWidth<T> > 0;
   enum { kPhi, kChord, kTorque, kSofter, kGiven };  // local directions; further ones: parameters
   static constexpr int kLocalWidth = kNarrowJet;
-  static constexpr std::size_t kOwn = kLocalWidth - kGiven, kMostParts = 3;
+  static constexpr std::size_t kOwn = kLocalWidth - kGiven, kMostParts = 4;
 
  public:
   using Local = std::conditional_t<kHasDirections, Jet<kLocalWidth>, double>;
@@ -186,8 +187,8 @@ class LocalStatics {
 
   mutable Parameters<Local> p_;
   Law law_;
-  std::array<std::size_t, 12> places_{};
-  std::array<T, 12> moved_{};
+  std::array<std::size_t, 13> places_{};
+  std::array<T, 13> moved_{};
   std::size_t count_ = 0;
 };
 

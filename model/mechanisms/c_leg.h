@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "model/laws/extended_leg.h"
+#include "model/laws/sole.h"
 #include "model/leg_compliance.h"
 #include "model/mechanisms/leg.h"
 
@@ -18,7 +19,13 @@ class CLeg final : public Leg<T> {
   static constexpr double kFallArc = 0.2;  // rad
 
   explicit CLeg(const Parameters<T>& p)
-      : m_(Value(p.m)), r_(p.r), compliance_(p), law_(p), extended_(p, LawT<T>::kLaw) {}
+      : m_(Value(p.m)),
+        r_(p.r),
+        sole_(p.law_terms.sole),
+        has_sole_(p.law_terms.sole_active),
+        compliance_(p),
+        law_(p),
+        extended_(p, LawT<T>::kLaw) {}
 
   void SaveDiscreteState(DiscreteState& to) const override {
     law_.SaveRoot(to);
@@ -28,30 +35,39 @@ class CLeg final : public Leg<T> {
     law_.LoadRoot(from);
     extended_.LoadRoot(from);
   }
-  /// The arc is searched from its unloaded geometry, y = r (1 - cos phi).
+  /// The arc is searched from its unloaded geometry, y = r (1 - cos phi) over its sole.
   void StartSearch(Mode mode, const double* z) override {
     if (mode != Mode::kRolling) return StartRootAt(std::numbers::pi);
-    StartRootAt(std::acos(std::clamp(1.0 - z[kY] / Value(r_), -1.0, 1.0)));
+    const double height = z[kY] - Value(sole_);
+    StartRootAt(std::acos(std::clamp(1.0 - height / Value(r_), -1.0, 1.0)));
   }
 
   T TouchdownHeight(const T& theta) const override {
     using std::cos;
-    return Value(theta) > 0.0 ? T(r_ * (1.0 + cos(theta))) : T(2.0 * r_ * cos(theta));
+    return Value(theta) > 0.0 ? T(r_ * (1.0 + cos(theta)) + sole_) : T(WholeLength() * cos(theta));
   }
   T ChordAngle(const T& theta) const override {
-    return Value(theta) > 0.0 ? T(0.5 * theta) : theta;
+    using std::atan2;
+    using std::sin;
+    if (Value(theta) <= 0.0) return theta;
+    return has_sole_ ? T(atan2(r_ * sin(theta), TouchdownHeight(theta))) : T(0.5 * theta);
   }
   /// k(phi) = 1/C(phi) at the rest radius, M3.
-  T Stiffness(const LegLoad<T>& load) const override { return 1.0 / compliance_.ChordAt(load.phi); }
+  T Stiffness(const LegLoad<T>& load) const override {
+    const T bare = 1.0 / compliance_.ChordAt(load.phi);
+    if (!has_sole_) return bare;
+    const T spread = SoleAt(load.phi, r_, sole_).spread;
+    return bare / (spread * spread);
+  }
   Mode Land(const T& theta, T* z) override {
     using std::sin;
     if (Value(theta) <= 0.0) {
-      z[kContact] = z[kX] + 2.0 * r_ * sin(theta);
+      z[kContact] = z[kX] + WholeLength() * sin(theta);
       StartRootAt(std::numbers::pi);
       return Mode::kToe;
     }
     const T phi = std::numbers::pi - theta;
-    z[kContact] = law_.ContactCoordinate(z[kX] + r_ * sin(theta), phi);
+    z[kContact] = law_.ContactCoordinate(z[kX] + r_ * sin(theta), phi) - sole_ * phi;
     StartRootAt(Value(phi));
     return Mode::kRolling;
   }
@@ -61,7 +77,7 @@ class CLeg final : public Leg<T> {
   }
   T RestChord(const LegLoad<T>& load) const override {
     using std::sin;
-    return 2.0 * r_ * sin(0.5 * load.phi);
+    return has_sole_ ? SoleAt(load.phi, r_, sole_).rest : T(2.0 * r_ * sin(0.5 * load.phi));
   }
 
   int OwnGuardCount(Mode mode) const override { return mode == Mode::kRolling ? 2 : 1; }
@@ -78,11 +94,12 @@ class CLeg final : public Leg<T> {
   }
   Mode ResetStance(EventKind event, T* z) override {
     if (event == EventKind::kRollingToToe) {
-      z[kContact] = law_.ToePosition(z[kContact]);
+      z[kContact] = law_.ToePosition(z[kContact]) + sole_ * std::numbers::pi;
       StartRootAt(std::numbers::pi);
       return Mode::kToe;
     }
-    z[kContact] = law_.ContactCoordinate(z[kContact], T(std::numbers::pi));
+    z[kContact] =
+        law_.ContactCoordinate(z[kContact], T(std::numbers::pi)) - sole_ * std::numbers::pi;
     StartRootAt(std::numbers::pi);
     return Mode::kRolling;
   }
@@ -93,14 +110,17 @@ class CLeg final : public Leg<T> {
     using std::atan2;
     const T chord = atan2(load.u, load.y);
     if constexpr (LawT<T>::kLaw == Law::kElastica) {
-      if (mode == Mode::kRolling) return 2.0 * chord;
+      if (mode == Mode::kRolling) return 2.0 * atan2(load.u, load.y - sole_);
       return chord + asin(load.u / load.l - TipMiss(load));
     }
     return mode == Mode::kRolling ? T(std::numbers::pi - load.phi) : chord;
   }
   T ShownLength(const T& theta) const override {
     using std::cos;
-    return Value(theta) > 0.0 ? T(2.0 * r_ * cos(0.5 * theta)) : T(2.0 * r_);
+    using std::sqrt;
+    if (Value(theta) <= 0.0) return WholeLength();
+    if (!has_sole_) return 2.0 * r_ * cos(0.5 * theta);
+    return sqrt(sole_ * sole_ + 2.0 * (r_ * (r_ + sole_) * (1.0 + cos(theta))));
   }
   T ShownArc(const LegLoad<T>& load) const override { return load.phi; }
 
@@ -121,6 +141,8 @@ class CLeg final : public Leg<T> {
   const ExtendedLeg<T>& extended() const override { return extended_; }
 
  private:
+  /// From the hip to the ground under its toe, unloaded.
+  T WholeLength() const { return 2.0 * r_ + sole_; }
   void StartRootAt(double phi) {
     law_.StartRootAt(phi);
     extended_.StartRootAt(phi);
@@ -133,6 +155,8 @@ class CLeg final : public Leg<T> {
 
   double m_;
   T r_;
+  T sole_;  // M113
+  bool has_sole_;
   LegCompliance<T> compliance_;
   LawT<T> law_;
   ExtendedLeg<T> extended_;

@@ -13,11 +13,12 @@ namespace hoplab {
 template <class T, class LegT>
 LegInertia<T> LeggedBody<T, LegT>::InertiaOfLeg(const LegLoad<T>& load) const {
   const T& mass = p_.law_terms.leg_mass;
-  return is_bar_ ? BarInertia(mass, load) : ArcInertia(mass, p_.r, ShapeOfArc(p_.r, load));
+  return is_bar_ ? BarInertia(mass, load)
+                 : ArcInertia(mass, p_.r, ShapeOfArc(p_.r, p_.law_terms.sole, load));
 }
 template <class T, class LegT>
 LegMomentum<T> LeggedBody<T, LegT>::MomentumOfLeg(const LegLoad<T>& load) const {
-  return is_bar_ ? BarMomentum<T>() : ArcMomentum(p_.r, ShapeOfArc(p_.r, load));
+  return is_bar_ ? BarMomentum<T>() : ArcMomentum(p_.r, ShapeOfArc(p_.r, p_.law_terms.sole, load));
 }
 
 // An unloaded leg on the ground at leg angle `theta`, as it hangs from the hip in flight.

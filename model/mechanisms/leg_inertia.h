@@ -86,10 +86,10 @@ Tangent<T> LiftTangent(const Tangent<T>& x, const std::array<double, 3>& derivat
 }
 
 template <class T>
-[[gnu::flatten]] ArcShape<T> ShapeOfArc(const T& r, const LegLoad<T>& load) {
+[[gnu::flatten]] ArcShape<T> ShapeOfArc(const T& r, const T& sole, const LegLoad<T>& load) {
   using S = Tangent<T>;
   const T zero(0.0), one(1.0);
-  const S u(load.u, load.place_x - 1.0, load.place_y), y(load.y, zero, one);
+  const S u(load.u, load.place_x - 1.0, load.place_y), y(load.y - sole, zero, one);
   const S phi(load.phi, load.arc_x, load.arc_y), arc = r * phi, l = sqrt(u * u + y * y);
   const S unit(one);
   const S q = l / arc, w = LiftTangent(q, HalfTurn(Value(q)));

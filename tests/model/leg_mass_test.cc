@@ -264,7 +264,7 @@ TEST(LegMass, MassMatrixIsThatOfTheElasticasShapeToAFewHundredths) {
       load.phi = phi;
       load.arc_x = load.place_x = phi_x;
       load.arc_y = load.place_y = phi_y;
-      const LegInertia<double> leg = ArcInertia(1.0, 1.0, ShapeOfArc(1.0, load));
+      const LegInertia<double> leg = ArcInertia(1.0, 1.0, ShapeOfArc(1.0, 0.0, load));
       const double error = std::max(
           {std::abs(leg.xx.value - xx), std::abs(leg.xy.value - xy), std::abs(leg.yy.value - yy)});
       std::printf("%.1f  %.3f  %.4f %.4f %.4f   %.4f %.4f %.4f   %.4f\n", phi,
