@@ -196,7 +196,8 @@ class SharedBuilder {
                                problem_.effects[index].values[component],
                                std::abs(info->typical),
                                {},
-                               effect.info.has_threshold});
+                               effect.info.has_threshold,
+                               info->known_share});
   }
 
   void AddOfMechanism(const std::string& name, const std::string& place) {
