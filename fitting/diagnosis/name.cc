@@ -175,21 +175,22 @@ class Search {
     for (const auto& [gain, i] : white)
       if (gain >= LeastGain()) matters.insert(i);
     std::vector<CandidateSet> sets;
+    const auto add = [&](const CandidateSet& grown) {
+      if (std::find(sets.begin(), sets.end(), grown) == sets.end()) sets.push_back(grown);
+    };
     const auto take = [&](const Ranking& ranked) {
       int taken = 0;
       for (const auto& [gain, i] : ranked) {
         if (taken >= kForwardWidth || gain < kWorthATry) break;
         if (!matters.contains(i)) continue;
         ++taken;
-        const CandidateSet grown = With(set, i);
-        if (std::find(sets.begin(), sets.end(), grown) == sets.end()) sets.push_back(grown);
+        add(With(set, i));
       }
     };
     if (!matters.empty() && !refits_.At(set).problem.noise.IsWhite())
       take(Ranked(set, refits_.At(set)));
     take(white);
-    for (const CandidateSet& grown : BeyondThresholds(set, SeeksSlowOnes(set)))
-      sets.push_back(grown);
+    for (const CandidateSet& grown : BeyondThresholds(set, SeeksSlowOnes(set))) add(grown);
     return sets;
   }
   bool IsSlow(std::size_t i) const { return naming_.candidates[i].candidate.effect->info.slow; }

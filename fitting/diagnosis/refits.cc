@@ -56,7 +56,10 @@ double Refits::Worth(const CandidateSet& set) const {
 
 CandidateSet Refits::Better(CandidateSet current, const std::vector<CandidateSet>& sets, int width,
                             const std::vector<CandidateSet>& anyway) {
-  std::vector<CandidateSet> promising = sets;
+  std::vector<CandidateSet> promising;
+  for (const CandidateSet& set : sets)
+    if (std::find(promising.begin(), promising.end(), set) == promising.end())
+      promising.push_back(set);
   std::erase_if(promising, [&](const CandidateSet& set) { return !MayBeTold(set); });
   Try(promising);
   std::erase_if(promising, [&](const CandidateSet& set) { return !Usable(set); });
@@ -118,7 +121,9 @@ void Refits::SettleAll(const std::vector<CandidateSet>& sets) {
   std::vector<const CandidateSet*> names;
   for (const CandidateSet& set : sets) {
     if (set.empty() || !Usable(set) || Settled(set)) continue;
-    open.push_back(&models_.at(set));
+    Entry* entry = &models_.at(set);
+    if (std::find(open.begin(), open.end(), entry) != open.end()) continue;
+    open.push_back(entry);
     names.push_back(&set);
   }
   planned_ += static_cast<int>(open.size());

@@ -249,6 +249,23 @@ TEST(NameCauses, WeighsNoMoreEffectsThanAllowed) {
   }
 }
 
+// A set that is asked for twice at once is one piece of work: two threads would write one model.
+TEST(NameCauses, SettlesNoModelTwice) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}});
+  const std::vector<Candidate> both =
+      testing::CandidatesOf({"touchdown_angle_bias", "sensor_delay"});
+  const NamingOptions options{.jobs = 2};
+  Naming naming;
+  FillPool(naming, both, fit.Linearised(fit.settled, both), fit.train, options);
+  Refits refits(fit.null, fit.settled, fit.train, options, naming);
+  refits.Try({{0}});
+  refits.SettleAll({{0}, {0}});
+  EXPECT_EQ(naming.refits, 2) << "one trial refit and one settled";
+  refits.Better({}, {{0}, {0}, {1}}, 2);
+  EXPECT_TRUE(refits.Settled({1})) << "a set named twice takes one place";
+  EXPECT_EQ(naming.refits, 4);
+}
+
 TEST(NameCauses, DoesNotDependOnTheNumberOfJobs) {
   const NullFit fit({.effects = {EffectOfSize("air_drag", 0.08)}});
   const Naming one = NameSix(fit, {.jobs = 1}), four = NameSix(fit, {.jobs = 4});
