@@ -119,17 +119,22 @@ void Refits::Try(const std::vector<CandidateSet>& sets) {
 void Refits::SettleAll(const std::vector<CandidateSet>& sets) {
   std::vector<Entry*> open;
   std::vector<const CandidateSet*> names;
+  std::vector<NoiseModel> near;  // before any is settled: no model waits for another
   for (const CandidateSet& set : sets) {
     if (set.empty() || !Usable(set) || Settled(set)) continue;
     Entry* entry = &models_.at(set);
     if (std::find(open.begin(), open.end(), entry) != open.end()) continue;
     open.push_back(entry);
     names.push_back(&set);
+    near.push_back(NoiseNear(set));
   }
   planned_ += static_cast<int>(open.size());
   ParallelFor(static_cast<int>(open.size()), options_.jobs, [&](int i) {
     if (Stopped()) return;
-    open[i]->settled = SettledFrom(open[i]->white, *names[i]);
+    FittedModel model = open[i]->white;
+    model.problem.noise = near[i];
+    Settle(model, refit_);
+    open[i]->settled = std::move(model);
     Report(*names[i], ", its noise");
   });
 }
@@ -157,8 +162,7 @@ CandidateSet Refits::BestPart(const CandidateSet& set) const {
 }
 
 // A noise is sought from what is left, and from that of the set's best settled part.
-FittedModel Refits::SettledFrom(const FittedModel& white, const CandidateSet& set) const {
-  FittedModel e = white;
+NoiseModel Refits::NoiseNear(const CandidateSet& set) const {
   const NoiseModel* near = &null_.problem.noise;
   double worth = -std::numeric_limits<double>::infinity();
   for (const CandidateSet& less : Eliminations(set)) {
@@ -166,9 +170,7 @@ FittedModel Refits::SettledFrom(const FittedModel& white, const CandidateSet& se
     worth = Worth(less);
     near = &At(less).problem.noise;
   }
-  e.problem.noise = *near;
-  Settle(e, refit_);
-  return e;
+  return *near;
 }
 
 FittedModel Refits::Refitted(const CandidateSet& set) const {

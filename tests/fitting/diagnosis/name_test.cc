@@ -266,6 +266,28 @@ TEST(NameCauses, SettlesNoModelTwice) {
   EXPECT_EQ(naming.refits, 4);
 }
 
+// Of a batch each begins from what was settled before it, so that it does not matter which of them
+// ends first.
+TEST(NameCauses, SettlesABatchInAnyOrderAlike) {
+  const NullFit fit(
+      {.effects = {EffectOfSize("touchdown_angle_bias", 0.03), EffectOfSize("sensor_delay", 0.006),
+                   EffectOfSize("air_drag", 0.05)}});
+  const std::vector<Candidate> both =
+      testing::CandidatesOf({"touchdown_angle_bias", "sensor_delay"});
+  const auto noise_of_both = [&](const std::vector<CandidateSet>& batch) {
+    Naming naming;
+    FillPool(naming, both, fit.Linearised(fit.settled, both), fit.train, {});
+    const NamingOptions options;
+    Refits refits(fit.null, fit.settled, fit.train, options, naming);
+    refits.Try({{0}, {0, 1}});
+    refits.SettleAll(batch);
+    return refits.At({0, 1}).problem.noise;
+  };
+  const NoiseModel noise = noise_of_both({{0}, {0, 1}});
+  ASSERT_FALSE(noise.IsWhite());
+  EXPECT_TRUE(noise == noise_of_both({{0, 1}, {0}}));
+}
+
 TEST(NameCauses, DoesNotDependOnTheNumberOfJobs) {
   const NullFit fit({.effects = {EffectOfSize("air_drag", 0.08)}});
   const Naming one = NameSix(fit, {.jobs = 1}), four = NameSix(fit, {.jobs = 4});
