@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fitting/diagnosis/in_one_trial.h"
+#include "fitting/diagnosis/linearise_at.h"
 
 namespace hoplab {
 namespace {
@@ -88,6 +89,24 @@ std::optional<int> ShowsBeside(const Naming& naming, int i) {
       return static_cast<int>(k);
   }
   return std::nullopt;
+}
+
+const Ranking& Rankings::Beside(const CandidateSet& set, const FittedModel& fitted) {
+  const auto [known, is_first] =
+      known_.try_emplace({set, fitted.problem.noise.IsWhite(), fitted.cost});
+  Ranking& ranked = known->second;
+  if (!is_first) return ranked;
+  std::vector<int> rest = PlacesBeside(naming_, set, static_cast<int>(naming_.candidates.size()));
+  std::erase_if(rest,
+                [&](int i) { return !naming_.candidates[static_cast<std::size_t>(i)].separable; });
+  const std::vector<Candidate> tested = CandidatesAt(naming_, rest);
+  const Linearisation at = LineariseAt(fitted, tested, train_, jobs_);
+  const std::vector<Hypothesis> hypotheses = HypothesesOf(tested);
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    ranked.emplace_back(ScoreOf(at, hypotheses[i]).predicted_gain, rest[i]);
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  return ranked;
 }
 
 }  // namespace hoplab

@@ -266,6 +266,22 @@ TEST(NameCauses, SettlesNoModelTwice) {
   EXPECT_EQ(naming.refits, 4);
 }
 
+// The cost is that of least squares under either noise; what is promised is not.
+TEST(NameCauses, RanksTheSameFitUnderItsOwnNoiseAnew) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}});
+  Naming naming;
+  const std::vector<Candidate> both = testing::CandidatesOf({"air_drag", "touchdown_angle_bias"});
+  FillPool(naming, both, fit.Linearised(fit.settled, both), fit.train, {});
+  FittedModel own = fit.null;
+  own.problem.noise = {std::vector<double>(own.problem.channels.size(), 5.0), 0.1};
+  Rankings rankings(naming, fit.train, 1);
+  const Ranking white = rankings.Beside({}, fit.null), under_own = rankings.Beside({}, own);
+  ASSERT_EQ(white.size(), 2u);
+  ASSERT_EQ(under_own.size(), 2u);
+  EXPECT_EQ(white.front().second, 1);
+  EXPECT_LT(under_own.front().first, 0.5 * white.front().first);
+}
+
 // Of a batch each begins from what was settled before it, so that it does not matter which of them
 // ends first.
 TEST(NameCauses, SettlesABatchInAnyOrderAlike) {
