@@ -11,6 +11,7 @@
 #include "base/nan.h"
 #include "base/parallel.h"
 #include "fitting/eliminated_trial.h"
+#include "fitting/trial_noise.h"
 
 namespace hoplab {
 namespace {
@@ -34,7 +35,7 @@ Eigen::MatrixXd SmoothSpread(const TrialEvaluator& evaluator, const NoiseModel& 
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
   const std::vector<ChannelRows>& channels = evaluator.channel_rows();
   for (std::size_t c = 0; c < channels.size(); ++c) {
-    const double ratio = noise.AmplitudeOf(c);
+    const double ratio = AmplitudeIn(noise, evaluator.trial(), c);
     if (ratio > 0.0)
       sum += MaternProduct(channels[c].times, channels[c].rows, ratio, noise.time_scale, columns);
   }

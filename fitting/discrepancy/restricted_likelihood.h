@@ -67,6 +67,7 @@ class RestrictedLikelihood {
   struct Part {
     std::vector<ChannelRows> channels;
     std::vector<double> averaged;  // rows of one channel that were averaged into one
+    std::vector<double> factors;   // of the trial's noise, by channel
     RowMajorMatrix block;          // own columns, free shared ones, those on bounds, residuals
     Eigen::Index own = 0;
     std::size_t place = 0;           // of its trial
