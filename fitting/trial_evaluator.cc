@@ -304,7 +304,7 @@ double TrialEvaluator::WhitenRows(const NoiseModel& noise,
                                   Eigen::VectorXd* log_roots) const {
   double half_log_determinant = 0.0;
   for (std::size_t c = 0; c < channels_.size(); ++c) {
-    const double ratio = noise.AmplitudeOf(c);
+    const double ratio = AmplitudeIn(noise, *trial_, c);
     if (!(ratio > 0.0)) continue;
     const ChannelRows& at = channel_rows_[c];
     half_log_determinant +=

@@ -39,8 +39,15 @@ double ClearlyOff(double noise, double of_all, double high, double high_of_all, 
 }  // namespace
 
 double SigmaIn(const FitProblem& problem, const TrialProblem& trial, std::size_t channel) {
-  const double sigma = problem.channels[channel].sigma;
-  return trial.noise_factors.empty() ? sigma : sigma * trial.noise_factors[channel];
+  return problem.channels[channel].sigma * NoiseFactorIn(trial, channel);
+}
+
+double NoiseFactorIn(const TrialProblem& trial, std::size_t channel) {
+  return trial.noise_factors.empty() ? 1.0 : trial.noise_factors[channel];
+}
+
+double AmplitudeIn(const NoiseModel& noise, const TrialProblem& trial, std::size_t channel) {
+  return noise.AmplitudeOf(channel) / NoiseFactorIn(trial, channel);
 }
 
 std::vector<std::string> FindTrialNoise(FitProblem& problem, std::size_t channel,

@@ -12,17 +12,18 @@ namespace {
 
 constexpr double kAmplitudeScale = 10.0;  // sigma
 
-// Distance from the value that changes nothing, in typical sizes. A parameter of the mechanism that
-// may be zero counts from there; one that may not (a modulus) is no surprise at its own size.
-double SizeOf(const SharedParameter& s, double value) {
-  const bool effect = s.direction.of == SensitivityDirection::Of::kEffect;
-  return (value - (effect ? s.initial : 0.0)) / s.scale;
+// The value that changes nothing. A parameter of the mechanism that may be zero counts from there;
+// one that may not (a modulus) is no surprise at its own size. A scale or an offset of a sensor
+// counts from what is stated.
+double NullOf(const SharedParameter& s) {
+  return s.direction.of == SensitivityDirection::Of::kParameter ? 0.0 : s.initial;
 }
 
+// Distance from it, in typical sizes.
+double SizeOf(const SharedParameter& s, double value) { return (value - NullOf(s)) / s.scale; }
+
 bool OneSidedRange(const SharedParameter& s) {
-  const bool effect = s.direction.of == SensitivityDirection::Of::kEffect;
-  const double null = effect ? s.initial : 0.0;
-  return s.lower >= null || s.upper <= null;
+  return s.lower >= NullOf(s) || s.upper <= NullOf(s);
 }
 
 std::vector<ValuePrior> PriorsOf(const FitProblem& problem, const Eigen::VectorXd& shared) {

@@ -24,7 +24,7 @@ struct Gate {
   bool passed() const;
   /// The first condition that failed, in words; empty if none did.
   std::string Refusal() const;
-  /// Nothing failed but the check of the gradients.
+  /// Nothing failed but the check of the gradients, which were compared.
   bool OnlyGradientsFailed() const;
 };
 
@@ -46,5 +46,13 @@ Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, 
 /// (NoiseCorrelation); notes say so. A diagnosis with noise stated too small would see causes
 /// everywhere.
 std::vector<std::string> CorrectNoise(FitProblem& problem);
+
+/// Of each channel of a problem corrected so: the mean square, over sigma squared, that noise alone
+/// leaves. 1 of white noise; less where noise that is alike in neighbouring samples counts as a
+/// stronger one, which is that of slow motion, while each sample scatters by less.
+std::vector<double> NoiseSquares(const FitProblem& problem);
+
+/// How many rows fewer than `trials` have would leave the same square (NoiseSquares; empty: 1).
+double AlikeRows(const std::vector<TrialProblem>& trials, const std::vector<double>& squares);
 
 }  // namespace hoplab

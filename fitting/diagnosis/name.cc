@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -37,9 +36,6 @@ constexpr double kLittle = 0.1;
 // Rounds in which a set is put in order; each but the last changes it.
 constexpr int kRounds = 8;
 
-// Candidates with the nats they promise.
-using Ranking = std::vector<std::pair<double, int>>;
-
 class Search {
  public:
   Search(const NullFits& null, std::span<const Candidate> candidates, const Linearisation& null_at,
@@ -49,7 +45,8 @@ class Search {
         train_(train),
         options_(options),
         given_(static_cast<int>(candidates.size())),
-        refits_(*null.plain, *null.settled, train, options, naming_) {
+        refits_(*null.plain, *null.settled, train, options, naming_),
+        rankings_(naming_, train, options.jobs) {
     FillPool(naming_, candidates, null_at, train, options);
   }
 
@@ -125,7 +122,7 @@ class Search {
     const Linearisation at =
         LineariseAt(refits_.White(set), CandidatesAt(naming_, places), train_, options_.jobs);
     if (!AddInOneTrial(naming_, at, places, train_, kMostOfWhatIsLeft * Left(set))) return set;
-    ranked_.clear();
+    rankings_.Clear();
     return Grown(set);
   }
 
@@ -149,47 +146,29 @@ class Search {
     return sets;
   }
 
-  // Pool members not in `model`, the best expected gain beside it first. Of the same fit it is
-  // asked more than once.
-  const Ranking& Ranked(const CandidateSet& model, const FittedModel& fitted) {
-    const auto [known, is_first] = ranked_.try_emplace({model, fitted.cost});
-    Ranking& ranked = known->second;
-    if (!is_first) return ranked;
-    std::vector<int> rest =
-        PlacesBeside(naming_, model, static_cast<int>(naming_.candidates.size()));
-    std::erase_if(rest, [&](int i) { return !naming_.candidates[i].separable; });
-    const std::vector<Candidate> tested = CandidatesAt(naming_, rest);
-    const Linearisation at = LineariseAt(fitted, tested, train_, options_.jobs);
-    const std::vector<Hypothesis> hypotheses = HypothesesOf(tested);
-    for (std::size_t i = 0; i < rest.size(); ++i)
-      ranked.emplace_back(ScoreOf(at, hypotheses[i]).predicted_gain, rest[i]);
-    std::stable_sort(ranked.begin(), ranked.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
-    return ranked;
-  }
-
   // By what gains most beside the set under its own noise, and under white noise.
   std::vector<CandidateSet> Forward(const CandidateSet& set) {
-    const Ranking& white = Ranked(set, refits_.White(set));
+    const Ranking& white = rankings_.Beside(set, refits_.White(set));
     std::set<int> matters;
     for (const auto& [gain, i] : white)
       if (gain >= LeastGain()) matters.insert(i);
     std::vector<CandidateSet> sets;
+    const auto add = [&](const CandidateSet& grown) {
+      if (std::find(sets.begin(), sets.end(), grown) == sets.end()) sets.push_back(grown);
+    };
     const auto take = [&](const Ranking& ranked) {
       int taken = 0;
       for (const auto& [gain, i] : ranked) {
         if (taken >= kForwardWidth || gain < kWorthATry) break;
         if (!matters.contains(i)) continue;
         ++taken;
-        const CandidateSet grown = With(set, i);
-        if (std::find(sets.begin(), sets.end(), grown) == sets.end()) sets.push_back(grown);
+        add(With(set, i));
       }
     };
     if (!matters.empty() && !refits_.At(set).problem.noise.IsWhite())
-      take(Ranked(set, refits_.At(set)));
+      take(rankings_.Beside(set, refits_.At(set)));
     take(white);
-    for (const CandidateSet& grown : BeyondThresholds(set, SeeksSlowOnes(set)))
-      sets.push_back(grown);
+    for (const CandidateSet& grown : BeyondThresholds(set, SeeksSlowOnes(set))) add(grown);
     return sets;
   }
   bool IsSlow(std::size_t i) const { return naming_.candidates[i].candidate.effect->info.slow; }
@@ -247,7 +226,8 @@ class Search {
   }
   // Nats under white noise.
   double LeastGain() const {
-    return std::min(kLeastShare * Misfit(), kLeastPerSample * null_at_.samples);
+    return std::min(kLeastShare * Misfit(),
+                    kLeastPerSample * (null_at_.samples - null_at_.alike_rows));
   }
   // Beyond noise, of the null fit and of a set.
   double Misfit() const { return std::max(Left({}), 0.0); }
@@ -266,7 +246,7 @@ class Search {
   CandidateSet Exchanged(const CandidateSet& set) {
     CandidateSet all = set;
     for (int joined = 0; joined < kJoin && !Stopped(); ++joined) {
-      const Ranking& ranked = Ranked(all, refits_.White(all));
+      const Ranking& ranked = rankings_.Beside(all, refits_.White(all));
       if (ranked.empty() || ranked.front().first < kWorthATry) break;
       const CandidateSet grown = With(all, ranked.front().second);
       refits_.Try({grown});
@@ -308,7 +288,7 @@ class Search {
       if (!refits_.Settled(less)) continue;
       const double needed = refits_.Worth(set) - refits_.Worth(less) - kIndistinguishable;
       int taken = 0;
-      for (const auto& [gain, i] : Ranked(less, refits_.At(less))) {
+      for (const auto& [gain, i] : rankings_.Beside(less, refits_.At(less))) {
         if (taken >= kForwardWidth || gain < std::max(needed, kWorthATry)) break;
         if (Holds(set, i)) continue;
         swaps.push_back(With(less, i));
@@ -332,7 +312,7 @@ class Search {
   const int given_;  // candidates, before those of single trials
   Naming naming_;
   Refits refits_;
-  std::map<std::pair<CandidateSet, double>, Ranking> ranked_;  // by set and cost of its fit
+  Rankings rankings_;
   CandidateSet slow_beside_;  // what slow causes were first tried beside
 };
 

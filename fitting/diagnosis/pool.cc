@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fitting/diagnosis/in_one_trial.h"
+#include "fitting/diagnosis/linearise_at.h"
 
 namespace hoplab {
 namespace {
@@ -27,13 +28,7 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
     c.score = ScoreOf(null_at, hypotheses[i]);
     c.has_threshold = candidates[i].effect->info.has_threshold;
     c.separable = c.score.rank > 0;
-    c.power = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < hypotheses[i].count; ++k) {
-      if (candidates[i].Parameter(k).is_of_first) continue;
-      const double typical = candidates[i].Parameter(k).typical;
-      c.power =
-          std::min(c.power, typical * typical * Information(null_at, hypotheses[i].first + k));
-    }
+    c.power = PowerOf(null_at, candidates[i], hypotheses[i]);
     tested += c.separable || c.has_threshold;
     naming.candidates.push_back(std::move(c));
   }
@@ -47,6 +42,16 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
   std::vector<int> all(candidates.size());
   std::iota(all.begin(), all.end(), 0);
   if (options.in_one_trial) AddInOneTrial(naming, null_at, all, train, 0.0);
+}
+
+double PowerOf(const Linearisation& at, const Candidate& candidate, const Hypothesis& hypothesis) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < hypothesis.count; ++k) {
+    if (candidate.Parameter(k).is_of_first) continue;
+    const double typical = candidate.Parameter(k).typical;
+    least = std::min(least, typical * typical * Information(at, hypothesis.first + k));
+  }
+  return least;
 }
 
 std::vector<CandidateSet> BestScored(const Naming& naming) {
@@ -88,6 +93,24 @@ std::optional<int> ShowsBeside(const Naming& naming, int i) {
       return static_cast<int>(k);
   }
   return std::nullopt;
+}
+
+const Ranking& Rankings::Beside(const CandidateSet& set, const FittedModel& fitted) {
+  const auto [known, is_first] =
+      known_.try_emplace({set, fitted.problem.noise.IsWhite(), fitted.cost});
+  Ranking& ranked = known->second;
+  if (!is_first) return ranked;
+  std::vector<int> rest = PlacesBeside(naming_, set, static_cast<int>(naming_.candidates.size()));
+  std::erase_if(rest,
+                [&](int i) { return !naming_.candidates[static_cast<std::size_t>(i)].separable; });
+  const std::vector<Candidate> tested = CandidatesAt(naming_, rest);
+  const Linearisation at = LineariseAt(fitted, tested, train_, jobs_);
+  const std::vector<Hypothesis> hypotheses = HypothesesOf(tested);
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    ranked.emplace_back(ScoreOf(at, hypotheses[i]).predicted_gain, rest[i]);
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  return ranked;
 }
 
 }  // namespace hoplab

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "fitting/diagnosis/name.h"
@@ -13,6 +16,10 @@ namespace hoplab {
 void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linearisation& null_at,
               const std::vector<TrialProblem>& train, const NamingOptions& options);
 
+/// Noncentrality of a typical size, typical^2 V, of the candidate's parameter that shows least;
+/// `hypothesis`: its columns.
+double PowerOf(const Linearisation& at, const Candidate& candidate, const Hypothesis& hypothesis);
+
 /// The candidates of the best scores under the null fit's own noise, each alone.
 std::vector<CandidateSet> BestScored(const Naming& naming);
 
@@ -23,5 +30,30 @@ std::vector<Candidate> CandidatesAt(const Naming& naming, std::span<const int> p
 
 /// The candidate without which candidate i hardly shows (EffectInfo::shows_beside).
 std::optional<int> ShowsBeside(const Naming& naming, int i);
+
+/// Candidates with the nats they promise, the best first.
+using Ranking = std::vector<std::pair<double, int>>;
+
+/// What the linear model promises of candidates beside a fitted set; of the same fit it is asked
+/// more than once.
+class Rankings {
+ public:
+  /// All arguments have to outlive this.
+  Rankings(const Naming& naming, const std::vector<TrialProblem>& train, int jobs)
+      : naming_(naming), train_(train), jobs_(jobs) {}
+  /// Members of the pool that are not in the set and can be told from what is fitted. Valid until
+  /// Clear.
+  const Ranking& Beside(const CandidateSet& set, const FittedModel& fitted);
+  /// The pool has changed.
+  void Clear() { known_.clear(); }
+
+ private:
+  const Naming& naming_;
+  const std::vector<TrialProblem>& train_;
+  int jobs_;
+  // By set, whether under white noise, and the cost of its fit, which is that of least squares
+  // under any noise.
+  std::map<std::tuple<CandidateSet, bool, double>, Ranking> known_;
+};
 
 }  // namespace hoplab

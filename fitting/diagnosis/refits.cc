@@ -56,7 +56,10 @@ double Refits::Worth(const CandidateSet& set) const {
 
 CandidateSet Refits::Better(CandidateSet current, const std::vector<CandidateSet>& sets, int width,
                             const std::vector<CandidateSet>& anyway) {
-  std::vector<CandidateSet> promising = sets;
+  std::vector<CandidateSet> promising;
+  for (const CandidateSet& set : sets)
+    if (std::find(promising.begin(), promising.end(), set) == promising.end())
+      promising.push_back(set);
   std::erase_if(promising, [&](const CandidateSet& set) { return !MayBeTold(set); });
   Try(promising);
   std::erase_if(promising, [&](const CandidateSet& set) { return !Usable(set); });
@@ -116,15 +119,23 @@ void Refits::Try(const std::vector<CandidateSet>& sets) {
 void Refits::SettleAll(const std::vector<CandidateSet>& sets) {
   std::vector<Entry*> open;
   std::vector<const CandidateSet*> names;
+  std::vector<NoiseModel> near;  // before any is settled: no model waits for another
   for (const CandidateSet& set : sets) {
     if (set.empty() || !Usable(set) || Settled(set)) continue;
-    open.push_back(&models_.at(set));
+    Entry* entry = &models_.at(set);
+    const bool lost_a_trial = entry->settled.ok();  // SettleNoise
+    if (lost_a_trial || std::find(open.begin(), open.end(), entry) != open.end()) continue;
+    open.push_back(entry);
     names.push_back(&set);
+    near.push_back(NoiseNear(set));
   }
   planned_ += static_cast<int>(open.size());
   ParallelFor(static_cast<int>(open.size()), options_.jobs, [&](int i) {
     if (Stopped()) return;
-    open[i]->settled = SettledFrom(open[i]->white, *names[i]);
+    FittedModel model = open[i]->white;
+    model.problem.noise = near[i];
+    Settle(model, refit_);
+    open[i]->settled = std::move(model);
     Report(*names[i], ", its noise");
   });
 }
@@ -152,8 +163,7 @@ CandidateSet Refits::BestPart(const CandidateSet& set) const {
 }
 
 // A noise is sought from what is left, and from that of the set's best settled part.
-FittedModel Refits::SettledFrom(const FittedModel& white, const CandidateSet& set) const {
-  FittedModel e = white;
+NoiseModel Refits::NoiseNear(const CandidateSet& set) const {
   const NoiseModel* near = &null_.problem.noise;
   double worth = -std::numeric_limits<double>::infinity();
   for (const CandidateSet& less : Eliminations(set)) {
@@ -161,9 +171,7 @@ FittedModel Refits::SettledFrom(const FittedModel& white, const CandidateSet& se
     worth = Worth(less);
     near = &At(less).problem.noise;
   }
-  e.problem.noise = *near;
-  Settle(e, refit_);
-  return e;
+  return *near;
 }
 
 FittedModel Refits::Refitted(const CandidateSet& set) const {

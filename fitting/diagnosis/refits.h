@@ -85,7 +85,7 @@ class Refits {
   FittedModel Refitted(const CandidateSet& set) const;
   bool TakeIfBetter(FittedModel found, const CandidateSet& set);
   CandidateSet BestPart(const CandidateSet& set) const;
-  FittedModel SettledFrom(const FittedModel& white, const CandidateSet& set) const;
+  NoiseModel NoiseNear(const CandidateSet& set) const;
   FittedModel Ordered(FittedModel e, const CandidateSet& order, const CandidateSet& set) const;
   void Report(const CandidateSet& set, std::string_view what);
   const Candidate& CandidateAt(int i) const {

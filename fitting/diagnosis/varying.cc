@@ -9,6 +9,7 @@
 #include "fitting/diagnosis/heterogeneity.h"
 #include "fitting/discrepancy/matern_filter.h"
 #include "fitting/eliminated_trial.h"
+#include "fitting/trial_noise.h"
 #include "fitting/uncertainty.h"
 
 namespace hoplab {
@@ -66,7 +67,7 @@ double Inflation(const VaryingModel& v, int place) {
     double smooth = 0.0;
     for (std::size_t ch = 0; ch < evaluator.channel_rows().size(); ++ch) {
       const ChannelRows& rows = evaluator.channel_rows()[ch];
-      const double ratio = m.problem.noise.AmplitudeOf(ch);
+      const double ratio = AmplitudeIn(m.problem.noise, trial, ch);
       if (ratio > 0.0)
         smooth += MaternProduct(rows.times, rows.rows, ratio, m.problem.noise.time_scale, c)(0, 0);
     }
@@ -188,6 +189,7 @@ VaryingModel RefitVarying(const FittedModel& model, const std::vector<int>& plac
     PutInside(v);
     SetPriors(v);
     SettleNoise(v.model, own, model.problem.noise);
+    if (!v.model.settled) return v;
     v.converged = Look(v, seen, settings.jobs) < kAtRest;
     std::vector<int> left;
     for (const VaryingValue& value : v.values)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "fitting/trial_noise.h"
 
 namespace hoplab {
 namespace {
@@ -73,6 +74,7 @@ RestrictedLikelihood::RestrictedLikelihood(const FitProblem& problem,
     if (detail.rows_a_channel > 0) Average(*part, detail.rows_a_channel);
   });
   for (std::optional<Part>& part : made) {
+    complete_ = complete_ && part;
     if (part) parts_.push_back(std::move(*part));
   }
   Summarise();
@@ -138,6 +140,8 @@ std::optional<RestrictedLikelihood::Part> RestrictedLikelihood::Make(const FitPr
   Part part;
   part.channels = evaluator.channel_rows();
   part.averaged.assign(part.channels.size(), 1.0);
+  for (std::size_t c = 0; c < part.channels.size(); ++c)
+    part.factors.push_back(NoiseFactorIn(trial, c));
 
   const std::vector<int> columns = Columns();
   const auto width = static_cast<Eigen::Index>(columns.size());
@@ -159,8 +163,9 @@ std::optional<RestrictedLikelihood::Part> RestrictedLikelihood::Make(const FitPr
   const auto channels = static_cast<Eigen::Index>(problem.channels.size());
   part.squares = part.counts = Eigen::ArrayXd::Zero(channels);
   for (Eigen::Index c = 0; c < channels; ++c) {
+    const double factor = part.factors[static_cast<std::size_t>(c)];
     for (const int row : part.channels[static_cast<std::size_t>(c)].rows) {
-      part.squares[c] += e.residuals[row] * e.residuals[row];
+      part.squares[c] += std::pow(factor * e.residuals[row], 2);
       part.counts[c] += 1.0;
     }
   }
@@ -216,7 +221,7 @@ RowMajorMatrix RestrictedLikelihood::Whitened(const NoiseModel& noise, double& l
     RowMajorMatrix block = part.block;
     double log_of_part = 0.0;
     for (std::size_t c = 0; c < part.channels.size(); ++c) {
-      const double ratio = noise.AmplitudeOf(c) * std::sqrt(part.averaged[c]);
+      const double ratio = noise.AmplitudeOf(c) / part.factors[c] * std::sqrt(part.averaged[c]);
       if (!(ratio > 0.0)) continue;
       const ChannelRows& at = part.channels[c];
       log_of_part += WhitenMatern(at.times, at.rows, ratio, noise.time_scale, block);

@@ -8,7 +8,9 @@
 #include "base/random.h"
 #include "datasets/read_dataset.h"
 #include "fitting/diagnosis/gate.h"
+#include "fitting/discrepancy/restricted_likelihood.h"
 #include "fitting/trial_evaluator.h"
+#include "fitting/uncertainty.h"
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
@@ -95,6 +97,44 @@ TEST(TrialNoise, ResidualsAreInUnitsOfIt) {
   const Eigen::VectorXd before = residuals();
   problem.trials[1].noise_factors.assign(problem.channels.size(), 2.0);
   EXPECT_LT((residuals() - 0.5 * before).norm(), 1e-12 * before.norm());
+}
+
+// What a model lacks is as large in a trial that scatters more: over its noise it is smaller.
+TEST(TrialNoise, ADiscrepancyIsThatOfTheChannel) {
+  constexpr double kFactor = 3.0, kAmplitude = 6.0, kTimeScale_s = 0.1;
+  FitProblem of_trial = MakeProblem(HopsWithALouderTrial(3, 1, 2.5), {}), of_channel = of_trial;
+  const std::size_t channels = of_trial.channels.size();
+  of_trial.noise = {std::vector<double>(channels, kAmplitude), kTimeScale_s};
+  for (TrialProblem& t : of_trial.trials) t.noise_factors.assign(channels, kFactor);
+  of_channel.noise = {std::vector<double>(channels, kAmplitude / kFactor), kTimeScale_s};
+  for (ChannelProblem& c : of_channel.channels) c.sigma *= kFactor;
+
+  const Eigen::VectorXd shared = InitialShared(of_trial);
+  std::vector<OwnValues> start;
+  for (const TrialProblem& t : of_trial.trials) start.push_back(t.start);
+  const auto evaluated = [&](const FitProblem& problem) {
+    TrialEvaluation e;
+    TrialEvaluator(problem, problem.trials[0]).Evaluate({shared, start[0], false}, e);
+    return e;
+  };
+  const TrialEvaluation a = evaluated(of_trial), b = evaluated(of_channel);
+  EXPECT_LT((a.residuals - b.residuals).norm(), 1e-9 * b.residuals.norm());
+  EXPECT_NEAR(a.half_log_determinant, b.half_log_determinant, 1e-9 * b.half_log_determinant);
+
+  const auto likelihood = [&](const FitProblem& problem) {
+    return RestrictedLikelihood(problem, problem.trials, shared, start, 1);
+  };
+  const double at = likelihood(of_channel).At(of_channel.noise);
+  EXPECT_NEAR(likelihood(of_trial).At(of_trial.noise), at, 1e-9 * std::abs(at));
+  EXPECT_NEAR(likelihood(of_trial).RootMeanSquare(0),
+              kFactor * likelihood(of_channel).RootMeanSquare(0), 1e-9);
+
+  const auto error = [&](const FitProblem& problem) {
+    return AssessUncertainty(problem, problem.trials, shared, start, {}, 1)
+        .parameters[0]
+        .std_error.value();
+  };
+  EXPECT_NEAR(error(of_trial), error(of_channel), 1e-6 * error(of_channel));
 }
 
 }  // namespace

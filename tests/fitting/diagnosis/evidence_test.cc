@@ -75,6 +75,25 @@ double LogEvidenceBySlices(const NullFit& fit, const FittedModel& e) {
   return peak + std::log(integral / s.scale);
 }
 
+// What is known to a thousandth of itself is no surprise where it was stated.
+TEST(PriorWidths, OfAStatedScaleOrOffsetCountFromWhatIsStated) {
+  FitProblem problem;
+  const SharedParameter scale{.name = "torque.scale",
+                              .unit = "-",
+                              .direction = {.of = SensitivityDirection::Of::kInput, .component = 1},
+                              .lower = 0.5,
+                              .upper = 1.5,
+                              .initial = 1.0,
+                              .scale = 1e-3};
+  SharedParameter clock = scale;
+  clock.direction = {.of = SensitivityDirection::Of::kClock};
+  clock.initial = 0.02;
+  problem.shared = {scale, clock};
+  const Eigen::VectorXd widths = PriorWidths(problem, Eigen::Vector2d(1.001, 0.022));
+  EXPECT_NEAR(widths[0], 1.0, 1e-9);
+  EXPECT_NEAR(widths[1], 2.0, 1e-9);
+}
+
 TEST(EvidenceOf, IsTheIntegralOverTheSize) {
   const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.02)}});
   FittedModel e = fit.RefittedWith(CandidateOf("touchdown_angle_bias"));

@@ -249,6 +249,61 @@ TEST(NameCauses, WeighsNoMoreEffectsThanAllowed) {
   }
 }
 
+// A set that is asked for twice at once is one piece of work: two threads would write one model.
+TEST(NameCauses, SettlesNoModelTwice) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}});
+  const std::vector<Candidate> both =
+      testing::CandidatesOf({"touchdown_angle_bias", "sensor_delay"});
+  const NamingOptions options{.jobs = 2};
+  Naming naming;
+  FillPool(naming, both, fit.Linearised(fit.settled, both), fit.train, options);
+  Refits refits(fit.null, fit.settled, fit.train, options, naming);
+  refits.Try({{0}});
+  refits.SettleAll({{0}, {0}});
+  EXPECT_EQ(naming.refits, 2) << "one trial refit and one settled";
+  refits.Better({}, {{0}, {0}, {1}}, 2);
+  EXPECT_TRUE(refits.Settled({1})) << "a set named twice takes one place";
+  EXPECT_EQ(naming.refits, 4);
+}
+
+// The cost is that of least squares under either noise; what is promised is not.
+TEST(NameCauses, RanksTheSameFitUnderItsOwnNoiseAnew) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.03)}});
+  Naming naming;
+  const std::vector<Candidate> both = testing::CandidatesOf({"air_drag", "touchdown_angle_bias"});
+  FillPool(naming, both, fit.Linearised(fit.settled, both), fit.train, {});
+  FittedModel own = fit.null;
+  own.problem.noise = {std::vector<double>(own.problem.channels.size(), 5.0), 0.1};
+  Rankings rankings(naming, fit.train, 1);
+  const Ranking white = rankings.Beside({}, fit.null), under_own = rankings.Beside({}, own);
+  ASSERT_EQ(white.size(), 2u);
+  ASSERT_EQ(under_own.size(), 2u);
+  EXPECT_EQ(white.front().second, 1);
+  EXPECT_LT(under_own.front().first, 0.5 * white.front().first);
+}
+
+// Of a batch each begins from what was settled before it, so that it does not matter which of them
+// ends first.
+TEST(NameCauses, SettlesABatchInAnyOrderAlike) {
+  const NullFit fit(
+      {.effects = {EffectOfSize("touchdown_angle_bias", 0.03), EffectOfSize("sensor_delay", 0.006),
+                   EffectOfSize("air_drag", 0.05)}});
+  const std::vector<Candidate> both =
+      testing::CandidatesOf({"touchdown_angle_bias", "sensor_delay"});
+  const auto noise_of_both = [&](const std::vector<CandidateSet>& batch) {
+    Naming naming;
+    FillPool(naming, both, fit.Linearised(fit.settled, both), fit.train, {});
+    const NamingOptions options;
+    Refits refits(fit.null, fit.settled, fit.train, options, naming);
+    refits.Try({{0}, {0, 1}});
+    refits.SettleAll(batch);
+    return refits.At({0, 1}).problem.noise;
+  };
+  const NoiseModel noise = noise_of_both({{0}, {0, 1}});
+  ASSERT_FALSE(noise.IsWhite());
+  EXPECT_TRUE(noise == noise_of_both({{0, 1}, {0}}));
+}
+
 TEST(NameCauses, DoesNotDependOnTheNumberOfJobs) {
   const NullFit fit({.effects = {EffectOfSize("air_drag", 0.08)}});
   const Naming one = NameSix(fit, {.jobs = 1}), four = NameSix(fit, {.jobs = 4});
@@ -334,6 +389,26 @@ TEST(NameCauses, SaysOfAnEffectTooSmallToShowThatItWasNotTested) {
     not_tested += c.status == CandidateStatus::kNotTested;
   }
   EXPECT_GT(not_tested, 0);
+}
+
+// What stands out hides causes that could have shown, until it is named.
+TEST(NameCauses, SaysWhatCouldHaveShownBesideWhatIsNamed) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.1)}, .hops = 3});
+  const Naming n = NameSix(fit);
+  ASSERT_EQ(MembersOf(n), std::vector<std::string>{"touchdown_angle_bias"});
+  int hidden = 0;
+  for (const CandidateResult& c : n.candidates) {
+    if (c.status == CandidateStatus::kSupported || !c.separable) continue;
+    ASSERT_NE(c.status, CandidateStatus::kIndistinguishable) << c.candidate.Name();
+    const std::vector<Candidate> one = {c.candidate};
+    const auto power_at = [&](const FittedModel& model) {
+      return PowerOf(fit.Linearised(model, one), c.candidate, HypothesesOf(one)[0]);
+    };
+    EXPECT_NEAR(c.power, power_at(n.best), 1e-3 * c.power) << c.candidate.Name();
+    EXPECT_EQ(c.status == CandidateStatus::kNotTested, c.power < kTestable) << c.candidate.Name();
+    hidden += power_at(fit.settled) < kTestable && c.power >= kTestable;
+  }
+  EXPECT_GT(hidden, 0);
 }
 
 TEST(NameCauses, StopsWhenAsked) {

@@ -26,6 +26,10 @@ TEST(Diagnose, CleanDataAreAdequatelySimulated) {
   EXPECT_GT(d.detection.p_value, kDetectionLevel);
   EXPECT_FALSE(d.extension);
   EXPECT_FALSE(d.Cause());
+  // Nothing is explained of what is left, which is of no consequence.
+  EXPECT_EQ(d.left.share, 1.0);
+  EXPECT_EQ(d.left.probability, d.naming.best.evidence.discrepancy_probability());
+  EXPECT_FALSE(d.left.material);
 }
 
 TEST(Diagnose, CleanDataStillTellWhatTheyCouldHaveShown) {
@@ -177,6 +181,12 @@ TEST(Verdict, GoesByTheProbabilityOfTheNameBeforeWhatItLeaves) {
 
 TEST(Verdict, AsksForMoreThanEvenOddsWhereMoreIsLeftThanTheNoise) {
   EXPECT_EQ(Judged(0.79, 0.96, 20.0).verdict, Verdict::kUnexplained);
+  EXPECT_EQ(Judged(0.79, 0.96, 20.0).reason,
+            "the best extension, air_drag, leaves more than the noise and is too unsure for that "
+            "(probability 0.79)");
+  EXPECT_EQ(Judged(0.3, 0.96, 20.0).reason,
+            "the best extension, air_drag, is less likely than something outside the catalogue "
+            "(probability 0.30)");
   EXPECT_EQ(Judged(0.81, 0.96, 20.0).verdict, Verdict::kConfounded);
   EXPECT_EQ(Judged(0.79, 0.999, 20.0).verdict, Verdict::kConfounded);  // 0.6 of the noise is left
 }
