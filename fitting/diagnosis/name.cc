@@ -150,15 +150,15 @@ class Search {
   std::vector<CandidateSet> Forward(const CandidateSet& set) {
     const Ranking& white = rankings_.Beside(set, refits_.White(set));
     std::set<int> matters;
-    for (const auto& [gain, i] : white)
-      if (gain >= LeastGain()) matters.insert(i);
+    for (const Promise& p : white)
+      if (p.gain >= LeastGain()) matters.insert(p.place);
     std::vector<CandidateSet> sets;
     const auto add = [&](const CandidateSet& grown) {
       if (std::find(sets.begin(), sets.end(), grown) == sets.end()) sets.push_back(grown);
     };
     const auto take = [&](const Ranking& ranked) {
       int taken = 0;
-      for (const auto& [gain, i] : ranked) {
+      for (const auto& [gain, i, information] : ranked) {
         if (taken >= kForwardWidth || gain < kWorthATry) break;
         if (!matters.contains(i)) continue;
         ++taken;
@@ -247,8 +247,8 @@ class Search {
     CandidateSet all = set;
     for (int joined = 0; joined < kJoin && !Stopped(); ++joined) {
       const Ranking& ranked = rankings_.Beside(all, refits_.White(all));
-      if (ranked.empty() || ranked.front().first < kWorthATry) break;
-      const CandidateSet grown = With(all, ranked.front().second);
+      if (ranked.empty() || ranked.front().gain < kWorthATry) break;
+      const CandidateSet grown = With(all, ranked.front().place);
       refits_.Try({grown});
       if (!refits_.Usable(grown)) break;
       all = grown;
@@ -280,7 +280,7 @@ class Search {
     return set;
   }
   // Sets in which one member gives its place to another candidate that promises, by the linear
-  // model, nearly what that member gains.
+  // model, nearly what that member gains, or that moves the data as it does.
   std::vector<CandidateSet> Swaps(const CandidateSet& set) {
     std::vector<CandidateSet> swaps;
     if (set.size() < 2) return swaps;
@@ -288,12 +288,17 @@ class Search {
       if (!refits_.Settled(less)) continue;
       const double needed = refits_.Worth(set) - refits_.Worth(less) - kIndistinguishable;
       int taken = 0;
-      for (const auto& [gain, i] : rankings_.Beside(less, refits_.At(less))) {
+      const Ranking& without = rankings_.Beside(less, refits_.At(less));
+      for (const auto& [gain, i, information] : without) {
         if (taken >= kForwardWidth || gain < std::max(needed, kWorthATry)) break;
         if (Holds(set, i)) continue;
         swaps.push_back(With(less, i));
         ++taken;
       }
+      // Far from the set without the member the linear model promises too little.
+      std::vector<int> alike = AlikeTo(without, rankings_.Beside(set, refits_.At(set)));
+      if (alike.size() > kForwardWidth) alike.resize(kForwardWidth);
+      for (const int i : alike) swaps.push_back(With(less, i));
     }
     return swaps;
   }

@@ -95,6 +95,22 @@ std::optional<int> ShowsBeside(const Naming& naming, int i) {
   return std::nullopt;
 }
 
+std::vector<int> AlikeTo(const Ranking& without, const Ranking& whole) {
+  constexpr double kOfOneKind = 0.05;  // a correlation of 0.975
+  std::vector<std::pair<double, int>> alike;
+  for (const Promise& beside : whole) {
+    const auto alone = std::find_if(without.begin(), without.end(),
+                                    [&](const Promise& p) { return p.place == beside.place; });
+    if (alone == without.end() || !(alone->information > 0.0)) continue;
+    const double left = beside.information / alone->information;
+    if (left < kOfOneKind) alike.emplace_back(left, beside.place);
+  }
+  std::stable_sort(alike.begin(), alike.end());
+  std::vector<int> places;
+  for (const auto& [left, place] : alike) places.push_back(place);
+  return places;
+}
+
 const Ranking& Rankings::Beside(const CandidateSet& set, const FittedModel& fitted) {
   const auto [known, is_first] =
       known_.try_emplace({set, fitted.problem.noise.IsWhite(), fitted.cost});
@@ -107,9 +123,10 @@ const Ranking& Rankings::Beside(const CandidateSet& set, const FittedModel& fitt
   const Linearisation at = LineariseAt(fitted, tested, train_, jobs_);
   const std::vector<Hypothesis> hypotheses = HypothesesOf(tested);
   for (std::size_t i = 0; i < rest.size(); ++i)
-    ranked.emplace_back(ScoreOf(at, hypotheses[i]).predicted_gain, rest[i]);
+    ranked.push_back({ScoreOf(at, hypotheses[i]).predicted_gain, rest[i],
+                      hypotheses[i].count == 1 ? Information(at, hypotheses[i].first) : 0.0});
   std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+                   [](const Promise& a, const Promise& b) { return a.gain > b.gain; });
   return ranked;
 }
 

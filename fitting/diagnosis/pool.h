@@ -31,8 +31,18 @@ std::vector<Candidate> CandidatesAt(const Naming& naming, std::span<const int> p
 /// The candidate without which candidate i hardly shows (EffectInfo::shows_beside).
 std::optional<int> ShowsBeside(const Naming& naming, int i);
 
-/// Candidates with the nats they promise, the best first.
-using Ranking = std::vector<std::pair<double, int>>;
+/// What the linear model promises of a candidate beside a set.
+struct Promise {
+  double gain;         // nats
+  int place;           // in the pool
+  double information;  // of its size, where it has one parameter; else 0
+};
+/// The best first.
+using Ranking = std::vector<Promise>;
+
+/// Candidates that move the data as one member of a set does: beside the whole set little is left
+/// of what tells their size beside the set `without` it. The most alike first.
+std::vector<int> AlikeTo(const Ranking& without, const Ranking& whole);
 
 /// What the linear model promises of candidates beside a fitted set; of the same fit it is asked
 /// more than once.

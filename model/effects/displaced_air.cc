@@ -19,7 +19,9 @@ struct DisplacedAir {
   static constexpr EffectInfo kInfo = {
       .name = "displaced_air",
       .kind = EffectKind::kParameter,
-      .equation = "(m + m_a/2) dv/dt = F - (m - m_a) g, m_a = density 1.2 kg/m^3 4/3 pi radius^3",
+      .equation =
+          "(m + 3/2 m_a) dv/dt = F - m g, m as weighed in air, m_a = density 1.2 kg/m^3 4/3 pi "
+          "radius^3",
       .sentence = "the air that a light ball displaces carries it a little and moves along with it",
       .for_legs = false,
       .for_ball = true,
@@ -30,9 +32,9 @@ struct DisplacedAir {
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {
     const T& r = parameters.radius;
     const T share = p[0] * (kAir * 4.0 / 3.0 * std::numbers::pi) * (r * r * r) / parameters.m;
-    const T inertia = 1.0 + 0.5 * share;
+    const T inertia = 1.0 + 1.5 * share;
     parameters.m *= inertia;
-    parameters.g *= (1.0 - share) / inertia;
+    parameters.g /= inertia;
   }
 };
 

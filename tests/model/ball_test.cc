@@ -127,7 +127,7 @@ TEST(Ball, FallsSlowerByTheAirInItsPlace) {
   const std::array effects = {EffectSetting{FindEffect("displaced_air"), {1.0}}};
   q.effects = effects;
   const double air = 1.2 * 4.0 / 3.0 * std::numbers::pi * 8e-6 / 0.0027;  // over the ball's mass
-  const double fall = 0.5 * q.parameters.g * (1.0 - air) / (1.0 + 0.5 * air) * 0.81;
+  const double fall = 0.5 * q.parameters.g * / (1.0 + 1.5 * air) * 0.81;
   EXPECT_NEAR(Simulate(q).final_state[1], 5.0 - fall, 1e-12);
   EXPECT_NEAR(air, 0.0149, 1e-4);
 }

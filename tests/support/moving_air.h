@@ -9,8 +9,8 @@ namespace hoplab::testing {
 
 /// A ball in air that moves with `wind` [m/s] along the ground: F = -drag |v - w| (v - w), bounces
 /// by a restitution and a loss along the ground where its centre is at `radius`. Air of mass
-/// `displaced` carries it, and half as much moves along. By small steps of Heun's rule, an
-/// independent reference.
+/// `displaced` carries it, so that it weighs `mass` there, and half as much moves along. By small
+/// steps of Heun's rule, an independent reference.
 struct BallInMovingAir {
   double drag, wind, mass, g;  // N s^2/m^2, m/s, kg, m/s^2
   double displaced = 0.0;      // kg
@@ -35,9 +35,9 @@ struct BallInMovingAir {
 
  private:
   State Rate(const State& s) const {
-    const double ux = s[2] - wind, moved = mass + 0.5 * displaced;
+    const double ux = s[2] - wind, moved = mass + 1.5 * displaced;
     const double factor = drag * std::hypot(ux, s[3]) / moved;
-    return {s[2], s[3], -factor * ux, -factor * s[3] - g * (mass - displaced) / moved};
+    return {s[2], s[3], -factor * ux, -factor * s[3] - g * mass / moved};
   }
   State Heun(const State& s, double h) const {
     const State a = Rate(s);

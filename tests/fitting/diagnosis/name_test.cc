@@ -278,8 +278,8 @@ TEST(NameCauses, RanksTheSameFitUnderItsOwnNoiseAnew) {
   const Ranking white = rankings.Beside({}, fit.null), under_own = rankings.Beside({}, own);
   ASSERT_EQ(white.size(), 2u);
   ASSERT_EQ(under_own.size(), 2u);
-  EXPECT_EQ(white.front().second, 1);
-  EXPECT_LT(under_own.front().first, 0.5 * white.front().first);
+  EXPECT_EQ(white.front().place, 1);
+  EXPECT_LT(under_own.front().gain, 0.5 * white.front().gain);
 }
 
 // Of a batch each begins from what was settled before it, so that it does not matter which of them
