@@ -27,6 +27,9 @@ struct DatasetFit {
   std::vector<std::string> left_out;
   /// Why it was fitted hop by hop or in part, or that hops and whole traces disagree.
   std::string note;
+  /// Of each channel: the mean square, over sigma squared, that noise alone leaves (NoiseSquares);
+  /// empty: 1.
+  std::vector<double> noise_squares;
 };
 
 /// Sets up and fits a dataset. A law that cannot carry a simulation through a whole trace (it falls

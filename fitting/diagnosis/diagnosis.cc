@@ -90,12 +90,13 @@ class Pipeline {
     std::vector<Candidate> all = candidates;
     all.insert(all.end(), basis_.probes.begin(), basis_.probes.end());
     // Whether anything is there is asked of white noise: a discrepancy is one of the answers.
-    const Linearisation at = LineariseAt(d_.plain, all, train_, options_.fit.jobs);
+    const Linearisation at = LinearisedAt(d_.plain, all);
     NoteFailed(at);
     d_.detection = Detect(at, candidates, basis_, options_.Seed(Draws::kDetection));
     d_.localisation =
         Localise(Linearise(d_.plain.problem, d_.plain.problem.shared_count(), train_,
-                           d_.plain.shared, d_.plain.initial_states, options_.fit.jobs));
+                           d_.plain.shared, d_.plain.initial_states, options_.fit.jobs),
+                 d_.noise_squares);
     d_.uncertainty = AssessUncertainty(d_.problem, train_, d_.null.shared, d_.null.initial_states,
                                        options_.fit.loss, options_.fit.jobs);
     if (d_.detection.p_value > kDetectionLevel) {
@@ -106,7 +107,12 @@ class Pipeline {
     }
   }
   Linearisation NullAt(const std::vector<Candidate>& candidates) const {
-    return LineariseAt(d_.null, candidates, train_, options_.fit.jobs);
+    return LinearisedAt(d_.null, candidates);
+  }
+  Linearisation LinearisedAt(const FittedModel& model, std::span<const Candidate> tested) const {
+    Linearisation at = LineariseAt(model, tested, train_, options_.fit.jobs);
+    at.alike_rows = AlikeRows(train_, d_.noise_squares);
+    return at;
   }
 
   void NoteFailed(const Linearisation& at) {
@@ -192,7 +198,7 @@ class Pipeline {
     const std::vector<Candidate> others = CandidatesBeside(best, candidates);
     std::vector<Candidate> all = others;
     all.insert(all.end(), basis_.probes.begin(), basis_.probes.end());
-    const Linearisation at = LineariseAt(best, all, train_, options_.fit.jobs);
+    const Linearisation at = LinearisedAt(best, all);
     report.remainder = Detect(at, others, basis_, options_.Seed(Draws::kRemainder));
     report.other_models = OtherModelsOf(d_.naming, at, others);
     Doubt(set_aside, report.other_models);
@@ -232,7 +238,7 @@ class Pipeline {
     const bool left = NamesSomething(d_) && d_.left.material;
     if (d_.verdict != Verdict::kUnexplained && !left) return;
     const FittedModel& model = d_.extension ? d_.naming.best : d_.plain;
-    const Linearisation at = LineariseAt(model, basis_.probes, train_, options_.fit.jobs);
+    const Linearisation at = LinearisedAt(model, basis_.probes);
     d_.free_forces = Reconstruct(at, basis_, options_.Seed(Draws::kForces));
     NoteOwnSizes();
   }
@@ -240,8 +246,8 @@ class Pipeline {
   // What is there in every trial, of another size in each.
   void NoteOwnSizes() {
     const std::vector<Candidate> candidates = CandidatesOf(d_.problem, options_.candidates);
-    std::optional<OwnSizes> own = BestOwnSizes(
-        LineariseAt(d_.plain, candidates, train_, options_.fit.jobs), candidates, train_);
+    std::optional<OwnSizes> own =
+        BestOwnSizes(LinearisedAt(d_.plain, candidates), candidates, train_);
     std::optional<OwnSizes> beside = OwnSizesBesideLargest(candidates);
     if (beside && !(own && own->explained >= beside->explained)) own = std::move(beside);
     if (own && !(d_.extension && d_.extension->explained >= own->explained))
@@ -259,7 +265,7 @@ class Pipeline {
     if (!alone.ok()) return std::nullopt;
     alone.problem.noise = d_.plain.problem.noise;
     const std::vector<Candidate> others = CandidatesBeside(alone, candidates);
-    const Linearisation at = LineariseAt(alone, others, train_, options_.fit.jobs);
+    const Linearisation at = LinearisedAt(alone, others);
     std::optional<OwnSizes> own = BestOwnSizes(at, others, train_);
     if (!own) return std::nullopt;
     const double left = LeftShare(d_.detection, at.chi2(), alone.parameter_count());

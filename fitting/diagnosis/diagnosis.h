@@ -92,7 +92,7 @@ struct Detection {
   std::vector<DetectionTest> tests;  // candidates, then probe groups
   std::size_t candidates = 0;        // how many of the tests
   double chi2 = 0.0;                 // of all residuals
-  int degrees_of_freedom = 0;
+  int degrees_of_freedom = 0;        // what noise alone would leave of it
 };
 
 /// How one of the old parameters moved when the accepted effects joined.
@@ -183,6 +183,7 @@ struct Diagnosis {
   FitProblem problem;  // the null problem; trials are hops if `by_hop`
   bool by_hop = false;
   std::optional<double> until;        // DatasetFit::until
+  std::vector<double> noise_squares;  // DatasetFit::noise_squares
   std::vector<std::string> warnings;  // DataWarnings
   std::vector<std::string> notes;     // what was decided on the way
   FitResult fit;

@@ -160,6 +160,21 @@ std::vector<std::string> CorrectNoise(FitProblem& problem) {
   return notes;
 }
 
+std::vector<double> NoiseSquares(const FitProblem& problem) {
+  std::vector<double> squares;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c)
+    squares.push_back(std::pow(WhiteStrength(NoiseInFlight(problem, c).correlation), -2));
+  return squares;
+}
+
+double AlikeRows(const std::vector<TrialProblem>& trials, const std::vector<double>& squares) {
+  double rows = 0.0;
+  for (const TrialProblem& t : trials)
+    for (std::size_t cell = 0; cell < t.data.size() && !squares.empty(); ++cell)
+      if (!std::isnan(t.data[cell])) rows += 1.0 - squares[cell % squares.size()];
+  return rows;
+}
+
 Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, int jobs) {
   Gate gate;
   const std::string incomplete = NotSimulated(null, train);

@@ -47,4 +47,12 @@ Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, 
 /// everywhere.
 std::vector<std::string> CorrectNoise(FitProblem& problem);
 
+/// Of each channel of a problem corrected so: the mean square, over sigma squared, that noise alone
+/// leaves. 1 of white noise; less where noise that is alike in neighbouring samples counts as a
+/// stronger one, which is that of slow motion, while each sample scatters by less.
+std::vector<double> NoiseSquares(const FitProblem& problem);
+
+/// How many rows fewer than `trials` have would leave the same square (NoiseSquares; empty: 1).
+double AlikeRows(const std::vector<TrialProblem>& trials, const std::vector<double>& squares);
+
 }  // namespace hoplab

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string>
@@ -44,13 +45,15 @@ struct Linearisation {
   int row_count = 0;         // rows before they were compressed, if they were
   int samples = 0;           // of them from data
   int trials_left_out = 0;   // their simulation ends before their data
+  double alike_rows = 0.0;   // AlikeRows: where they are told, what noise leaves is so much less
   /// Tested candidates whose columns are zeros because no run could be differentiated by them. By
   /// others that may be so in some trials: there their columns are zeros.
   std::vector<std::string> failed;
 
   int rows() const { return static_cast<int>(r.size()); }
   double chi2() const { return r.squaredNorm(); }
-  int degrees_of_freedom() const { return row_count - fitted_rank; }
+  /// What noise alone leaves of chi2, at least 1.
+  double degrees_of_freedom() const { return std::max(row_count - alike_rows - fitted_rank, 1.0); }
 };
 
 /// One trial's rows, own values projected out; what a linearisation is assembled from.

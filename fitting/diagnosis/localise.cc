@@ -19,10 +19,10 @@ double TailOf(double chi2, double expected) {
 struct Sum {
   long rows = 0;
   double chi2 = 0.0, expected = 0.0;
-  void Add(double r, double leverage) {
+  void Add(double r, double of_noise) {
     ++rows;
     chi2 += r * r;
-    expected += std::max(1.0 - leverage, 0.0);
+    expected += of_noise;
   }
 };
 
@@ -47,19 +47,22 @@ std::vector<MisfitPart> PartsOf(const std::map<int, Sum>& sums) {
 
 }  // namespace
 
-Localisation Localise(const Linearisation& at) {
+Localisation Localise(const Linearisation& at, const std::vector<double>& noise_squares) {
   std::map<std::tuple<Mode, int, int>, Sum> cells;
   std::map<int, Sum> hops, trials;
   Localisation out;
   for (int row = 0; row < at.rows(); ++row) {
     const RowLabel& label = at.labels[static_cast<std::size_t>(row)];
     if (label.of == RowLabel::Of::kPrior) continue;
+    const bool alike = label.channel >= 0 && !noise_squares.empty();
+    const double square = alike ? noise_squares[static_cast<std::size_t>(label.channel)] : 1.0;
+    const double of_noise = std::max(square - at.leverage[row], 0.0);
     const int phase = std::min(static_cast<int>(label.phase * kPhases.size()), 2);
     for (Sum* sum :
          {&cells[{label.mode, phase, label.channel}], &hops[label.hop], &trials[label.trial]})
-      sum->Add(at.r[row], at.leverage[row]);
+      sum->Add(at.r[row], of_noise);
     out.chi2 += at.r[row] * at.r[row];
-    out.expected += std::max(1.0 - at.leverage[row], 0.0);
+    out.expected += of_noise;
   }
   for (const auto& [key, sum] : cells) {
     MisfitCell cell;

@@ -32,7 +32,9 @@ struct Localisation {
   double chi2 = 0.0, expected = 0.0;  // of all samples
 };
 
-Localisation Localise(const Linearisation& at);
+/// `noise_squares`: of each channel, what noise alone leaves of a sample's square (NoiseSquares);
+/// empty: 1.
+Localisation Localise(const Linearisation& at, const std::vector<double>& noise_squares = {});
 
 /// Evidence for one column gathered along the trials: contribution of each row to the score
 /// (s'r)^2/V, in the order of `at.labels`. Their sum is the score.

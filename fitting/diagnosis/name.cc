@@ -226,7 +226,8 @@ class Search {
   }
   // Nats under white noise.
   double LeastGain() const {
-    return std::min(kLeastShare * Misfit(), kLeastPerSample * null_at_.samples);
+    return std::min(kLeastShare * Misfit(),
+                    kLeastPerSample * (null_at_.samples - null_at_.alike_rows));
   }
   // Beyond noise, of the null fit and of a set.
   double Misfit() const { return std::max(Left({}), 0.0); }

@@ -1,6 +1,7 @@
 #include "fitting/diagnosis/null_fit.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hoplab {
 namespace {
@@ -22,7 +23,7 @@ Detection Detect(const Linearisation& at, std::span<const Candidate> candidates,
   Detection out;
   out.p_value = tests.global_p;
   out.chi2 = at.chi2();
-  out.degrees_of_freedom = at.degrees_of_freedom();
+  out.degrees_of_freedom = static_cast<int>(std::lround(at.degrees_of_freedom()));
   out.candidates = candidates.size();
   for (std::size_t i = 0; i < tests.scores.size(); ++i) {
     const Score& s = tests.scores[i];
@@ -46,7 +47,10 @@ DatasetFit FitPlain(FitProblem problem, const DiagnosisOptions& options, Segment
   if (options.stage) options.stage("fitting the model as it is");
   FitOptions white = options.fit;
   white.discrepancy = Discrepancy::kNone;
-  return FitTraces(std::move(problem), white, span);
+  std::vector<double> noise_squares = NoiseSquares(problem);
+  DatasetFit fit = FitTraces(std::move(problem), white, span);
+  fit.noise_squares = std::move(noise_squares);
+  return fit;
 }
 
 void BeginWith(DatasetFit fit, const DiagnosisOptions& options, Diagnosis& d,
@@ -57,6 +61,7 @@ void BeginWith(DatasetFit fit, const DiagnosisOptions& options, Diagnosis& d,
   };
   d.by_hop = fit.by_hop;
   d.until = fit.until;
+  d.noise_squares = std::move(fit.noise_squares);
   d.fit = std::move(fit.result);
   d.problem = std::move(fit.problem);
   d.notes.insert(d.notes.begin(), d.problem.notes.begin(), d.problem.notes.end());

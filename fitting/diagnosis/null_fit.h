@@ -6,7 +6,7 @@
 
 namespace hoplab {
 
-/// The model as it is, fitted under white noise.
+/// The model as it is, fitted under white noise. `problem` is corrected (CorrectNoise).
 DatasetFit FitPlain(FitProblem problem, const DiagnosisOptions& options, Segmentation span);
 
 /// The first part of a diagnosis, and of a search for a formula: what FitPlain made, the noise that

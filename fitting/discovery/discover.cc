@@ -70,7 +70,8 @@ class FormulaSearch {
     const ProbeBasis basis = ProbesOf(out_.base.problem.law);
     std::vector<Candidate> tested = all;
     tested.insert(tested.end(), basis.probes.begin(), basis.probes.end());
-    const Linearisation at = LineariseAt(out_.base.plain, tested, *train_, options_.fit.jobs);
+    Linearisation at = LineariseAt(out_.base.plain, tested, *train_, options_.fit.jobs);
+    at.alike_rows = AlikeRows(*train_, out_.base.noise_squares);
     out_.base.detection = Detect(at, all, basis, Seed(kDetectionStream));
     if (out_.base.detection.p_value <= kDetectionLevel) return true;
     out_.verdict = DiscoveryVerdict::kNotNeeded;
@@ -114,9 +115,9 @@ class FormulaSearch {
       naming.progress = [this](int refits, int of, std::string_view) {
         options_.step("refit " + std::to_string(refits) + " of " + std::to_string(of), refits, of);
       };
-    out_.naming =
-        NameCauses({&out_.base.plain, &out_.base.null}, tried,
-                   LineariseAt(out_.base.null, tried, *train_, options_.fit.jobs), *train_, naming);
+    Linearisation null_at = LineariseAt(out_.base.null, tried, *train_, options_.fit.jobs);
+    null_at.alike_rows = AlikeRows(*train_, out_.base.noise_squares);
+    out_.naming = NameCauses({&out_.base.plain, &out_.base.null}, tried, null_at, *train_, naming);
   }
 
   // The term with the shape that fits best, from the one it has; itself where that cannot be told.

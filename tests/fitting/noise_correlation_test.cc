@@ -9,6 +9,10 @@
 #include "base/random.h"
 #include "datasets/read_dataset.h"
 #include "fitting/diagnosis/gate.h"
+#include "fitting/diagnosis/linearise_at.h"
+#include "fitting/diagnosis/localise.h"
+#include "fitting/diagnosis/null_fit.h"
+#include "fitting/diagnosis/verdict.h"
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
@@ -104,6 +108,54 @@ TEST(NoiseCorrelation, OfADiagnosisMakesTheStatedNoiseStronger) {
             std::string::npos);
   for (const ChannelProblem& c : alike.channels)
     EXPECT_NEAR(c.sigma / kMarginal, WhiteStrength(0.6), 0.5);
+}
+
+// Sigma is that of slow motion; each sample scatters by less.
+TEST(NoiseCorrelation, LeavesASquareOfItsOwn) {
+  double over_rows = 0.0, over_noise = 0.0, over_expected = 0.0;
+  constexpr int kSeeds = 5;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    Diagnosis d;
+    std::vector<TrialProblem> train;
+    FitNull(MakeProblem(HopsWithAlikeNoise(static_cast<std::uint64_t>(seed), 0.6), {}), {}, d,
+            train);
+    Linearisation at = LineariseAt(d.plain, {}, train, 1);
+    over_rows += at.chi2() / at.degrees_of_freedom() / kSeeds;
+    at.alike_rows = AlikeRows(train, d.noise_squares);
+    over_noise += at.chi2() / at.degrees_of_freedom() / kSeeds;
+    const Localisation l = Localise(Linearise(d.plain.problem, d.plain.problem.shared_count(),
+                                              train, d.plain.shared, d.plain.initial_states, 1),
+                                    d.noise_squares);
+    over_expected += l.chi2 / l.expected / kSeeds;
+  }
+  EXPECT_LT(over_rows, 0.4);
+  EXPECT_NEAR(over_noise, 1.0, 0.1);
+  EXPECT_NEAR(over_expected, 1.0, 0.1);
+}
+
+// What a model lacks is told over the noise as it is.
+TEST(NoiseCorrelation, HidesNoMisfit) {
+  Dataset lossy = HopsWithAlikeNoise(3, 0.6);
+  const Dataset sound = DatasetOf({.train = 6, .seed = 3, .sigma_m = 1e-9, .rate_hz = 200.0});
+  const Dataset moved =
+      DatasetOf({.effects = {testing::EffectOfSize("touchdown_angle_bias", 0.02)},
+                 .train = 6,
+                 .seed = 3,
+                 .sigma_m = 1e-9,
+                 .rate_hz = 200.0});
+  for (std::size_t i = 0; i < lossy.trials.size(); ++i)
+    for (std::size_t c = 0; c < lossy.trials[i].trace.columns.size(); ++c) {
+      std::vector<double>& values = lossy.trials[i].trace.columns[c].values;
+      const std::vector<double>&with = moved.trials[i].trace.columns[c].values,
+            &without = sound.trials[i].trace.columns[c].values;
+      for (std::size_t row = 0; row < std::min({values.size(), with.size(), without.size()}); ++row)
+        values[row] += with[row] - without[row];
+    }
+  const Diagnosis d = Diagnose(lossy, testing::OptionsWith({"touchdown_angle_bias", "air_drag"}));
+  EXPECT_GT(MisfitOverNoise(d.detection), 0.3);
+  ASSERT_TRUE(d.extension);
+  EXPECT_GT(d.extension->explained, 0.8);
+  EXPECT_LT(d.extension->explained, 1.0);
 }
 
 }  // namespace
