@@ -77,7 +77,7 @@ struct Known {
   std::vector<int> active;
   std::vector<Reduced> reduced;
   std::vector<EliminatedTrial> parts;  // of those that reach their data
-  long samples = 0, free_own = 0, priors = 0;
+  long samples = 0, own_rank = 0, priors = 0;
   double chi2 = 0.0;
 };
 
@@ -101,10 +101,9 @@ Known Gather(const FitProblem& problem, const std::vector<TrialProblem>& trials,
     known.chi2 += reduced[i].chi2;
     if (reduced[i].samples == 0) continue;
     known.parts.push_back(reduced[i].trial);
-    for (const OwnParameter& o : trials[i].own) {
-      known.free_own += o.free;
-      known.priors += std::isfinite(o.prior_sigma);
-    }
+    known.own_rank += reduced[i].trial.own_rank;
+    known.priors += std::ssize(trials[i].shared_priors);
+    for (const OwnParameter& o : trials[i].own) known.priors += std::isfinite(o.prior_sigma);
   }
   return known;
 }
@@ -202,6 +201,16 @@ void FillIn(const FitProblem& problem, const Eigen::VectorXd& shared, const Know
   }
 }
 
+// Chi-square against what noise leaves of it, where the data tell `rank` of the shared values.
+void TestSquare(const Known& known, Eigen::Index rank, Uncertainty& out) {
+  const long rows = known.samples + known.priors - known.own_rank;
+  const double dof = std::max(static_cast<double>(rows - rank), 1.0);
+  out.chi2_per_dof = known.chi2 / dof;
+  out.chi2_p_value =
+      boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), known.chi2));
+  out.misfit = out.chi2_p_value < 1e-3;
+}
+
 // Whether another fit is no worse than `known` for certain: not in all by what the trials differ
 // in it, nor in one of them by more than the trial that is missed most is missed anyway.
 bool FitsAsWell(const Known& other, const Known& known) {
@@ -264,23 +273,20 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
   for (int k = 0; k < n; ++k) out.parameters[k].at_bound = AtBound(shared[k], problem.shared[k]);
   const Known known = Gather(problem, trials, shared, initial_states, loss, jobs);
   const int m = static_cast<int>(known.active.size());
-  const double dof =
-      std::max<double>(static_cast<double>(known.samples + known.priors - known.free_own - m), 1.0);
-  out.chi2_per_dof = known.chi2 / dof;
-  out.chi2_p_value =
-      boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), known.chi2));
-  out.misfit = out.chi2_p_value < 1e-3;
-
   const EliminatedTrial all = Stacked(known.parts);
   const Eigen::MatrixXd& S = all.columns;
   out.covariance = Eigen::MatrixXd::Constant(n, n, kNaN);
   out.correlation = Eigen::MatrixXd::Constant(n, n, kNaN);
-  if (m == 0 || S.rows() < m) return out;
+  if (m == 0 || S.rows() < m) {
+    TestSquare(known, std::min<Eigen::Index>(m, S.rows()), out);
+    return out;
+  }
 
   const Eigen::MatrixXd R =
       Eigen::HouseholderQR<Eigen::MatrixXd>(S).matrixQR().topRows(m).triangularView<Eigen::Upper>();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(R, Eigen::ComputeFullV);
   FindWeakDirections(svd.singularValues(), svd.matrixV(), known.active, n, out.identifiability);
+  TestSquare(known, out.identifiability.rank, out);
   FillIn(problem, shared, known,
          CovariancesOf(known, svd.singularValues(), svd.matrixV(), out.identifiability.rank), out);
   ReachBeyondThresholds(problem, trials, shared, initial_states, loss, jobs, known, out);

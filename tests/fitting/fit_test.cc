@@ -299,5 +299,29 @@ TEST(ParameterUncertainty, TheWiderIntervalIsOfNoiseOrOfTrials) {
   EXPECT_EQ(p.Wider(), p.ci95);
 }
 
+// Only what the data tell of values takes from what noise leaves; a prior is a row more.
+TEST(Uncertainty, CountsTheDegreesOfFreedomThatNoiseHas) {
+  const FitProblem seen = MakeProblem(SmallDataset(), {.free = {"E", "G", "d"}});
+  const std::vector<TrialProblem> trials = TrialsOf(seen, TrialRole::kTrain);
+  const Eigen::VectorXd at = InitialShared(seen);
+  const std::vector<OwnValues> start = testing::NominalInitialStates(trials);
+  const double chi2_per_dof = AssessUncertainty(seen, trials, at, start, {}, 1).chi2_per_dof;
+
+  // Mass, modulus (both) and damping only occur as ratios.
+  const FitProblem more = MakeProblem(SmallDataset(), {.free = {"E", "G", "d", "m"}});
+  const Uncertainty undetermined =
+      AssessUncertainty(more, trials, InitialShared(more), start, {}, 1);
+  ASSERT_EQ(undetermined.identifiability.rank, 3);
+  EXPECT_NEAR(undetermined.chi2_per_dof, chi2_per_dof, 1e-6 * chi2_per_dof);
+
+  // A prior that is met adds a row and no square.
+  std::vector<TrialProblem> known = trials;
+  known[0].shared_priors.push_back({0, at[0], at[0]});
+  double rows = 0.0;
+  for (const TrialProblem& t : trials) rows += static_cast<double>(t.sample_count);
+  const double with = AssessUncertainty(seen, known, at, start, {}, 1).chi2_per_dof;
+  EXPECT_NEAR(chi2_per_dof / with - 1.0, 1.0 / rows, 0.2 / rows);
+}
+
 }  // namespace
 }  // namespace hoplab
