@@ -74,11 +74,18 @@ void SetStatuses(const FittedModel& model, const CandidateSet& set, const std::s
   for (int i = 0; i < static_cast<int>(naming.candidates.size()); ++i) {
     CandidateResult& c = naming.candidates[static_cast<std::size_t>(i)];
     c.bound95 = Eigen::VectorXd::Constant(c.candidate.parameter_count(), kNaN);
+    // What the members can do in its place shows alone, and beside them there is no need of it.
+    bool shows = c.separable && c.power >= kTestable;
+    if (c.separable && !members.empty() && !members.count(i) && !doubtful.count(i)) {
+      const double alone = c.power;
+      c.power = PowerOf(left.at, c.candidate, left.hypotheses[left.places.at(i)]);
+      shows = (c.power > 0.0 ? c.power : alone) >= kTestable;
+    }
     if (doubtful.count(i)) {
       c.status = CandidateStatus::kIndistinguishable;
     } else if (members.count(i)) {
       c.status = CandidateStatus::kSupported;
-    } else if (c.separable && c.power >= kTestable) {
+    } else if (shows) {
       c.status = CandidateStatus::kExcluded;
     } else if (c.has_threshold && (c.alone.ok() || looked_at.count(i))) {
       c.status = CandidateStatus::kNotNeeded;

@@ -49,9 +49,11 @@ std::string_view NameOf(CandidateStatus status);
 
 struct CandidateResult {
   Candidate candidate;
-  Score score;             // at the null fit
-  double power = 0.0;      // noncentrality of a typical size, typical^2 V (least of its parameters)
-  bool separable = false;  // some of it can be told from the fitted values
+  Score score;  // at the null fit
+  /// Noncentrality of a typical size (PowerOf): at the null fit, or beside the accepted extension of
+  /// what is not in it and does not do as well as a member.
+  double power = 0.0;
+  bool separable = false;      // some of it can be told from the fitted values
   bool has_threshold = false;  // no slope at null tells of it: it is tried at a few sizes
   /// Added alone to the null model and refitted; status kFailed if it was not.
   FittedModel alone;

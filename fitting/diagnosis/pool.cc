@@ -28,13 +28,7 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
     c.score = ScoreOf(null_at, hypotheses[i]);
     c.has_threshold = candidates[i].effect->info.has_threshold;
     c.separable = c.score.rank > 0;
-    c.power = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < hypotheses[i].count; ++k) {
-      if (candidates[i].Parameter(k).is_of_first) continue;
-      const double typical = candidates[i].Parameter(k).typical;
-      c.power =
-          std::min(c.power, typical * typical * Information(null_at, hypotheses[i].first + k));
-    }
+    c.power = PowerOf(null_at, candidates[i], hypotheses[i]);
     tested += c.separable || c.has_threshold;
     naming.candidates.push_back(std::move(c));
   }
@@ -48,6 +42,16 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
   std::vector<int> all(candidates.size());
   std::iota(all.begin(), all.end(), 0);
   if (options.in_one_trial) AddInOneTrial(naming, null_at, all, train, 0.0);
+}
+
+double PowerOf(const Linearisation& at, const Candidate& candidate, const Hypothesis& hypothesis) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < hypothesis.count; ++k) {
+    if (candidate.Parameter(k).is_of_first) continue;
+    const double typical = candidate.Parameter(k).typical;
+    least = std::min(least, typical * typical * Information(at, hypothesis.first + k));
+  }
+  return least;
 }
 
 std::vector<CandidateSet> BestScored(const Naming& naming) {

@@ -16,6 +16,10 @@ namespace hoplab {
 void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linearisation& null_at,
               const std::vector<TrialProblem>& train, const NamingOptions& options);
 
+/// Noncentrality of a typical size, typical^2 V, of the candidate's parameter that shows least;
+/// `hypothesis`: its columns.
+double PowerOf(const Linearisation& at, const Candidate& candidate, const Hypothesis& hypothesis);
+
 /// The candidates of the best scores under the null fit's own noise, each alone.
 std::vector<CandidateSet> BestScored(const Naming& naming);
 

@@ -391,6 +391,26 @@ TEST(NameCauses, SaysOfAnEffectTooSmallToShowThatItWasNotTested) {
   EXPECT_GT(not_tested, 0);
 }
 
+// What stands out hides causes that could have shown, until it is named.
+TEST(NameCauses, SaysWhatCouldHaveShownBesideWhatIsNamed) {
+  const NullFit fit({.effects = {EffectOfSize("touchdown_angle_bias", 0.1)}, .hops = 3});
+  const Naming n = NameSix(fit);
+  ASSERT_EQ(MembersOf(n), std::vector<std::string>{"touchdown_angle_bias"});
+  int hidden = 0;
+  for (const CandidateResult& c : n.candidates) {
+    if (c.status == CandidateStatus::kSupported || !c.separable) continue;
+    ASSERT_NE(c.status, CandidateStatus::kIndistinguishable) << c.candidate.Name();
+    const std::vector<Candidate> one = {c.candidate};
+    const auto power_at = [&](const FittedModel& model) {
+      return PowerOf(fit.Linearised(model, one), c.candidate, HypothesesOf(one)[0]);
+    };
+    EXPECT_NEAR(c.power, power_at(n.best), 1e-3 * c.power) << c.candidate.Name();
+    EXPECT_EQ(c.status == CandidateStatus::kNotTested, c.power < kTestable) << c.candidate.Name();
+    hidden += power_at(fit.settled) < kTestable && c.power >= kTestable;
+  }
+  EXPECT_GT(hidden, 0);
+}
+
 TEST(NameCauses, StopsWhenAsked) {
   const NullFit fit({.effects = {EffectOfSize("air_drag", 0.08)}});
   std::atomic<bool> stop{true};
