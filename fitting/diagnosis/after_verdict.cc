@@ -51,18 +51,33 @@ HeldOutErrors ErrorsOf(const FittedModel& alone, const Diagnosis& d, int jobs) {
   return MeasureHeldOut(alike, jobs, /*test_only=*/true, &d.before);
 }
 
+// A stiffness or a damping of the mechanism, by its unit.
+bool GoesWithMass(const SharedParameter& s) {
+  return s.direction.of == SensitivityDirection::Of::kParameter &&
+         (s.unit.starts_with("Pa") || s.unit.starts_with("N"));
+}
+
+// Whether the data know the body's mass at all, as a share of what is stated.
+bool IsWeighed(const CandidateResult& mass) {
+  constexpr double kWorst = 1.0;
+  const double typical = mass.candidate.Parameter(0).typical;
+  return mass.separable && 1.96 * typical < kWorst * std::sqrt(mass.power);
+}
+
 // Motion alone tells forces per mass: where nothing weighs the body, what is fitted goes with the
 // stated mass, and no interval holds that.
 void NoteMass(Diagnosis& d) {
-  if (d.problem.trials.empty() || d.problem.shared.empty()) return;
+  const std::vector<SharedParameter>& shared = d.problem.shared;
+  const auto force = std::find_if(shared.begin(), shared.end(), GoesWithMass);
+  if (d.problem.trials.empty() || force == shared.end()) return;
   const Effect* scale = FindEffect("body_mass_scale");
   const bool unseen = std::any_of(
       d.naming.candidates.begin(), d.naming.candidates.end(), [&](const CandidateResult& c) {
         return c.candidate.effect == scale && c.candidate.only_recording.empty() &&
-               c.status == CandidateStatus::kNotTested;
+               c.status == CandidateStatus::kNotTested && !IsWeighed(c);
       });
   if (!unseen) return;
-  const std::string& first = d.problem.shared.front().name;
+  const std::string& first = force->name;
   char text[200];
   std::snprintf(text, sizeof text,
                 "%s is that of a body of %.4g kg: nothing here weighs it, and a body 1 %% heavier "

@@ -100,11 +100,30 @@ TEST(AfterVerdict, AStiffnessIsThatOfTheStatedMassWhereNothingWeighsTheBody) {
       return note.starts_with("E is that of a body of ");
     });
   };
-  EXPECT_TRUE(tells(Diagnose(DatasetOf({}), OptionsWith({"air_drag", "body_mass_scale"}))));
+  const DiagnosisOptions options = OptionsWith({"air_drag", "body_mass_scale"});
+  EXPECT_TRUE(tells(Diagnose(DatasetOf({}), options)));
+  // A length beside it does not grow with the mass.
+  DiagnosisOptions with_length = options;
+  with_length.problem.free = {"r", "E", "d"};
+  EXPECT_TRUE(tells(Diagnose(DatasetOf({}), with_length)));
   // A stated modulus weighs it.
   DiagnosisOptions known = OptionsWith({"air_drag", "body_mass_scale"});
   known.problem.fix = {{"E", 22e9}};
   EXPECT_FALSE(tells(Diagnose(DatasetOf({}), known)));
+}
+
+// Roughly is not "nothing": with much noise no usual error of the mass would show.
+TEST(AfterVerdict, AStatedModulusWeighsTheBodyRoughlyWhereMuchIsNoise) {
+  DiagnosisOptions known = OptionsWith({"air_drag", "body_mass_scale"});
+  known.problem.fix = {{"E", 22e9}};
+  const Diagnosis d = Diagnose(DatasetOf({.sigma_m = 0.03}), known);
+  const auto mass = std::find_if(
+      d.naming.candidates.begin(), d.naming.candidates.end(),
+      [](const CandidateResult& c) { return c.candidate.Name() == "body_mass_scale"; });
+  ASSERT_EQ(mass->status, CandidateStatus::kNotTested);
+  EXPECT_TRUE(std::none_of(d.notes.begin(), d.notes.end(), [](const std::string& note) {
+    return note.find("nothing here weighs it") != std::string::npos;
+  }));
 }
 
 TEST(AfterVerdict, NothingIsAddedToADiagnosisThatIsStopped) {
