@@ -77,8 +77,10 @@ void JudgeWhatIsSeen(Diagnosis& d) {
     d.verdict = Verdict::kUnexplained;
     char text[160];
     std::snprintf(text, sizeof text,
-                  " is less likely than something outside the catalogue (probability %.2f)",
-                  e.Probability());
+                  chance < kLikely
+                      ? " is less likely than something outside the catalogue (probability %.2f)"
+                      : " leaves more than the noise and is too unsure for that (probability %.2f)",
+                  chance);
     d.reason = "the best extension, " + NamesOf(d.naming.best) + "," + text;
   } else {
     const bool alone = e.Alone(d.naming), sure = e.Probability() >= kSure;

@@ -177,6 +177,12 @@ TEST(Verdict, GoesByTheProbabilityOfTheNameBeforeWhatItLeaves) {
 
 TEST(Verdict, AsksForMoreThanEvenOddsWhereMoreIsLeftThanTheNoise) {
   EXPECT_EQ(Judged(0.79, 0.96, 20.0).verdict, Verdict::kUnexplained);
+  EXPECT_EQ(Judged(0.79, 0.96, 20.0).reason,
+            "the best extension, air_drag, leaves more than the noise and is too unsure for that "
+            "(probability 0.79)");
+  EXPECT_EQ(Judged(0.3, 0.96, 20.0).reason,
+            "the best extension, air_drag, is less likely than something outside the catalogue "
+            "(probability 0.30)");
   EXPECT_EQ(Judged(0.81, 0.96, 20.0).verdict, Verdict::kConfounded);
   EXPECT_EQ(Judged(0.79, 0.999, 20.0).verdict, Verdict::kConfounded);  // 0.6 of the noise is left
 }
