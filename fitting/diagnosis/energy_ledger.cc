@@ -1,6 +1,7 @@
 #include "fitting/diagnosis/energy_ledger.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -82,6 +83,14 @@ TrialProblem WithData(const TrialProblem& trial, const Trajectory& simulated) {
   TrialProblem out = trial;
   out.data = simulated.samples;
   return out;
+}
+
+// Whether the data tell the speed along the ground: a track does, and a ball that is dropped has
+// none.
+bool ShowsSpeed(const FitProblem& problem, const TrialProblem& trial) {
+  if (problem.law == Law::kBall && trial.start[2] == 0.0) return true;
+  return std::any_of(problem.channels.begin(), problem.channels.end(),
+                     [](const ChannelProblem& c) { return c.channel == Channel::kBodyX; });
 }
 
 // Times of the first and the last event that is no apex; NaN without one.
@@ -183,7 +192,8 @@ EnergyLedger LedgerOf(const FittedModel& model, const HeldOutErrors& before,
   std::map<std::string, std::vector<std::size_t>> recordings;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const bool complete = before.trials[i].complete && (!after || after->trials[i].complete);
-    if (complete) recordings[trials[i].recording].push_back(i);
+    if (complete && ShowsSpeed(model.problem, trials[i]))
+      recordings[trials[i].recording].push_back(i);
   }
   for (const auto& [recording, places] : recordings) {
     const bool held_out = trials[places.front()].role == TrialRole::kTest;

@@ -26,7 +26,8 @@ struct HopEnergy {
 /// way, by parabolas through the flights, and weighed with the mass and the gravity of the model
 /// before, so that they can be compared.
 struct EnergyLedger {
-  std::string recording;  // empty: no trial shows its apexes and is simulated to its end
+  /// Empty: no trial shows its apexes and its speed along the ground and is simulated to its end.
+  std::string recording;
   std::vector<HopEnergy> hops;
 };
 

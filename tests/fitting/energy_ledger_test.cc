@@ -69,5 +69,13 @@ TEST(EnergyLedger, IsEmptyWithoutHeights) {
   EXPECT_TRUE(LedgerOf(model, MeasureHeldOut(model, 1), nullptr).hops.empty());
 }
 
+// Half of what a hop's energy is of may be speed along the ground.
+TEST(EnergyLedger, IsEmptyWhereNothingShowsTheSpeedAlongTheGround) {
+  Dataset d = testing::SmallDataset();
+  d.channels.erase(d.channels.begin());  // body_x_m
+  const FittedModel model = TrueModel(MakeProblem(d, {}));
+  EXPECT_TRUE(LedgerOf(model, MeasureHeldOut(model, 1), nullptr).hops.empty());
+}
+
 }  // namespace
 }  // namespace hoplab
