@@ -24,7 +24,7 @@ struct Gate {
   bool passed() const;
   /// The first condition that failed, in words; empty if none did.
   std::string Refusal() const;
-  /// Nothing failed but the check of the gradients.
+  /// Nothing failed but the check of the gradients, which were compared.
   bool OnlyGradientsFailed() const;
 };
 

@@ -80,6 +80,19 @@ TEST(Gate, RefusesGradientsThatDifferFromDifferences) {
   EXPECT_EQ(refusal.rfind("gradients: ", 0), 0u) << refusal;
 }
 
+// Times of contacts are no samples, which derivatives are compared of.
+TEST(Gate, SaysOfContactTimesAloneThatGradientsCannotBeChecked) {
+  NullFit fit{testing::World{}};
+  fit.null.problem.channels.clear();
+  for (TrialProblem& t : fit.train) {
+    t.data.clear();
+    t.sample_count = 0;
+  }
+  const Gate gate = CheckGate(fit.null, fit.train, 1);
+  EXPECT_TRUE(gate.Refusal().starts_with("gradients: could not be checked")) << gate.Refusal();
+  EXPECT_FALSE(gate.OnlyGradientsFailed()) << "finer steps compare no more";
+}
+
 // A certificate of trials that differ by `worst`, and by `clear` where none has a flag.
 GradientCertificate Certificate(double worst, double clear) {
   GradientCertificate c;
