@@ -85,10 +85,11 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
   if (!unseen.empty())
     text += Labelled("never shown", "at typical sizes: " + Capped(unseen), colours);
   if (!untried.empty())
-    text += Labelled(
-        "not tried",
-        Capped(untried) + ": small sizes change nothing, and no simulation ran at larger ones",
-        colours);
+    text += Labelled("not tried",
+                     Capped(untried) + ": small sizes change nothing, and " +
+                         (d.naming.refits > 0 ? "no simulation ran at larger ones"
+                                              : "nothing is seen that asks for larger ones"),
+                     colours);
   if (!unsought.empty())
     text += Labelled("not sought",
                      Capped(unsought) +

@@ -133,12 +133,13 @@ double LeftShare(const Detection& seen, double square, int parameters) {
 }
 
 void Judge(Diagnosis& d, double material) {
+  WeighWhatIsLeft(d, material);
   if (d.detection.p_value > kDetectionLevel) {
+    d.left.material = false;
     d.verdict = Verdict::kAdequate;
     d.reason = "no test stands out of what noise alone gives";
     return;
   }
-  WeighWhatIsLeft(d, material);
   JudgeWhatIsSeen(d);
   const bool earned =
       d.verdict == Verdict::kNamed || (d.verdict == Verdict::kAdequate && d.set_aside.empty());

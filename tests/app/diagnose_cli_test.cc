@@ -51,6 +51,20 @@ void ExpectNoTextForANumber(const nlohmann::json& value) {
   }
 }
 
+// Where nothing is seen nothing is refitted.
+TEST_F(DiagnoseCli, SaysWhyACauseWithAThresholdWasNotTried) {
+  Generate("sound", {});
+  const ProcessResult run =
+      Hoplab({"diagnose", "sound", "--effects", "leg_mass,foot_coulomb_friction", "--out", "run",
+              "--quiet", "--plain"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("not tried"), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("no simulation ran"), std::string::npos) << run.out;
+  const auto diagnosis = nlohmann::json::parse(ReadText(temp_.path() / "run/run.json"));
+  EXPECT_EQ(diagnosis.at("refits"), 0);
+  EXPECT_EQ(diagnosis.at("left_share"), 1.0);
+}
+
 // What changes nothing while it is small has no slope to follow: it is sought from several sizes.
 TEST_F(DiagnoseCli, FindsASlipperyFloorThatNoSlopeTellsOf) {
   Generate("slippery", {"leg_mass:m_leg=0.03", "foot_coulomb_friction:inverse_mu=2.2"});

@@ -26,6 +26,10 @@ TEST(Diagnose, CleanDataAreAdequatelySimulated) {
   EXPECT_GT(d.detection.p_value, kDetectionLevel);
   EXPECT_FALSE(d.extension);
   EXPECT_FALSE(d.Cause());
+  // Nothing is explained of what is left, which is of no consequence.
+  EXPECT_EQ(d.left.share, 1.0);
+  EXPECT_EQ(d.left.probability, d.naming.best.evidence.discrepancy_probability());
+  EXPECT_FALSE(d.left.material);
 }
 
 TEST(Diagnose, CleanDataStillTellWhatTheyCouldHaveShown) {
