@@ -63,6 +63,7 @@ class Pipeline {
     const std::vector<Candidate> candidates = CandidatesOf(d_.problem, options_.candidates);
     Accept(Retold(*d_.extension, candidates, d_.set_aside));
     d_.free_forces.reset();
+    std::erase_if(d_.notes, TellsOwnSizes);
     return Judged();
   }
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <string>
 
+#include "fitting/diagnosis/believe.h"
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
@@ -126,6 +127,17 @@ TEST(OwnSizes, AreToldByADiagnosisThatExplainsLess) {
                             return note.starts_with("touchdown_angle_bias of another size in each");
                           }),
             1);
+}
+
+TEST(OwnSizes, AreToldOnceOfADiagnosisThatIsJudgedAnew) {
+  const DiagnosisOptions options = testing::OptionsWith(testing::kSixEffects);
+  const Diagnosis d = Diagnose(HopsOffBy(kOff), options);
+  ASSERT_TRUE(d.extension && d.extension->causes.size() > 1);
+  ASSERT_EQ(std::count_if(d.notes.begin(), d.notes.end(), TellsOwnSizes), 1);
+  const SetAside out = AsSetAside(d.extension->causes.back(), *d.extension, d.naming);
+  const Diagnosis without = DiagnosedWithout(d, {out}, options);
+  EXPECT_EQ(without.extension->causes.size() + 1, d.extension->causes.size());
+  EXPECT_EQ(std::count_if(without.notes.begin(), without.notes.end(), TellsOwnSizes), 1);
 }
 
 TEST(OwnSizes, AreNotWhatOneSizeForAllExplains) {
