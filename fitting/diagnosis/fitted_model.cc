@@ -317,6 +317,8 @@ void SettleNoise(FittedModel& model, const RefitSettings& settings, const NoiseM
   detail.prior_widths = PriorWidths(model.problem, model.shared);
   const RestrictedLikelihood likelihood(model.problem, *settings.train, model.shared,
                                         model.initial_states, settings.jobs, detail);
+  model.settled = likelihood.complete();
+  if (!model.settled) return;
   const RestrictedLikelihood coarse = likelihood.With(LikelihoodDetail::Coarse());
   if (settings.discrepancy == Discrepancy::kMatern) {
     const NoiseModel near = model.problem.noise;
@@ -324,7 +326,6 @@ void SettleNoise(FittedModel& model, const RefitSettings& settings, const NoiseM
     model.problem.noise = model.discrepancy.noise;
   }
   model.evidence = EvidenceOf(model.problem, model.shared, likelihood, coarse, model.problem.noise);
-  model.settled = true;
   if (also.IsWhite()) return;
   const Evidence other = EvidenceOf(model.problem, model.shared, likelihood, coarse, also);
   if (other.log_z() <= model.evidence.log_z()) return;

@@ -86,8 +86,10 @@ void Settle(FittedModel& model, const RefitSettings& settings);
 /// known is infinite.
 bool EndFit(FittedModel& model, const RefitSettings& settings);
 
-/// Noise and evidence alone, the values as they are. `also`, if it is not white, is a noise that
-/// the search may not reach, taken if the evidence is larger.
+/// Noise and evidence alone, the values as they are. A model of which a trial cannot be
+/// differentiated to its end stays unsettled: with a trial less it would seem to fit better.
+/// `also`, if it is not white, is a noise that the search may not reach, taken if the evidence is
+/// larger.
 void SettleNoise(FittedModel& model, const RefitSettings& settings, const NoiseModel& also = {});
 
 }  // namespace hoplab

@@ -91,7 +91,7 @@ std::string NotSimulated(const FittedModel& model, const std::vector<TrialProble
   for (std::size_t i = 0; i < std::min(train.size(), model.initial_states.size()); ++i) {
     TrialEvaluation e;
     TrialEvaluator(model.problem, train[i])
-        .Evaluate({model.shared, model.initial_states[i], false}, e);
+        .Evaluate({model.shared, model.initial_states[i], true}, e);
     if (!e.complete)
       return train[i].file + ": the simulation " + std::string(SentenceOf(e.trajectory.outcome)) +
              Text(", at %.3f s", train[i].begin_s + e.trajectory.end_time);

@@ -123,7 +123,8 @@ void Refits::SettleAll(const std::vector<CandidateSet>& sets) {
   for (const CandidateSet& set : sets) {
     if (set.empty() || !Usable(set) || Settled(set)) continue;
     Entry* entry = &models_.at(set);
-    if (std::find(open.begin(), open.end(), entry) != open.end()) continue;
+    const bool lost_a_trial = entry->settled.ok();  // SettleNoise
+    if (lost_a_trial || std::find(open.begin(), open.end(), entry) != open.end()) continue;
     open.push_back(entry);
     names.push_back(&set);
     near.push_back(NoiseNear(set));

@@ -63,7 +63,7 @@ FittedModel Without(const FittedModel& model, const std::vector<SetAside>& membe
 bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_problem,
              const RefitSettings& settings, Naming& naming) {
   const FittedModel best = Without(naming.best, members, null_problem, settings);
-  if (!best.ok()) return false;
+  if (!best.ok() || !best.settled) return false;
   std::vector<std::size_t> places;
   std::vector<int> as_good;  // they, and what does as well in their places
   for (std::size_t i = naming.best_set.size(); i-- > 0;) {

@@ -189,6 +189,7 @@ VaryingModel RefitVarying(const FittedModel& model, const std::vector<int>& plac
     PutInside(v);
     SetPriors(v);
     SettleNoise(v.model, own, model.problem.noise);
+    if (!v.model.settled) return v;
     v.converged = Look(v, seen, settings.jobs) < kAtRest;
     std::vector<int> left;
     for (const VaryingValue& value : v.values)

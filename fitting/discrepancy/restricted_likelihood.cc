@@ -74,6 +74,7 @@ RestrictedLikelihood::RestrictedLikelihood(const FitProblem& problem,
     if (detail.rows_a_channel > 0) Average(*part, detail.rows_a_channel);
   });
   for (std::optional<Part>& part : made) {
+    complete_ = complete_ && part;
     if (part) parts_.push_back(std::move(*part));
   }
   Summarise();

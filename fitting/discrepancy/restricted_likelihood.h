@@ -56,6 +56,8 @@ class RestrictedLikelihood {
   /// The same before the shared values are marginalised, those on bounds among them.
   ValueLikelihood ValuesAt(const NoiseModel& noise) const;
 
+  /// Whether every trial asked for is in it.
+  bool complete() const { return complete_; }
   /// Root mean square of a channel's residuals over sigma.
   double RootMeanSquare(std::size_t channel) const { return root_mean_square_[channel]; }
   std::size_t channels() const { return root_mean_square_.size(); }
@@ -86,6 +88,7 @@ class RestrictedLikelihood {
   RowMajorMatrix Whitened(const NoiseModel& noise, double& log_sum) const;
 
   std::vector<Part> parts_;
+  bool complete_ = true;
   std::vector<int> free_, bound_;  // shared values
   Eigen::VectorXd prior_widths_;   // of these, in this order; empty: flat
   std::vector<double> root_mean_square_;

@@ -41,6 +41,17 @@ TEST(Refit, OfTheTrueEffectBringsTheFittedValuesBackToTheTruth) {
   EXPECT_LT(std::abs(e.shared[1] - 3.0), std::abs(fit.null.shared[1] - 3.0));
 }
 
+// What is left of the others would seem to fit better.
+TEST(SettleNoise, LeavesAModelUnsettledThatLosesATrial) {
+  NullFit fit(Draggy());
+  FittedModel model = fit.null;
+  SettleNoise(model, fit.Settings());
+  EXPECT_TRUE(model.settled);
+  fit.train[1].parameters.theta_td = 1.4;  // it falls
+  SettleNoise(model, fit.Settings());
+  EXPECT_FALSE(model.settled);
+}
+
 TEST(Refit, NeverCostsLikelihood) {
   const NullFit fit(Draggy());
   for (const std::string& name : testing::kSixEffects) {
