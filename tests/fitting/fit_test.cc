@@ -301,18 +301,17 @@ TEST(ParameterUncertainty, TheWiderIntervalIsOfNoiseOrOfTrials) {
 
 // Only what the data tell of values takes from what noise leaves; a prior is a row more.
 TEST(Uncertainty, CountsTheDegreesOfFreedomThatNoiseHas) {
-  const FitProblem two = MakeProblem(SmallDataset(), {.free = {"E", "d"}});
-  const std::vector<TrialProblem> trials = TrialsOf(two, TrialRole::kTrain);
-  const Eigen::VectorXd at = InitialShared(two);
+  const FitProblem seen = MakeProblem(SmallDataset(), {.free = {"E", "G", "d"}});
+  const std::vector<TrialProblem> trials = TrialsOf(seen, TrialRole::kTrain);
+  const Eigen::VectorXd at = InitialShared(seen);
   const std::vector<OwnValues> start = testing::NominalInitialStates(trials);
-  const double chi2_per_dof = AssessUncertainty(two, trials, at, start, {}, 1).chi2_per_dof;
+  const double chi2_per_dof = AssessUncertainty(seen, trials, at, start, {}, 1).chi2_per_dof;
 
-  // Twice the mass and twice all forces is the same motion.
-  const FitProblem three = MakeProblem(SmallDataset(), {.free = {"E", "d", "m"}});
-  Eigen::VectorXd more(3);
-  more << at, InitialShared(three)[2];
-  const Uncertainty undetermined = AssessUncertainty(three, trials, more, start, {}, 1);
-  ASSERT_EQ(undetermined.identifiability.rank, 2);
+  // Mass, modulus (both) and damping only occur as ratios.
+  const FitProblem more = MakeProblem(SmallDataset(), {.free = {"E", "G", "d", "m"}});
+  const Uncertainty undetermined =
+      AssessUncertainty(more, trials, InitialShared(more), start, {}, 1);
+  ASSERT_EQ(undetermined.identifiability.rank, 3);
   EXPECT_NEAR(undetermined.chi2_per_dof, chi2_per_dof, 1e-6 * chi2_per_dof);
 
   // A prior that is met adds a row and no square.
@@ -320,7 +319,7 @@ TEST(Uncertainty, CountsTheDegreesOfFreedomThatNoiseHas) {
   known[0].shared_priors.push_back({0, at[0], at[0]});
   double rows = 0.0;
   for (const TrialProblem& t : trials) rows += static_cast<double>(t.sample_count);
-  const double with = AssessUncertainty(two, known, at, start, {}, 1).chi2_per_dof;
+  const double with = AssessUncertainty(seen, known, at, start, {}, 1).chi2_per_dof;
   EXPECT_NEAR(chi2_per_dof / with - 1.0, 1.0 / rows, 0.2 / rows);
 }
 

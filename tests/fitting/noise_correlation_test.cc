@@ -138,7 +138,7 @@ TEST(NoiseCorrelation, HidesNoMisfit) {
   Dataset lossy = HopsWithAlikeNoise(3, 0.6);
   const Dataset sound = DatasetOf({.train = 6, .seed = 3, .sigma_m = 1e-9, .rate_hz = 200.0});
   const Dataset moved =
-      DatasetOf({.effects = {testing::EffectOfSize("touchdown_angle_bias", 0.005)},
+      DatasetOf({.effects = {testing::EffectOfSize("touchdown_angle_bias", 0.02)},
                  .train = 6,
                  .seed = 3,
                  .sigma_m = 1e-9,
@@ -152,8 +152,7 @@ TEST(NoiseCorrelation, HidesNoMisfit) {
         values[row] += with[row] - without[row];
     }
   const Diagnosis d = Diagnose(lossy, testing::OptionsWith({"touchdown_angle_bias", "air_drag"}));
-  EXPECT_GT(MisfitOverNoise(d.detection), 0.1);
-  EXPECT_LT(MisfitOverNoise(d.detection), 3.0);
+  EXPECT_GT(MisfitOverNoise(d.detection), 0.3);
   ASSERT_TRUE(d.extension);
   EXPECT_GT(d.extension->explained, 0.8);
   EXPECT_LT(d.extension->explained, 1.0);
