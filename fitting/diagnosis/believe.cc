@@ -16,6 +16,7 @@ constexpr double kPlainRarity = 3.0;  // trials that differ this plainly differ
 // of half a per cent is certain, too, where rows are many, and says nothing.
 constexpr double kUnlikeSizes = 0.5;
 
+double GapFeature(double nats) { return std::log1p(std::clamp(nats, 0.0, kMostNatsOfGap)); }
 double Rarity(double p_value) { return -std::log10(std::max(p_value, kLeastChance)); }
 
 bool SomeMainIsLikely(const std::vector<CauseReport>& causes) {
@@ -35,6 +36,19 @@ double UnexplainedShare(const ExtensionReport& report, const Detection& seen) {
 double MostBelievable(double explained, double unexplained) {
   return unexplained > 0.0 ? std::max(explained, 0.0) / (std::max(explained, 0.0) + unexplained)
                            : 1.0;
+}
+
+double GroupProbability(const NameFeatures& f, const std::vector<WiderGroup>& wider,
+                        bool leaves_noise) {
+  double best = CalibratedProbability(f);
+  if (!leaves_noise) return best;
+  for (const WiderGroup& group : wider) {
+    NameFeatures as_part = f;
+    as_part.gap = GapFeature(group.gap);
+    as_part.group = group.others;
+    best = std::max(best, group.told * CalibratedProbability(as_part));
+  }
+  return best;
 }
 
 double Disagreement(std::span<const Heterogeneity> sizes, const Candidate& of) {
@@ -64,17 +78,18 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
   const double gain = best.evidence.log_z() - diagnosis.null.evidence.log_z();
   common.gain = std::log10(1.0 + std::max(gain, 0.0));
   const double unexplained = UnexplainedShare(report, diagnosis.detection);
+  const bool leaves_noise = !report.SomeRemains() && best.evidence.discrepancy_probability() < 0.5;
   common.others = std::min(static_cast<double>(best.members.size() - 1), kMostOthers);
   for (CauseReport& c : report.causes) {
     const std::size_t member = naming.MemberOf(c.candidate);
     NameFeatures& f = c.features = common;
-    f.gap = std::log1p(std::clamp(naming.gaps[member], 0.0, kMostNatsOfGap));
+    f.gap = GapFeature(naming.gaps[member]);
     f.group = static_cast<double>(naming.groups[member].size() - 1);
     const auto first = sizes.begin() + best.PlaceOf(static_cast<int>(member));
     c.sizes.assign(first, first + c.cause.parameter_count());
     f.heterogeneity = Disagreement(c.sizes, c.cause);
-    c.group_probability =
-        std::min(CalibratedProbability(f), MostBelievable(report.OfMisfit(c.share), unexplained));
+    c.group_probability = std::min(GroupProbability(f, naming.wider[member], leaves_noise),
+                                   MostBelievable(report.OfMisfit(c.share), unexplained));
     c.probability = c.group_probability * naming.group_weights[member].front();
   }
 }

@@ -17,6 +17,13 @@ double Disagreement(std::span<const Heterogeneity> sizes, const Candidate& of);
 /// a small corner of an error of the model that some cause fits, without any of it being there.
 double MostBelievable(double explained, double unexplained);
 
+/// The probability that one of a told group is right, by what is seen of it (`f`): as that group,
+/// or, where what is left looks like noise, as part of a wider one. What does a little worse in a
+/// name's place makes its gap small, as that of a name that hardly explains anything is; but where
+/// the model lacks nothing else, evidence alone tells the two names apart.
+double GroupProbability(const NameFeatures& f, const std::vector<WiderGroup>& wider,
+                        bool leaves_noise);
+
 /// How sure each name of `report` is, by what cases that looked like it turned out to be
 /// (NameFeatures). `sizes`: of the shared values of the extension.
 void Believe(ExtensionReport& report, const Diagnosis& diagnosis,

@@ -50,8 +50,8 @@ std::string_view NameOf(CandidateStatus status);
 struct CandidateResult {
   Candidate candidate;
   Score score;  // at the null fit
-  /// Noncentrality of a typical size (PowerOf): at the null fit, or beside the accepted extension of
-  /// what is not in it and does not do as well as a member.
+  /// Noncentrality of a typical size (PowerOf): at the null fit, or beside the accepted extension
+  /// of what is not in it and does not do as well as a member.
   double power = 0.0;
   bool separable = false;      // some of it can be told from the fitted values
   bool has_threshold = false;  // no slope at null tells of it: it is tried at a few sizes
@@ -63,6 +63,13 @@ struct CandidateResult {
   /// 95 % bound of |value| per parameter if added to the accepted extension, own units (linear);
   /// NaN where it cannot be told or is a member.
   Eigen::VectorXd bound95;
+};
+
+/// A group of names that do as well in one place, with further ones that do nearly as well.
+struct WiderGroup {
+  double told = 1.0;    // posterior weight of the group in it
+  double gap = 0.0;     // to the best model without any of it [nats]
+  double others = 0.0;  // names beside the first
 };
 
 /// The search for the effects a model lacks.
@@ -80,6 +87,8 @@ struct Naming {
   /// best model without any of it [nats].
   std::vector<std::vector<double>> group_weights;
   std::vector<double> gaps;
+  /// The same of each group with those that come next, one after another.
+  std::vector<std::vector<WiderGroup>> wider;
   /// One a member of `best`: the model without it, settled.
   std::vector<FittedModel> without;
   /// Settled models with their posterior weight, the best first, down to 1e-4 of it.

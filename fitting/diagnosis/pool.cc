@@ -96,7 +96,7 @@ std::optional<int> ShowsBeside(const Naming& naming, int i) {
 }
 
 std::vector<int> AlikeTo(const Ranking& without, const Ranking& whole) {
-  constexpr double kOfOneKind = 0.05;  // a correlation of 0.975
+  constexpr double kOfOneKind = 0.2;  // a correlation of 0.9
   std::vector<std::pair<double, int>> alike;
   for (const Promise& beside : whole) {
     const auto alone = std::find_if(without.begin(), without.end(),

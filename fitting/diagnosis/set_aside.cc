@@ -76,6 +76,7 @@ bool TakeOut(const std::vector<SetAside>& members, const FitProblem& null_proble
   Erase(naming.rivals, places);
   Erase(naming.group_weights, places);
   Erase(naming.gaps, places);
+  Erase(naming.wider, places);
   Erase(naming.without, places);
   std::vector<FittedModel*> others;
   for (FittedModel& without : naming.without) others.push_back(&without);
@@ -112,6 +113,7 @@ void TakeAllOut(const std::vector<SetAside>& members, const FittedModel& null, N
   naming.rivals.clear();
   naming.group_weights.clear();
   naming.gaps.clear();
+  naming.wider.clear();
   naming.without.clear();
 }
 

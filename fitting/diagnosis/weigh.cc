@@ -28,7 +28,7 @@ double GapOf(const CandidateSet& set, const std::vector<int>& group, const Refit
 }  // namespace
 
 void FindGroups(const CandidateSet& set, const Refits& refits, Naming& naming) {
-  constexpr double kHeld = 0.95;
+  constexpr double kHeld = 0.95, kMostNatsBehind = 20.0;
   for (const int member : set) {
     CandidateSet less = set;
     less.erase(std::find(less.begin(), less.end(), member));
@@ -45,14 +45,25 @@ void FindGroups(const CandidateSet& set, const Refits& refits, Naming& naming) {
     std::vector<int> group;
     std::vector<double> weights;
     std::vector<FittedModel> rivals;
+    std::vector<WiderGroup> wider;
+    std::vector<int> with_next;
+    double held_with_next = 0.0;
     for (const auto& [worth, i] : place) {
-      if (held >= kHeld * whole) break;
+      if (worth < refits.Worth(set) - kMostNatsBehind) break;
+      with_next.push_back(i);
+      held_with_next += std::exp(worth - refits.Worth(set));
+      if (held >= kHeld * whole) {
+        wider.push_back({held / held_with_next, GapOf(set, with_next, refits, naming),
+                         static_cast<double>(with_next.size() - 1)});
+        continue;
+      }
       group.push_back(i);
       weights.push_back(std::exp(worth - refits.Worth(set)));
       rivals.push_back(refits.At(With(less, i)));
       held += weights.back();
     }
     for (double& w : weights) w /= held;
+    naming.wider.push_back(std::move(wider));
     naming.gaps.push_back(GapOf(set, group, refits, naming));
     naming.groups.push_back(std::move(group));
     naming.rivals.push_back(std::move(rivals));

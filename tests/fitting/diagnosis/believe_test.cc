@@ -45,6 +45,21 @@ TEST(Disagreement, OfSeveralParametersIsMeasuredAgainstTheLargest) {
               1e-12);
 }
 
+// A clock that does what a cause does, four nats worse, beside a model that lacks nothing else.
+TEST(Believe, ARivalThatIsBehindDoesNotMakeANameUnlikelyWhereOnlyNoiseIsLeft) {
+  NameFeatures f;
+  f.gap = std::log1p(4.0);
+  f.gain = 3.0;
+  f.others = 1.0;
+  const std::vector<WiderGroup> wider = {{.told = 0.98, .gap = 2000.0, .others = 1.0}};
+  const double alone = GroupProbability(f, {}, true);
+  EXPECT_EQ(alone, CalibratedProbability(f));
+  EXPECT_LT(alone, 0.3);
+  EXPECT_EQ(GroupProbability(f, wider, false), alone);
+  EXPECT_GT(GroupProbability(f, wider, true), 0.9);
+  EXPECT_LE(GroupProbability(f, wider, true), 0.98);
+}
+
 // A search finds a corner of the model's error that some cause fits.
 TEST(Believe, NoNameIsLikelierThanWhatItExplainsAgainstWhatNothingExplains) {
   EXPECT_NEAR(MostBelievable(0.03, 0.97), 0.03, 1e-12);

@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "fitting/diagnosis/diagnosis.h"
+#include "fitting/diagnosis/verdict.h"
 #include "tests/support/diagnosis_cases.h"
 #include "tests/support/moving_air.h"
 
@@ -17,7 +18,7 @@ namespace {
 
 constexpr double kDrag = 4e-4;  // N s^2/m^2, of a table-tennis ball
 
-Dataset BallsIn(double wind, double drag = kDrag, double air = 0.0) {
+Dataset BallsIn(double wind, double drag = kDrag, double density = 0.0) {
   Dataset d = testing::MakeExactDataset(Law::kBall);
   std::uint64_t stream = 0;
   for (Trial& t : d.trials) {
@@ -26,7 +27,8 @@ Dataset BallsIn(double wind, double drag = kDrag, double air = 0.0) {
         .wind = wind,
         .mass = t.mechanism.body_mass_kg,
         .g = t.mechanism.gravity_m_per_s2,
-        .displaced = air * std::pow(t.mechanism.ball.radius_m, 3) * 4.0 / 3.0 * std::numbers::pi};
+        .displaced =
+            density * std::pow(t.mechanism.ball.radius_m, 3) * 4.0 / 3.0 * std::numbers::pi};
     const StateSpec& start = *t.initial;
     const std::vector<testing::BallInMovingAir::State> states =
         air.At(t.trace.time_s, {start.x_m, start.y_m, start.vx_m_per_s, start.vy_m_per_s});
@@ -80,6 +82,29 @@ TEST(DisplacedAir, IsNamedBesideTheDragAndNoClock) {
   EXPECT_NEAR(d.naming.best.ValuesOf(0)[0], kDrag, 0.05 * kDrag);
   EXPECT_NEAR(d.naming.best.ValuesOf(1)[0], 1.0, 0.15);
   for (const CauseReport& c : d.extension->causes) EXPECT_GT(c.probability, 0.9);
+}
+
+// A camera that is rolled by two degrees: a slope of the ground moves balls nearly so.
+TEST(Look, ARolledCameraIsToldWhereASlopeWouldDo) {
+  Dataset d = BallsIn(0.0);
+  const double c = std::cos(0.035), s = std::sin(0.035);
+  for (Trial& t : d.trials) {
+    std::vector<double>&x = t.trace.columns[0].values, &y = t.trace.columns[1].values;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double along = x[i], up = y[i];
+      x[i] = c * along + s * up;
+      y[i] = c * up - s * along;
+    }
+  }
+  const Diagnosis told = Diagnose(d, {});
+  EXPECT_TRUE(NamesSomething(told)) << told.reason;
+  bool with_roll = false;
+  for (const std::vector<int>& group : told.naming.groups)
+    for (const int i : group)
+      with_roll =
+          with_roll ||
+          told.naming.candidates[static_cast<std::size_t>(i)].candidate.Name() == "camera_roll";
+  EXPECT_TRUE(with_roll);
 }
 
 }  // namespace
