@@ -137,12 +137,11 @@ TEST(NoiseCorrelation, LeavesASquareOfItsOwn) {
 TEST(NoiseCorrelation, HidesNoMisfit) {
   Dataset lossy = HopsWithAlikeNoise(3, 0.6);
   const Dataset sound = DatasetOf({.train = 6, .seed = 3, .sigma_m = 1e-9, .rate_hz = 200.0});
-  const Dataset moved =
-      DatasetOf({.effects = {testing::EffectOfSize("touchdown_angle_bias", 0.02)},
-                 .train = 6,
-                 .seed = 3,
-                 .sigma_m = 1e-9,
-                 .rate_hz = 200.0});
+  const Dataset moved = DatasetOf({.effects = {testing::EffectOfSize("touchdown_angle_bias", 0.02)},
+                                   .train = 6,
+                                   .seed = 3,
+                                   .sigma_m = 1e-9,
+                                   .rate_hz = 200.0});
   for (std::size_t i = 0; i < lossy.trials.size(); ++i)
     for (std::size_t c = 0; c < lossy.trials[i].trace.columns.size(); ++c) {
       std::vector<double>& values = lossy.trials[i].trace.columns[c].values;
