@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "base/units.h"
 #include "fitting/diagnosis/diagnosis.h"
 #include "tests/support/diagnosis_cases.h"
 #include "tests/support/moving_air.h"
@@ -63,6 +64,54 @@ TEST(Balls, ThatDoNotBounceSayNothingOfABounce) {
     const SharedParameter& s = d.problem.shared[static_cast<std::size_t>(k)];
     EXPECT_EQ(d.naming.best.shared[k], s.initial) << s.name;
   }
+}
+
+// Balls that stay on the ground for `contact` [s] at each bounce, half a sine deep; parabolas
+// between.
+Dataset BallsOnTheGroundFor(double contact) {
+  Dataset d = testing::MakeExactDataset(Law::kBall);
+  std::uint64_t stream = 0;
+  for (Trial& t : d.trials) {
+    const BallSpec& ball = t.mechanism.ball;
+    const double g = t.mechanism.gravity_m_per_s2;
+    double begin = 0.0, x = t.initial->x_m, y = t.initial->y_m;
+    double vx = t.initial->vx_m_per_s, vy = t.initial->vy_m_per_s;
+    RandomStream noise(/*seed=*/7, ++stream);
+    for (std::size_t i = 0; i < t.trace.time_s.size(); ++i) {
+      const double speed = std::sqrt(vy * vy + 2.0 * g * (y - ball.radius_m));
+      const double lands = (vy + speed) / g, on_ground = vx * (1.0 - 0.5 * ball.tangential_loss);
+      const double since = t.trace.time_s[i] - begin, after = since - lands;
+      if (after > contact) {
+        x += vx * lands + on_ground * contact;
+        y = ball.radius_m;
+        vx *= 1.0 - ball.tangential_loss;
+        vy = ball.restitution * speed;
+        begin += lands + contact;
+        --i;  // the same row in the next flight
+        continue;
+      }
+      const double at_x = after < 0.0 ? x + vx * since : x + vx * lands + on_ground * after;
+      const double at_y =
+          after < 0.0 ? y + since * (vy - 0.5 * g * since)
+                      : ball.radius_m - speed * contact / kPi * std::sin(kPi * after / contact);
+      t.trace.columns[0].values[i] = at_x + 0.0007 * noise.Normal();
+      t.trace.columns[1].values[i] = at_y + 0.0007 * noise.Normal();
+    }
+  }
+  return d;
+}
+
+// It was told as the height of the ground.
+TEST(Balls, ThatGiveWayAreOnTheGroundForATime) {
+  const Diagnosis d = Diagnose(BallsOnTheGroundFor(0.004), {});
+  EXPECT_EQ(NameOf(d.verdict), "named") << d.reason;
+  ASSERT_EQ(NamesOf(d), std::vector<std::string>{"contact_time"});
+  EXPECT_NEAR(d.naming.best.ValuesOf(0)[0], 0.004, 1e-4);
+}
+
+TEST(Balls, ThatDoNotGiveWayHaveNoContactTime) {
+  const Diagnosis d = Diagnose(BallsOnTheGroundFor(0.0), {});
+  EXPECT_EQ(NameOf(d.verdict), "adequate") << d.reason;
 }
 
 }  // namespace
