@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hoplab {
 namespace {
@@ -71,20 +72,20 @@ class Column {
   bool IsSmooth() const {
     std::size_t off = 0, all = 0;
     for (std::size_t i = kBeside; i < s_.size(); ++i, ++all)
-      if (IsOff(i, Before(i, kBeside), 0.0)) ++off;
+      if (IsOff(i, Before(i, kBeside), 0.0) && IsOffWithoutTwo(i)) ++off;
     return static_cast<double>(off) < kRough * static_cast<double>(all);
   }
 
   // Stray ones are seen once those beside them are known, too.
   void FindStray() {
     SetRemnants();
-    SetAtEnds();
     for (int pass = 0; pass < 3; ++pass) {
       bool found = false;
       FindEdges();
       for (std::size_t count = 1; count <= kLongest; ++count)
         for (std::size_t first = 1; first + count < s_.size(); ++first)
           found |= AreStray(first, count);
+      for (std::size_t i = 1; i + 1 < s_.size(); ++i) found |= IsStrayWhereMotionLeadsOn(i);
       if (!found) break;
     }
     SetOutermost();
@@ -163,6 +164,26 @@ class Column {
     return here >= least && here >= kOneSide * sigma_ * motion.Doubt(s_.t[i]);
   }
 
+  // Whether it is off the motion before it, of which the two worst samples are left out.
+  bool IsOffWithoutTwo(std::size_t i) const {
+    std::vector<std::size_t> side = Before(i, kBeside);
+    std::sort(side.begin(), side.end());
+    double least = std::numeric_limits<double>::infinity();
+    bool off = true;
+    for (std::size_t a = 0; a < side.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        std::vector<std::size_t> others = side;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(a));
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(b));
+        const LocalMotion motion(s_, others);
+        if (motion.spread() >= least) continue;
+        least = motion.spread();
+        off = std::abs(s_.y[i] - motion.At(s_.t[i])) >= kOneSide * sigma_ * motion.Doubt(s_.t[i]);
+      }
+    }
+    return off;
+  }
+
   // Where strays may begin and end: what is not off the motion on that side is no stray's edge.
   // Beside one that is stray already it has come about; near an end of the trace it is not asked.
   bool Begins(std::size_t i, double off) const {
@@ -236,12 +257,14 @@ class Column {
     const double off = std::abs(s_.y[i] - motion.At(s_.t[i]));
     if (IsFar(i, off - thrown, motion)) SetStray(i, i, off);
   }
-  // The sample beside the outermost one, where the motion leads on to that one: a blow goes on.
-  void SetAtEnds() {
-    const std::size_t n = s_.size();
-    if (n < kBeside + 2) return;
-    if (LeadsTo(0, After(1, kBeside))) SetIfFar(1, 1, After(1, kBeside));
-    if (LeadsTo(n - 1, Before(n - 2, kBeside))) SetIfFar(n - 2, n - 2, Before(n - 2, kBeside));
+  // A sample off the motion on one side of it, where that motion leads on to the next one: a blow
+  // goes on.
+  bool IsStrayWhereMotionLeadsOn(std::size_t i) {
+    if (stray_[i]) return false;
+    const std::vector<std::size_t> before = Before(i, kBeside), after = After(i, kBeside);
+    if (before.size() == kBeside && LeadsTo(i + 1, before)) SetIfFar(i, i, before);
+    if (!stray_[i] && after.size() == kBeside && LeadsTo(i - 1, after)) SetIfFar(i, i, after);
+    return stray_[i];
   }
   bool LeadsTo(std::size_t i, std::vector<std::size_t> side) const {
     std::sort(side.begin(), side.end());

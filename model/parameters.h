@@ -90,6 +90,7 @@ struct Parameters {
   T slope{0.0};                       // of the ground, uphill forward [rad]
   T inertia_x{0.0}, inertia_y{0.0};   // mass without weight per axis, in units of m [-]
   T torque_lag{0.0};                  // time constant of the hip torque [s]
+  T contact_time{0.0};                // that a ball spends on the ground at each bounce [s]
   T rest_length_step{0.0};            // growth of l0 at greatest compression [m]
   bool has_rest_length_step = false;  // greatest compression is an event
   // Added to those of the run's inputs, by their family (FamilyOf): delay [s], scale [-].

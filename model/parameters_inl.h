@@ -17,6 +17,7 @@ Parameters<To> ConvertParameters(const Parameters<From>& from) {
   to.inertia_x = To(Value(from.inertia_x));
   to.inertia_y = To(Value(from.inertia_y));
   to.torque_lag = To(Value(from.torque_lag));
+  to.contact_time = To(Value(from.contact_time));
   to.rest_length_step = To(Value(from.rest_length_step));
   to.has_rest_length_step = from.has_rest_length_step;
   const LawTerms<From>& terms = from.law_terms;

@@ -47,6 +47,7 @@ class Pipeline {
     if (Stopped()) return Finish();
     if (d_.detection.p_value <= kDetectionLevel) Name(candidates);
     if (Stopped()) return Finish();
+    RestateUnseen(train_, options_.fit.jobs, d_.naming.best);
     Stage("measuring on held-out trials");
     d_.before = MeasureHeldOut(d_.null, options_.fit.jobs);
     if (!d_.naming.best.members.empty()) Extended(candidates);

@@ -230,4 +230,17 @@ Linearisation LineariseAt(const FittedModel& model, std::span<const Candidate> t
   return out;
 }
 
+void RestateUnseen(const std::vector<TrialProblem>& train, int jobs, FittedModel& model) {
+  if (!model.ok()) return;
+  const auto at = [&](const Eigen::VectorXd& shared) {
+    return Linearise(model.problem, /*first_tested=*/0, train, shared, model.initial_states, jobs);
+  };
+  const Linearisation here = at(model.shared);
+  Eigen::VectorXd restated = model.shared;
+  for (Eigen::Index k = 0; k < restated.size() - model.parameter_count(); ++k)
+    if (here.length[k] == 0.0)
+      restated[k] = model.problem.shared[static_cast<std::size_t>(k)].initial;
+  if (restated != model.shared && at(restated).raw == here.raw) model.shared = restated;
+}
+
 }  // namespace hoplab

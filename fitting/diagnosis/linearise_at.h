@@ -16,4 +16,9 @@ namespace hoplab {
 Linearisation LineariseAt(const FittedModel& model, std::span<const Candidate> tested,
                           const std::vector<TrialProblem>& train, int jobs);
 
+/// Shared values that move nothing in any trial, such as what a ball loses at a bounce where none
+/// bounces, go back to their nominal values, where that leaves the fit as it is: a search of a
+/// smaller model may have left them anywhere. The members' values stay.
+void RestateUnseen(const std::vector<TrialProblem>& train, int jobs, FittedModel& model);
+
 }  // namespace hoplab

@@ -231,6 +231,18 @@ TEST(TraceFaults, SamplesThatStrayOneBesideTheOtherAreAllFound) {
   EXPECT_EQ(RowsOf(FindTraceFaults(dataset), Kind::kStray), expected);
 }
 
+// Close to one another, so that two are among the six that say how the ball moves, or just before
+// or after a bounce, where the motion on one side alone leads past it. Few rows, as of a film.
+TEST(TraceFaults, StraySamplesOfAShortFilmAreFoundInPairsAndBesideABounce) {
+  for (const Rows& off : {Rows{14, 16}, Rows{14, 15}, Rows{38}, Rows{39}, Rows{42}, Rows{43}}) {
+    const Path film{[](double t) { return Bouncing(t + 0.1); }, 0.002, 72, 0.0025};
+    Dataset dataset = Recorded(film);
+    EXPECT_TRUE(FindTraceFaults(dataset).empty());
+    for (const std::size_t row : off) Heights(dataset)[row] += 0.2;
+    EXPECT_EQ(RowsOf(FindTraceFaults(dataset), Kind::kStray), off) << off.front();
+  }
+}
+
 TEST(TraceFaults, AMarkerThatIsTakenForAnotherAndBackIsStray) {
   Dataset dataset = Recorded({});
   Rows expected;

@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
+#include "base/units.h"
 #include "tests/support/bouncing_ball.h"
+#include "tests/support/effect_requests.h"
+#include "tests/support/gradient_check.h"
 #include "tests/support/matrix_near.h"
 #include "tests/support/requests.h"
 
@@ -127,9 +131,76 @@ TEST(Ball, FallsSlowerByTheAirInItsPlace) {
   const std::array effects = {EffectSetting{FindEffect("displaced_air"), {1.0}}};
   q.effects = effects;
   const double air = 1.2 * 4.0 / 3.0 * std::numbers::pi * 8e-6 / 0.0027;  // over the ball's mass
-  const double fall = 0.5 * q.parameters.g * / (1.0 + 1.5 * air) * 0.81;
+  const double fall = 0.5 * q.parameters.g / (1.0 + 1.5 * air) * 0.81;
   EXPECT_NEAR(Simulate(q).final_state[1], 5.0 - fall, 1e-12);
   EXPECT_NEAR(air, 0.0149, 1e-4);
+}
+
+// M115: each bounce puts off what follows by the contact time, and x goes on meanwhile.
+TEST(Ball, AContactTimePutsOffEachFlight) {
+  constexpr double kContact = 0.004;
+  SimulationRequest q = TenBounces();
+  std::array effects = {EffectSetting::Null(*FindEffect("contact_time"))};
+  const std::array of_contact = {D::EffectParameter(0, 0)};
+  const std::array channels = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVx,
+                               Channel::kBodyVy};
+  q.effects = effects;
+  q.directions = of_contact;
+  q.channels = channels;
+  const B ball = ClosedFormOf(q);
+  const auto bounces = ball.Bounces(kBounces);
+  for (const double contact : {0.0, 5e-8, kContact}) {
+    effects[0].values[0] = contact;
+    q.horizon = static_cast<double>(bounces.back().time) + kBounces * contact;
+    std::vector<double> times;
+    for (int n = 1; n < kBounces; ++n)
+      times.push_back(0.3 * bounces[n - 1].time + 0.7 * bounces[n].time + n * contact);
+    q.row_times = times;
+    const Trajectory run = Simulate(q);
+    ASSERT_EQ(run.outcome, Outcome::kCompleted);
+    long double on_ground = 0.0L;  // how far it goes there, per time
+    for (int n = 1; n < kBounces; ++n) {
+      const long double share = 1.0L - ball.tangential_loss;
+      on_ground += std::pow(share, n - 1) * ball.vx * (1.0L + share) / 2.0L;
+      const std::size_t row = static_cast<std::size_t>(n - 1);
+      const auto free = ball.StateAt(times[row] - n * contact, n).z;
+      const std::array expected = {free[0] + contact * on_ground, free[1], free[2], free[3]};
+      const std::array slope = {on_ground - n * free[2], -n * free[3], 0.0L, n * ball.g};
+      for (std::size_t c = 0; c < 4; ++c) {
+        EXPECT_NEAR(run.samples[row * 4 + c], static_cast<double>(expected[c]), 1e-9) << c;
+        EXPECT_NEAR(run.sensitivities[row * 4 + c], static_cast<double>(slope[c]), 3e-6) << c;
+      }
+    }
+  }
+}
+
+TEST(Ball, OnTheGroundItGoesDownAndUpAgain) {
+  constexpr double kContact = 0.004;
+  SimulationRequest q = BallRequest();
+  const std::array effects = {Setting("contact_time", kContact)};
+  const std::array channels = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVy,
+                               Channel::kContact};
+  const B::Bounce bounce = ClosedFormOf(q).Bounces(1)[0];
+  std::vector<double> times;
+  for (int i = 1; i < 8; ++i)
+    times.push_back(static_cast<double>(bounce.time) + i * kContact / 8.0);
+  q.effects = effects;
+  q.channels = channels;
+  q.row_times = times;
+  const Trajectory run = Simulate(q);
+  const double speed = static_cast<double>(bounce.speed);
+  for (int i = 1; i < 8; ++i) {
+    const double* seen = &run.samples[static_cast<std::size_t>(i - 1) * 4];
+    EXPECT_NEAR(seen[0], static_cast<double>(bounce.position) + 0.95 * 0.7 * i * kContact / 8.0,
+                1e-9);
+    EXPECT_NEAR(seen[1], q.parameters.radius - speed * kContact / kPi * std::sin(kPi * i / 8.0),
+                1e-9);
+    EXPECT_NEAR(seen[2], -speed * std::cos(kPi * i / 8.0), 1e-7);
+    EXPECT_EQ(seen[3], 1.0);
+  }
+  q.channels = std::span(channels).first(3);
+  q.directions = kDirections;
+  for (const ColumnCheck& check : CheckGradient(q)) EXPECT_EQ(Complaint(check), "");
 }
 
 TEST(Ball, BouncesThatCrowdTogetherEndAtRest) {
@@ -145,6 +216,12 @@ TEST(Ball, BouncesThatCrowdTogetherEndAtRest) {
   // What is left when an interval is 1e-6 s: that times e/(1-e).
   EXPECT_LT(run.end_time, limit);
   EXPECT_NEAR(run.end_time, limit, 1e-5);
+  // With a contact time it stands longer than it flies, and rests as well.
+  const std::array effects = {Setting("contact_time", 0.001)};
+  q.effects = effects;
+  const Trajectory longer = Simulate(q);
+  EXPECT_EQ(longer.outcome, Outcome::kCameToRest);
+  EXPECT_NEAR(longer.end_time, run.end_time + 0.001 * (BouncesOf(run).size() - 1), 1e-9);
 }
 
 }  // namespace
