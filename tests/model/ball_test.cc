@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/units.h"
 #include "tests/support/bouncing_ball.h"
@@ -120,20 +119,6 @@ TEST(Ball, SampledRowsBetweenBouncesMatchTheClosedForm) {
                              kTenBounces));
     }
   }
-}
-
-TEST(Ball, FallsSlowerByTheAirInItsPlace) {
-  SimulationRequest q = BallRequest();
-  q.parameters.m = 0.0027;
-  q.parameters.radius = 0.02;
-  q.initial = {0.0, 5.0, 0.0, 0.0};
-  q.horizon = 0.9;
-  const std::array effects = {EffectSetting{FindEffect("displaced_air"), {1.0}}};
-  q.effects = effects;
-  const double air = 1.2 * 4.0 / 3.0 * std::numbers::pi * 8e-6 / 0.0027;  // over the ball's mass
-  const double fall = 0.5 * q.parameters.g / (1.0 + 1.5 * air) * 0.81;
-  EXPECT_NEAR(Simulate(q).final_state[1], 5.0 - fall, 1e-12);
-  EXPECT_NEAR(air, 0.0149, 1e-4);
 }
 
 // M115: each bounce puts off what follows by the contact time, and x goes on meanwhile.

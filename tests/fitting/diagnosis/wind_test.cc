@@ -1,9 +1,8 @@
-// Balls in air that moves, carries them and moves along, by a reference of their own.
+// Balls in moving air, by a reference of their own, and seen by a rolled camera.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -18,17 +17,14 @@ namespace {
 
 constexpr double kDrag = 4e-4;  // N s^2/m^2, of a table-tennis ball
 
-Dataset BallsIn(double wind, double drag = kDrag, double density = 0.0) {
+Dataset BallsIn(double wind, double drag = kDrag) {
   Dataset d = testing::MakeExactDataset(Law::kBall);
   std::uint64_t stream = 0;
   for (Trial& t : d.trials) {
-    const testing::BallInMovingAir air{
-        .drag = drag,
-        .wind = wind,
-        .mass = t.mechanism.body_mass_kg,
-        .g = t.mechanism.gravity_m_per_s2,
-        .displaced =
-            density * std::pow(t.mechanism.ball.radius_m, 3) * 4.0 / 3.0 * std::numbers::pi};
+    const testing::BallInMovingAir air{.drag = drag,
+                                       .wind = wind,
+                                       .mass = t.mechanism.body_mass_kg,
+                                       .g = t.mechanism.gravity_m_per_s2};
     const StateSpec& start = *t.initial;
     const std::vector<testing::BallInMovingAir::State> states =
         air.At(t.trace.time_s, {start.x_m, start.y_m, start.vx_m_per_s, start.vy_m_per_s});
@@ -70,18 +66,6 @@ TEST(Wind, IsExcludedWhereNothingPulls) {
   ASSERT_NE(wind, d.naming.candidates.end());
   EXPECT_EQ(wind->status, CandidateStatus::kExcluded);
   EXPECT_LT(wind->bound95[0], 0.5 * kDrag);  // half a metre a second, had it this drag
-}
-
-// A clock that is 1.1 % fast would do the same to the fall; how much air weighs is known.
-TEST(DisplacedAir, IsNamedBesideTheDragAndNoClock) {
-  const Diagnosis d = Diagnose(BallsIn(0.0, kDrag, 1.2), {});
-  EXPECT_EQ(NameOf(d.verdict), "named") << d.reason;
-  std::vector<std::string> names;
-  for (const Candidate& c : d.naming.best.members) names.push_back(c.Name());
-  ASSERT_EQ(names, (std::vector<std::string>{"air_drag", "displaced_air"}));
-  EXPECT_NEAR(d.naming.best.ValuesOf(0)[0], kDrag, 0.05 * kDrag);
-  EXPECT_NEAR(d.naming.best.ValuesOf(1)[0], 1.0, 0.15);
-  for (const CauseReport& c : d.extension->causes) EXPECT_GT(c.probability, 0.9);
 }
 
 // A camera that is rolled by two degrees: a slope of the ground moves balls nearly so.
