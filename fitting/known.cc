@@ -116,7 +116,6 @@ std::optional<EffectParameter> KnownCauses::Open(const Effect& effect, int param
   p.lower = std::max(p.lower, p.null - known->at_most);
   p.upper = std::min(p.upper, p.null + known->at_most);
   p.typical = std::clamp(p.typical, -known->at_most, known->at_most);
-  p.known_share = 0.0;  // that size is the user's to say
   return p;
 }
 

@@ -29,8 +29,6 @@ struct SharedParameter {
   std::string only_recording = {};
   /// Small sizes change nothing (EffectInfo::has_threshold).
   bool has_threshold = false;
-  /// EffectParameter::known_share.
-  double known_share = 0.0;
 };
 
 /// A value one trial has of its own, to be fitted beside the shared ones: a component of its start,

@@ -196,8 +196,7 @@ class SharedBuilder {
                                problem_.effects[index].values[component],
                                std::abs(info->typical),
                                {},
-                               effect.info.has_threshold,
-                               info->known_share});
+                               effect.info.has_threshold});
   }
 
   void AddOfMechanism(const std::string& name, const std::string& place) {

@@ -32,7 +32,8 @@ constexpr std::array kWrittenInMjcf = {"leg_material_damping",   "leg_mass",
                                        "rest_radius_scale",      "body_mass_scale",
                                        "gravity_scale",          "higher_order_bending",
                                        "second_order_bending",   "torque_bending",
-                                       "tip_rotation",           "rolling_law"};
+                                       "tip_rotation",           "rolling_law",
+                                       "sole_thickness"};
 // They change the leg itself, and a chain of arcs on linear hinges cannot show them.
 constexpr std::array kOfTheLeg = {"leg_hardening",   "leg_hysteresis", "leg_quadratic_damping",
                                   "stiffness_drift", "foot_slip",      "ground_compliance",
@@ -133,7 +134,8 @@ std::string WithoutDashes(std::string text) {
 }
 
 std::string ArcBodies(const Beam& beam) {
-  const double turn = kPi / beam.arcs, r = beam.p.r, foot = kFootRadius * r;
+  const double turn = kPi / beam.arcs, r = beam.p.r;
+  const double feet_at = r + beam.p.law_terms.sole - kFootRadius * r;  // M113
   const double mass = beam.leg_mass / beam.arcs;
   // A thin rod's.
   const double inertia = mass * beam.length * beam.length / 12.0;
@@ -151,7 +153,7 @@ std::string ArcBodies(const Beam& beam) {
                         indent, N(middle[0] - begin[0]), N(middle[1] - begin[1]), N(mass),
                         N(inertia), N(inertia), N(inertia));
     for (int k = 0; k < feet; ++k) {
-      const std::array<double, 2> at = beam.At((i + (k + 0.5) / feet) * turn, r - foot);
+      const std::array<double, 2> at = beam.At((i + (k + 0.5) / feet) * turn, feet_at);
       text += fmt::format("{}  <geom class=\"foot\" pos=\"{} 0 {}\"/>\n", indent,
                           N(at[0] - begin[0]), N(at[1] - begin[1]));
     }

@@ -142,8 +142,7 @@ FitProblem Extend(const FitProblem& problem, std::span<const Candidate> candidat
       extended.shared.push_back(
           {std::string(c.effect->info.name) + "." + std::string(p.name) + suffix,
            std::string(p.unit), SensitivityDirection::EffectParameter(index, place), p.lower,
-           p.upper, p.null, std::abs(p.typical), c.only_recording, c.effect->info.has_threshold,
-           p.known_share});
+           p.upper, p.null, std::abs(p.typical), c.only_recording, c.effect->info.has_threshold});
     }
   }
   return extended;

@@ -64,7 +64,7 @@ class Pipeline {
     const std::vector<Candidate> candidates = CandidatesOf(d_.problem, options_.candidates);
     Accept(Retold(*d_.extension, candidates, d_.set_aside));
     d_.free_forces.reset();
-    std::erase_if(d_.notes, TellsOwnSizes);
+    std::erase(d_.notes, std::exchange(d_.own_sizes, {}));
     return Judged();
   }
 
@@ -252,8 +252,9 @@ class Pipeline {
         BestOwnSizes(LinearisedAt(d_.plain, candidates), candidates, train_);
     std::optional<OwnSizes> beside = OwnSizesBesideLargest(candidates);
     if (beside && !(own && own->explained >= beside->explained)) own = std::move(beside);
-    if (own && !(d_.extension && d_.extension->explained >= own->explained))
-      d_.notes.push_back(TextOf(*own, train_));
+    if (!own || (d_.extension && d_.extension->explained >= own->explained)) return;
+    d_.own_sizes = TextOf(*own, train_);
+    d_.notes.push_back(d_.own_sizes);
   }
 
   // The same, beside the told cause that explains most in all trials.

@@ -186,6 +186,7 @@ struct Diagnosis {
   std::vector<double> noise_squares;  // DatasetFit::noise_squares
   std::vector<std::string> warnings;  // DataWarnings
   std::vector<std::string> notes;     // what was decided on the way
+  std::string own_sizes;  // the one of `notes` about sizes of each trial's own; or empty
   FitResult fit;
   Gate gate;
   /// Why there is no diagnosis; empty if there is one.

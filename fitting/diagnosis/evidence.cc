@@ -30,8 +30,8 @@ std::vector<ValuePrior> PriorsOf(const FitProblem& problem, const Eigen::VectorX
   std::vector<ValuePrior> priors;
   for (int k = 0; k < problem.shared_count(); ++k) {
     const SharedParameter& s = problem.shared[static_cast<std::size_t>(k)];
-    priors.push_back({SizeOf(s, shared[k]), SizeOf(s, s.lower), SizeOf(s, s.upper),
-                      OneSidedRange(s), s.known_share});
+    priors.push_back(
+        {SizeOf(s, shared[k]), SizeOf(s, s.lower), SizeOf(s, s.upper), OneSidedRange(s)});
   }
   return priors;
 }

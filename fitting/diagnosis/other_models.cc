@@ -20,8 +20,7 @@ double LogOdds(const Candidate& candidate, const Score& score, const Eigen::Matr
                0.5 * std::log((2.0 * std::numbers::pi * covariance).determinant());
   for (int i = 0; i < candidate.parameter_count(); ++i) {
     const EffectParameter& p = candidate.Parameter(i);
-    sum += LogSizePrior(score.size[i] / p.typical, p.lower >= p.null || p.upper <= p.null,
-                        p.known_share) -
+    sum += LogSizePrior(score.size[i] / p.typical, p.lower >= p.null || p.upper <= p.null) -
            std::log(std::abs(p.typical));
   }
   return sum;

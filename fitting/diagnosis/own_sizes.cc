@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "base/text.h"
 #include "fitting/diagnosis/score.h"
@@ -18,8 +17,6 @@ constexpr std::size_t kShown = 8;
 constexpr double kUndetermined = 1e-3;
 // Causes whose shares differ by less do as well; the one of the more usual sizes is told.
 constexpr double kAlike = 0.01;
-
-constexpr std::string_view kOwnSizes = " of another size in each trial would explain ";
 
 // The candidate's column cut to each trial in turn, what the fitted values take of it projected
 // out.
@@ -77,12 +74,10 @@ std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Ca
   return best;
 }
 
-bool TellsOwnSizes(const std::string& note) { return note.find(kOwnSizes) != std::string::npos; }
-
 std::string TextOf(const OwnSizes& own, const std::vector<TrialProblem>& train) {
   const std::string name(own.cause.effect->info.name);
   const std::string with = own.beside.empty() ? "" : own.beside + " in all trials and ";
-  std::string text = with + name + std::string(kOwnSizes) +
+  std::string text = with + name + " of another size in each trial would explain " +
                      std::to_string(static_cast<int>(100.0 * own.explained)) +
                      " % of the misfit, to first order (";
   for (std::size_t i = 0; i < std::min(own.sizes.size(), kShown); ++i)

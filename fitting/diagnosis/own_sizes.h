@@ -28,7 +28,5 @@ std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Ca
 
 /// A sentence about them.
 std::string TextOf(const OwnSizes& own, const std::vector<TrialProblem>& train);
-/// Whether a note is such a sentence.
-bool TellsOwnSizes(const std::string& note);
 
 }  // namespace hoplab

@@ -81,17 +81,6 @@ struct Cut {
   }
 };
 
-// One normal density of a value's prior, in typical sizes.
-struct PriorPart {
-  double mean, width, log_share;
-};
-PriorPart PartOf(const ValuePrior& prior, std::size_t j) {
-  constexpr double kNever = -std::numeric_limits<double>::infinity();
-  if (prior.known_share > 0.0) return {1.0, prior.known_share, j == 0 ? 0.0 : kNever};
-  return {0.0, kPriorWidths[j],
-          (prior.one_sided ? std::log(2.0) : 0.0) - std::log(double{kPriorWidths.size()})};
-}
-
 // Its children: the piece times each normal density of a value's prior.
 struct Child {
   double log_weight, mean, variance;  // of the value
@@ -101,13 +90,12 @@ std::array<Child, kPriorWidths.size()> ChildrenOf(const Piece& piece, Eigen::Ind
   const double m = piece.mean[k], v = piece.covariance(k, k);
   std::array<Child, kPriorWidths.size()> children{};
   for (std::size_t j = 0; j < kPriorWidths.size(); ++j) {
-    const PriorPart part = PartOf(prior, j);
-    const double precision = 1.0 / (part.width * part.width) - kHold;
-    const double shrink = 1.0 / (1.0 + precision * v), off = m - part.mean;
-    const Cut cut(part.mean + shrink * off, shrink * v, prior.lower, prior.upper);
-    children[j] = {piece.log_weight + 0.5 * std::log(shrink) -
-                       0.5 * precision * shrink * off * off - std::log(part.width) - kLogRootTwoPi +
-                       part.log_share + cut.log_share,
+    const double w = kPriorWidths[j], precision = 1.0 / (w * w) - kHold;
+    const double shrink = 1.0 / (1.0 + precision * v);
+    const Cut cut(shrink * m, shrink * v, prior.lower, prior.upper);
+    children[j] = {piece.log_weight + 0.5 * std::log(shrink) - 0.5 * precision * shrink * m * m -
+                       std::log(w * kPriorWidths.size()) - kLogRootTwoPi +
+                       (prior.one_sided ? std::log(2.0) : 0.0) + cut.log_share,
                    cut.mean, cut.variance};
   }
   return children;
@@ -135,11 +123,7 @@ Piece Joined(Piece piece, Eigen::Index k, const std::array<Child, kPriorWidths.s
 
 }  // namespace
 
-double LogSizePrior(double u, bool one_sided, double known_share) {
-  if (known_share > 0.0) {
-    const double off = (u - 1.0) / known_share;
-    return -0.5 * off * off - kLogRootTwoPi - std::log(known_share);
-  }
+double LogSizePrior(double u, bool one_sided) {
   double density = 0.0;
   for (const double w : kPriorWidths)
     density += std::exp(-0.5 * (u / w) * (u / w) - kLogRootTwoPi) / w / kPriorWidths.size();

@@ -10,16 +10,14 @@ namespace hoplab {
 /// Logarithm of the density of a value that lies `u` of its typical sizes from the one that changes
 /// nothing: a mixture of normal densities of 0.03, 0.1, ... 30 typical sizes, so that neither a
 /// tenth nor ten times the typical size is a surprise. Twice that where only one side is possible.
-/// `known_share`: a normal density of that width about one typical size in its place; 0: none.
-double LogSizePrior(double u, bool one_sided, double known_share = 0.0);
+double LogSizePrior(double u, bool one_sided);
 
 /// What is believed of one shared value beforehand, in typical sizes from what changes nothing.
 struct ValuePrior {
   double at = 0.0;  // where it was linearised
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  bool one_sided = false;    // only one side of what changes nothing is possible
-  double known_share = 0.0;  // of LogSizePrior
+  bool one_sided = false;  // only one side of what changes nothing is possible
 };
 
 /// Logarithm of the integral of a linearised likelihood times the values' LogSizePrior between

@@ -31,8 +31,6 @@ struct EffectParameter {
   std::optional<ParameterId> adds_to = std::nullopt;
   /// It says how the effect's first parameter acts, and moves nothing while that is at its null.
   bool is_of_first = false;
-  /// Where the effect acts its size is the typical one, to within this share of it; 0: any size.
-  double known_share = 0.0;
 };
 
 struct EffectInfo {

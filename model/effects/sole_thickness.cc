@@ -15,11 +15,11 @@ struct SoleThickness {
           "the leg stands and rolls on a circle of r + h_sole and bends along one of r (M113)",
       .sentence =
           "the leg stands on a sole, or on its own outside: the ground lies further from its "
-          "middle "
-          "line, which bends, than the model has it",
+          "middle line, which bends, than the model has it",
       .for_legs = true,
       .for_ball = false,
       .dissipative = false,
+      .massless_leg_only = true,
       .parameters = kParameters,
       .only_laws = kLaws};
 

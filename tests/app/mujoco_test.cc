@@ -110,6 +110,17 @@ TEST_F(Mujoco, TheExportedLegHopsAsHoplabSays) {
   EXPECT_LT(rms[2], kBound);
 }
 
+// M113 beside a chain of arcs that stands 5 mm outside the line of its hinges.
+TEST_F(Mujoco, ALegOnASoleHopsAsHoplabSays) {
+  Fit({"--with", "leg_material_damping,leg_mass,sole_thickness", "--fix", "d=0", "--fix",
+       "sole_thickness.h_sole=0.005", "--fix", "leg_material_damping.tau=400e-6", "--fix",
+       "leg_mass.m_leg=0.01"});
+  const MujocoModel model = Export({});
+  ASSERT_TRUE(model);
+  std::printf("  on a sole of 5 mm:");
+  EXPECT_LT(Rms(*model), kBound);
+}
+
 // A leg that damps along its chord has no counterpart in a chain of arcs: the model says so, and
 // comes as near as the fit does to what it was fitted to.
 TEST_F(Mujoco, ADamperAlongTheChordIsToldAndReplaced) {

@@ -13,6 +13,7 @@ namespace hoplab::testing {
 struct BallInMovingAir {
   double drag, wind, mass, g;  // N s^2/m^2, m/s, kg, m/s^2
   double radius = 0.02, restitution = 0.85, tangential_loss = 0.1;
+  double friction = 0.0;  // of the ground on a ball that slides through its bounce
 
   using State = std::array<double, 4>;  // x, y [m], vx, vy [m/s]
 
@@ -55,6 +56,7 @@ struct BallInMovingAir {
     }
     State at = Heun(s, before);
     at[2] *= 1.0 - tangential_loss;
+    at[2] -= std::copysign(friction * (1.0 + restitution) * std::abs(at[3]), at[2]);
     at[3] *= -restitution;
     return Heun(at, h - before);
   }

@@ -24,14 +24,6 @@ TEST(LogSizePrior, IsADensity) {
   EXPECT_NEAR(LogSizePrior(1.7, true) - LogSizePrior(1.7, false), std::log(2.0), 1e-12);
 }
 
-TEST(LogSizePrior, IsADensityAboutASizeThatIsKnown) {
-  double sum = 0.0;
-  for (double u = 0.0; u < 2.0; u += 1e-3) sum += 1e-3 * std::exp(LogSizePrior(u, true, 0.1));
-  EXPECT_NEAR(sum, 1.0, 1e-9);
-  EXPECT_GT(LogSizePrior(1.0, true, 0.1) - LogSizePrior(1.0, true), 3.0);
-  EXPECT_LT(LogSizePrior(0.3, true, 0.1) - LogSizePrior(0.3, true), -20.0);
-}
-
 TEST(LogSizePrior, IsSurprisedNeitherByATenthNorByTenTimesTheTypicalSize) {
   // A normal density of one typical size would find ten of them e^-50 as likely.
   EXPECT_GT(LogSizePrior(10.0, false) - LogSizePrior(1.0, false), -5.0);

@@ -54,7 +54,7 @@ void ExpectQuadrature(double root, double rest, const ValuePrior& prior) {
   // Where its exponential stays within the range of doubles.
   const double most = log_likelihood(std::clamp(peak, prior.lower, prior.upper));
   const auto f = [&](double s) {
-    return std::exp(log_likelihood(s) - most + LogSizePrior(s, prior.one_sided, prior.known_share));
+    return std::exp(log_likelihood(s) - most + LogSizePrior(s, prior.one_sided));
   };
   const double exact = most + std::log(Quadrature(f, prior.lower, prior.upper, peak, 1.0 / root));
   EXPECT_NEAR(LogValueIntegral(OneValue(root, rest), {prior}), exact, 2e-3)
@@ -78,13 +78,6 @@ TEST(LogValueIntegral, OfAValueOnOneSideIsItsQuadrature) {
       ExpectQuadrature(root, rest, {0.2, 0.0, 100.0, true});
       ExpectQuadrature(root, -rest, {0.0, -100.0, 0.0, true});
     }
-  }
-}
-
-TEST(LogValueIntegral, OfAValueOfKnownSizeIsItsQuadrature) {
-  for (const double root : {0.1, 1.0, 10.0, 100.0}) {
-    for (const double rest : {-3.0, 0.0, 2.0})
-      ExpectQuadrature(root, rest, {0.9, 0.0, 2.0, true, 0.1});
   }
 }
 
