@@ -22,6 +22,7 @@ inline constexpr Range kMotorKp = NonNegative(1e6, "N m/rad");
 inline constexpr Range kMotorKd = NonNegative(1e6, "N m s/rad");
 // Balls.
 inline constexpr Range kFraction = NonNegative(1, "");
+inline constexpr Range kDensity = NonNegative(1e4, "kg/m^3");
 // The speed controller.
 inline constexpr Range kSpeedGain = NonNegative(1e6, "N s");
 inline constexpr Range kSpeed = Within(1e3, "m/s");

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/units.h"
+
 namespace hoplab {
 
 double TouchdownHeight(const MechanismSpec& mechanism, double touchdown_angle_rad) {
@@ -19,6 +21,15 @@ double TouchdownHeight(const MechanismSpec& mechanism, double touchdown_angle_ra
       break;  // each of its legs has its own
   }
   return std::nan("");
+}
+
+double FreeFall(const MechanismSpec& mechanism) {
+  const double g = mechanism.gravity_m_per_s2;
+  if (mechanism.type != MechanismKind::kBall) return g;
+  const BallSpec& ball = mechanism.ball;
+  const double air =
+      ball.air_density_kg_per_m3.value_or(0.0) * 4.0 / 3.0 * kPi * std::pow(ball.radius_m, 3);
+  return g / (1.0 + 1.5 * air / mechanism.body_mass_kg);
 }
 
 }  // namespace hoplab

@@ -35,11 +35,17 @@ struct StraightLegSpec {
   bool operator==(const StraightLegSpec&) const = default;
 };
 
+/// Of air at 20 degrees and sea level [kg/m^3].
+inline constexpr double kUsualAirDensity = 1.2;
+
 /// Bouncing ball: vy+ = - restitution vy-, vx+ = (1 - tangential_loss) vx-.
 struct BallSpec {
   double radius_m = 0;
   double restitution = 0;
   double tangential_loss = 0;
+  /// Of the air it displaces (M114); absent: none, or the usual one where its source says that it
+  /// was recorded.
+  std::optional<double> air_density_kg_per_m3 = std::nullopt;
   bool operator==(const BallSpec&) const = default;
 };
 
@@ -145,5 +151,8 @@ struct StateSpec {
 /// Height of the hip, or of the ball's centre, at which an undeformed leg at the touch-down angle
 /// meets flat ground [m]; the touch-down guards of the equation sheet.
 double TouchdownHeight(const MechanismSpec& mechanism, double touchdown_angle_rad);
+
+/// Acceleration of a body that falls freely; of a ball that of M114 [m/s^2].
+double FreeFall(const MechanismSpec& mechanism);
 
 }  // namespace hoplab

@@ -111,7 +111,7 @@ class DatasetReader {
     dataset_.title = root_.OptionalText("title");
     if (const auto source = root_.Optional("source")) ReadSource(*source);
     const YamlCursor mechanism = root_.Required("mechanism", "a block that begins with type");
-    dataset_.mechanism = ReadMechanism(mechanism);
+    dataset_.mechanism = InItsAir(ReadMechanism(mechanism));
     if (const auto controller = root_.Optional("controller"))
       dataset_.controller = ReadController(*controller);
     dataset_.channels = ReadChannels(
@@ -134,6 +134,14 @@ class DatasetReader {
     dataset_.source.by = source.OptionalText("by");
     dataset_.source.licence = source.OptionalText("licence");
     dataset_.source.note = source.OptionalText("note");
+  }
+
+  // A ball that was recorded flew in air.
+  MechanismSpec InItsAir(MechanismSpec mechanism) const {
+    std::optional<double>& air = mechanism.ball.air_density_kg_per_m3;
+    if (mechanism.type == MechanismKind::kBall && dataset_.source.kind == SourceKind::kRecorded)
+      air = air.value_or(kUsualAirDensity);
+    return mechanism;
   }
 
   // A list of files of formulas, in the dataset's folder, or of formulas themselves.
@@ -194,7 +202,8 @@ class DatasetReader {
     if (!names_.insert(trial.file).second)
       file.Fail("is the file of an earlier trial already", "Remove one of the two trials.");
     trial.role = ReadRole(item.Required("role", "train or test"));
-    trial.mechanism = ReadTrialMechanism(item, *root_.node().Find("mechanism"), dataset_.mechanism);
+    trial.mechanism =
+        InItsAir(ReadTrialMechanism(item, *root_.node().Find("mechanism"), dataset_.mechanism));
     const YamlNode& root = root_.node();
     trial.inputs = ReadOver(item, "inputs", root.Find("inputs"), ReadInputs).value_or(Inputs());
     ReadTouchdownAngles(item, trial);

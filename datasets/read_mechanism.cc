@@ -29,7 +29,8 @@ const Names& LegKeys(MechanismKind type) {
       "second_moment_m4", "area_m2", "shear_factor", "damping_N_s_per_m", "variant"};
   static const Names kStraight = {"rest_length_m", "stiffness_N_per_m", "damping_N_s_per_m",
                                   "variant"};
-  static const Names kBall = {"radius_m", "restitution", "tangential_loss"};
+  static const Names kBall = {"radius_m", "restitution", "tangential_loss",
+                              "air_density_kg_per_m3"};
   return type == MechanismKind::kCLeg ? kCLeg : type == MechanismKind::kBall ? kBall : kStraight;
 }
 
@@ -101,6 +102,7 @@ BallSpec ReadBall(const YamlCursor& cursor) {
   ball.radius_m = cursor.RequiredNumber("radius_m", stated::kLength);
   ball.restitution = cursor.RequiredNumber("restitution", stated::kFraction);
   ball.tangential_loss = cursor.RequiredNumber("tangential_loss", stated::kFraction);
+  ball.air_density_kg_per_m3 = cursor.OptionalNumber("air_density_kg_per_m3", stated::kDensity);
   return ball;
 }
 

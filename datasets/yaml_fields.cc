@@ -128,6 +128,7 @@ YamlFields MechanismFields(const MechanismSpec& m) {
     fields.push_back({"ball", "radius_m", FormatDouble(m.ball.radius_m)});
     fields.push_back({"ball", "restitution", FormatDouble(m.ball.restitution)});
     fields.push_back({"ball", "tangential_loss", FormatDouble(m.ball.tangential_loss)});
+    AddOptional(&fields, "ball", "air_density_kg_per_m3", m.ball.air_density_kg_per_m3);
     return fields;
   }
   if (m.type == MechanismKind::kRobot) {

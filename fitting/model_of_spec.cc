@@ -96,6 +96,7 @@ Parameters<double> ParametersOfSpec(const MechanismSpec& mechanism,
       p.radius = mechanism.ball.radius_m;
       p.restitution = mechanism.ball.restitution;
       p.tangential_loss = mechanism.ball.tangential_loss;
+      p.air_density = mechanism.ball.air_density_kg_per_m3.value_or(0.0);
       break;
     case MechanismKind::kRobot:
       if (mechanism.robot.straight_legs) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/check.h"
 #include "base/input_error.h"
@@ -33,6 +34,7 @@ class Builder {
                                  ParametersOfSpec(dataset_.mechanism, std::nullopt, 0.0));
     if (const std::string known = problem_.known.Text(); !known.empty())
       problem_.notes.push_back("known of the set-up: " + known);
+    NoteDisplacedAir();
     AddTrials();
     AddChannels();
     FillTrials();
@@ -47,6 +49,18 @@ class Builder {
   }
 
  private:
+  void NoteDisplacedAir() {
+    const MechanismSpec& m = dataset_.mechanism;
+    const double slower = 1.0 - FreeFall(m) / m.gravity_m_per_s2;
+    if (slower < 1e-3) return;
+    char note[160];
+    std::snprintf(note, sizeof note,
+                  "the air that the ball displaces makes it fall %.1f %% slower, as modelled "
+                  "(ball.air_density_kg_per_m3 is %g)",
+                  100.0 * slower, *m.ball.air_density_kg_per_m3);
+    problem_.notes.emplace_back(note);
+  }
+
   void AddTrials() {
     for (const Trial& trial : dataset_.trials) {
       TrialProblem t;

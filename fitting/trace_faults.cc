@@ -65,7 +65,7 @@ void FindEnds(const Trial& trial, std::size_t place, const ChannelSpec& channel,
   const double noise = HighFrequencyNoise(s.t, s.y);
   if (std::isnan(noise)) return;
   const double sigma = std::max({noise, channel.sigma.value_or(0.0), kLeastNoise_m});
-  const double g = trial.mechanism.gravity_m_per_s2;
+  const double g = FreeFall(trial.mechanism);
   const bool in_flight = !trial.initial || trial.initial->mode == StartMode::kFlight;
   std::size_t begins = 0;
   if (const auto release = in_flight ? FindRelease(s, sigma, g) : std::nullopt) {
@@ -187,7 +187,7 @@ double MovedBefore(const Release& release, const Trial& trial) {
 // fallen since.
 void MoveStart(const Release& release, double since, double moved_m, Trial& trial) {
   if (!trial.initial) return;
-  const double g = trial.mechanism.gravity_m_per_s2;
+  const double g = FreeFall(trial.mechanism);
   StateSpec& start = *trial.initial;
   start.x_m += moved_m + start.vx_m_per_s * since;
   start.y_m += release.rise_m + start.vy_m_per_s * since - 0.5 * g * since * since;

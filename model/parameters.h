@@ -105,6 +105,7 @@ struct Parameters {
   bool on_guide = false;                                          // a vertical guide holds x
   /// Leg angle of the first touch-down [rad], M47; NaN: theta_td.
   double start_angle = std::numeric_limits<double>::quiet_NaN();
+  double air_density = 0.0;  // of the air that a ball displaces [kg/m^3]
   double time_origin = 0.0;  // time of the run's start since the trial's first row [s]
 };
 

@@ -50,6 +50,7 @@ Parameters<To> ConvertParameters(const Parameters<From>& from) {
   }
   to.on_guide = from.on_guide;
   to.reading = from.reading;
+  to.air_density = from.air_density;
   to.time_origin = from.time_origin;
   to.torque_limit = from.torque_limit;
   to.fall_height = from.fall_height;

@@ -129,8 +129,10 @@ Json MechanismRecord(const SimulationRequest& request) {
   for (const ParameterId id : ParametersOf(mechanism))
     if (IsOfLegs(id, request.parameters))
       parameters[std::string(InfoOf(id).name)] = NumberOrNull(Field(request.parameters, id));
-  if (mechanism == MechanismKind::kBall)
+  if (mechanism == MechanismKind::kBall) {
     parameters["radius"] = NumberOrNull(request.parameters.radius);
+    parameters["air_density"] = NumberOrNull(request.parameters.air_density);
+  }
   if (request.parameters.m_toe > 0.0) {
     for (const ParameterId id : ToeParameters())
       parameters[std::string(InfoOf(id).name)] = NumberOrNull(Field(request.parameters, id));

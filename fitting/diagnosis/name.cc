@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "fitting/diagnosis/candidate_status.h"
@@ -29,8 +30,9 @@ constexpr double kLeastShare = 1e-3, kLeastPerSample = 0.01;
 // of play in a gear beside a soft leg.)
 constexpr double kMuch = 5e-3;
 constexpr int kJoin = 3;
-// A cause in one trial that promises this share of what a set leaves is looked at beside it.
-constexpr double kMostOfWhatIsLeft = 0.5;
+// A cause in one trial that promises this share of what a set leaves, or so many times what an
+// average trial leaves, is looked at beside it.
+constexpr double kMostOfWhatIsLeft = 0.5, kTimesAnAverageTrial = 2.5;
 // A set that leaves less than this share explains the data by and large.
 constexpr double kLittle = 0.1;
 // Rounds in which a set is put in order; each but the last changes it.
@@ -121,9 +123,17 @@ class Search {
     const std::vector<int> places = PlacesBeside(naming_, set, given_);
     const Linearisation at =
         LineariseAt(refits_.White(set), CandidatesAt(naming_, places), train_, options_.jobs);
-    if (!AddInOneTrial(naming_, at, places, train_, kMostOfWhatIsLeft * Left(set))) return set;
+    if (!AddInOneTrial(naming_, at, places, train_, StandsOut() * Left(set))) return set;
     rankings_.Clear();
     return Grown(set);
+  }
+
+  // The share of what is left by which one trial stands out.
+  double StandsOut() const {
+    std::set<std::string> recordings;
+    for (const TrialProblem& t : train_) recordings.insert(t.recording);
+    return std::min(kMostOfWhatIsLeft,
+                    kTimesAnAverageTrial / static_cast<double>(recordings.size()));
   }
 
   // A set whose members are each needed, by small steps, too.

@@ -11,6 +11,18 @@
 
 namespace hoplab {
 
+/// The air that a ball displaces carries it, and half as much moves along (M114). A ball is weighed
+/// in air, so both act like mass without weight.
+template <class T>
+Parameters<T> WithDisplacedAir(Parameters<T> p) {
+  if (p.air_density == 0.0) return p;
+  const T air = (p.air_density * 4.0 / 3.0 * kPi) * (p.radius * p.radius * p.radius);
+  const T share = 1.5 * air / p.m;
+  p.inertia_x += share;
+  p.inertia_y += share;
+  return p;
+}
+
 /// A ball: ballistic flight, and at each bounce vy+ = -restitution vy-,
 /// vx+ = (1 - tangential_loss) vx-. State: x, y, vx, vy of its centre, on a slope in the frame of
 /// the ground. One mode. With a contact time it stays on the ground for that long (M115): y goes
@@ -24,7 +36,7 @@ class Ball final : public HybridSystem<T> {
   static constexpr double kShortestContact = 1e-7;
 
   explicit Ball(const MechanismSetup<T>& setup)
-      : p_(setup.parameters),
+      : p_(WithDisplacedAir(setup.parameters)),
         effects_(setup.effects),
         inertia_(p_),
         inputs_(setup.inputs),

@@ -35,5 +35,18 @@ TEST(TouchdownHeight, OfABallIsItsRadius) {
   EXPECT_EQ(TouchdownHeight(mechanism, 0), 0.02);
 }
 
+TEST(FreeFall, OfALightBallIsSlowerInAir) {
+  MechanismSpec mechanism;
+  mechanism.type = MechanismKind::kBall;
+  mechanism.gravity_m_per_s2 = 9.81;
+  mechanism.body_mass_kg = 0.0027;
+  mechanism.ball.radius_m = 0.02;
+  EXPECT_EQ(FreeFall(mechanism), 9.81);
+  mechanism.ball.air_density_kg_per_m3 = 1.2;
+  EXPECT_NEAR(FreeFall(mechanism), 9.596, 1e-3);
+  mechanism.type = MechanismKind::kStraightLeg;
+  EXPECT_EQ(FreeFall(mechanism), 9.81);
+}
+
 }  // namespace
 }  // namespace hoplab

@@ -99,6 +99,31 @@ TEST(ReadDataset, ABallNeedsNoTouchdownAngle) {
   EXPECT_EQ(dataset.trials[0].touchdown_angle_rad, 0);
 }
 
+// Of 1.2 kg/m^3, unless it says otherwise.
+TEST(ReadDataset, ABallThatWasRecordedFlewInAir) {
+  const auto air_of = [](const std::string& source, const std::string& stated,
+                         const std::string& trial) {
+    return Read("format: hoplab-dataset/1\nname: b\n" + source +
+                "mechanism: {type: ball, body_mass_kg: 0.0027, gravity_m_per_s2: 9.81,\n"
+                "  ball: {radius_m: 0.02, restitution: 0.85, tangential_loss: 0.1" +
+                stated +
+                "}}\nchannels: {body_y_m: {sigma: 0.001}}\n"
+                "trials: [{file: a.csv, role: train" +
+                trial + "}]\n")
+        .trials[0]
+        .mechanism.ball.air_density_kg_per_m3;
+  };
+  const std::string recorded = "source: {kind: recorded}\n",
+                    simulated = "source: {kind: simulated}\n";
+  EXPECT_EQ(air_of(recorded, "", ""), 1.2);
+  EXPECT_EQ(air_of(recorded, "", ", mechanism: {body_mass_kg: 0.0028}"), 1.2);
+  EXPECT_EQ(air_of(recorded, ", air_density_kg_per_m3: 0", ""), 0.0);
+  EXPECT_EQ(air_of(recorded, ", air_density_kg_per_m3: 1.1", ", mechanism: {body_mass_kg: 1}"),
+            1.1);
+  EXPECT_EQ(air_of(simulated, "", ""), std::nullopt);
+  EXPECT_EQ(air_of("", "", ""), std::nullopt);
+}
+
 TEST(ReadDataset, ASigmaToBeEstimatedIsAbsent) {
   const Dataset dataset = Read(kYaml);
   EXPECT_EQ(dataset.channels[0].sigma, 0.001);

@@ -38,7 +38,7 @@ MechanismSpec AnyMechanism(MechanismKind type, RandomStream* random) {
   mechanism.body_mass_kg = Any(random);
   mechanism.gravity_m_per_s2 = Any(random);
   if (type == MechanismKind::kBall) {
-    mechanism.ball = {Any(random), random->Uniform(0, 1), random->Uniform(0, 1)};
+    mechanism.ball = {Any(random), random->Uniform(0, 1), random->Uniform(0, 1), 1.1};
     return mechanism;
   }
   if (random->Normal() > 0) mechanism.liftoff = LiftoffRule::kRestLength;

@@ -121,6 +121,27 @@ TEST(Ball, SampledRowsBetweenBouncesMatchTheClosedForm) {
   }
 }
 
+// M114, of a table-tennis ball.
+TEST(Ball, FallsSlowerByTheAirInItsPlace) {
+  SimulationRequest q = BallRequest();
+  q.parameters.m = 0.0027;
+  q.parameters.radius = 0.02;
+  q.parameters.air_density = 1.2;
+  q.initial = {0.0, 5.0, 0.0, 0.0};
+  q.horizon = 0.9;
+  const std::array directions = {D::Parameter(ParameterId::kM), D::Parameter(ParameterId::kRadius)};
+  q.directions = directions;
+  const Trajectory run = Simulate(q);
+  const double share = 1.5 * 1.2 * 4.0 / 3.0 * kPi * 8e-6 / 0.0027;
+  const double fall = 0.5 * q.parameters.g * 0.81 / (1.0 + share);
+  EXPECT_NEAR(share, 0.0223, 1e-4);
+  EXPECT_NEAR(run.final_state[1], 5.0 - fall, 1e-12);
+  EXPECT_NEAR(run.final_state[3], -2.0 * fall / 0.9, 1e-12);
+  const double by_share = fall / (1.0 + share);
+  EXPECT_NEAR(run.final_sensitivities[1 * 2 + 0], -by_share * share / 0.0027, 1e-9);
+  EXPECT_NEAR(run.final_sensitivities[1 * 2 + 1], by_share * 3.0 * share / 0.02, 1e-11);
+}
+
 // M115: each bounce puts off what follows by the contact time, and x goes on meanwhile.
 TEST(Ball, AContactTimePutsOffEachFlight) {
   constexpr double kContact = 0.004;

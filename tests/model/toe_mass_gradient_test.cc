@@ -150,8 +150,9 @@ TEST(ToeMassEffects, RefusedAreThoseThatAreNotModelled) {
       }
     }
   }
-  EXPECT_EQ(refused, (std::vector<std::string>{"foot_coulomb_friction", "leg_mass",
-                                               "rest_length_step", "torque_lag"}));
+  EXPECT_EQ(refused,
+            (std::vector<std::string>{"foot_coulomb_friction", "leg_mass", "rest_length_step",
+                                      "sole_thickness", "torque_lag"}));
 }
 
 }  // namespace

@@ -8,10 +8,12 @@
 namespace hoplab::testing {
 
 /// A ball in air that moves with `wind` [m/s] along the ground: F = -drag |v - w| (v - w), bounces
-/// by a restitution and a loss along the ground where its centre is at `radius`. By small steps of
-/// Heun's rule, an independent reference.
+/// by a restitution and a loss along the ground where its centre is at `radius`. Air of mass
+/// `displaced` carries it, so that it weighs `mass` there, and half as much moves along. By small
+/// steps of Heun's rule, an independent reference.
 struct BallInMovingAir {
   double drag, wind, mass, g;  // N s^2/m^2, m/s, kg, m/s^2
+  double displaced = 0.0;      // kg
   double radius = 0.02, restitution = 0.85, tangential_loss = 0.1;
   double friction = 0.0;  // of the ground on a ball that slides through its bounce
 
@@ -34,8 +36,9 @@ struct BallInMovingAir {
 
  private:
   State Rate(const State& s) const {
-    const double ux = s[2] - wind, factor = drag * std::hypot(ux, s[3]) / mass;
-    return {s[2], s[3], -factor * ux, -factor * s[3] - g};
+    const double ux = s[2] - wind, moved = mass + 1.5 * displaced;
+    const double factor = drag * std::hypot(ux, s[3]) / moved;
+    return {s[2], s[3], -factor * ux, -factor * s[3] - g * mass / moved};
   }
   State Heun(const State& s, double h) const {
     const State a = Rate(s);
