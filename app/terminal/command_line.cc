@@ -36,6 +36,10 @@ class CommandLine {
     } catch (const CLI::Success& done) {  // --help, --version
       app_.exit(done, console_.out, console_.err);
       return ExitCode::kDone;
+    } catch (const CLI::ExtrasError&) {
+      const std::string hint = OptionHint();
+      return Fail(ExitCode::kWrongUse,
+                  (hint.empty() ? Unexpected() : hint) + " See " + HelpCall() + ".");
     } catch (const CLI::ParseError& error) {
       const std::string hint = OptionHint();
       return Fail(ExitCode::kWrongUse,
@@ -99,6 +103,13 @@ class CommandLine {
         return Printable(extra) + ": there is no such option. Did you mean " + *nearest + "?";
     }
     return "";
+  }
+
+  // What is too much, in the order it was given. (CLI11 tells it backwards.)
+  std::string Unexpected() const {
+    std::vector<std::string> words = app_.remaining(true);
+    for (std::string& word : words) word = Printable(word);
+    return Join(words) + (words.size() > 1 ? ": these are" : ": this is") + " not expected here.";
   }
 
   std::string HelpCall() const {

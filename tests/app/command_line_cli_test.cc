@@ -139,6 +139,15 @@ TEST(SuggestionCli, AMistypedOptionNamesTheOneMeantInEveryCommand) {
   }
 }
 
+TEST(SuggestionCli, WordsTooManyAreToldInTheirOrder) {
+  const std::string drops = ShippedDataset("rig-drops");
+  EXPECT_EQ(MessageOf({"fit", drops, "first", "second", "--zzz"}, 64, "/"),
+            "hoplab fit: first, second, --zzz: these are not expected here. See hoplab fit "
+            "--help.\n");
+  EXPECT_EQ(MessageOf({"fit", drops, "first"}, 64, "/"),
+            "hoplab fit: first: this is not expected here. See hoplab fit --help.\n");
+}
+
 struct Mistyped {
   std::vector<std::string> arguments;
   int exit_code;
