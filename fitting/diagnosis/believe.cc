@@ -16,6 +16,10 @@ constexpr double kPlainRarity = 3.0;  // trials that differ this plainly differ
 // of half a per cent is certain, too, where rows are many, and says nothing.
 constexpr double kUnlikeSizes = 0.5;
 
+// Of the log odds by which a wider group is surer. The best of several is too sure by itself; this
+// share tells the calibration's cases best (docs/decisions/0021).
+constexpr double kBelievedOfWider = 0.8;
+
 double GapFeature(double nats) { return std::log1p(std::clamp(nats, 0.0, kMostNatsOfGap)); }
 double Rarity(double p_value) { return -std::log10(std::max(p_value, kLeastChance)); }
 
@@ -40,15 +44,17 @@ double MostBelievable(double explained, double unexplained) {
 
 double GroupProbability(const NameFeatures& f, const std::vector<WiderGroup>& wider,
                         bool leaves_noise) {
-  double best = CalibratedProbability(f);
-  if (!leaves_noise) return best;
+  const double narrow = CalibratedProbability(f);
+  if (!leaves_noise) return narrow;
+  double best = narrow;
   for (const WiderGroup& group : wider) {
     NameFeatures as_part = f;
     as_part.gap = GapFeature(group.gap);
     as_part.group = group.others;
     best = std::max(best, group.told * CalibratedProbability(as_part));
   }
-  return best;
+  const double from = LogOddsOf(narrow);
+  return ProbabilityOf(from + kBelievedOfWider * (LogOddsOf(best) - from));
 }
 
 double Disagreement(std::span<const Heterogeneity> sizes, const Candidate& of) {

@@ -28,8 +28,11 @@ double CalibratedProbability(const NameFeatures& features) {
   const auto values = features.Values();
   double logit = kCalibration.intercept;
   for (std::size_t k = 0; k < values.size(); ++k) logit += kCalibration.weights[k] * values[k];
-  return 1.0 / (1.0 + std::exp(-logit));
+  return ProbabilityOf(logit);
 }
+
+double LogOddsOf(double probability) { return std::log(probability / (1.0 - probability)); }
+double ProbabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
 int CalibrationCases() { return kCalibration.cases; }
 

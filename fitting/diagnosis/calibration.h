@@ -30,8 +30,12 @@ struct NameFeatures {
 
 /// Probability that a name is right, of simulated cases that looked like this one: a logistic
 /// regression on the features, fitted to cases with the cause in the catalogue and with it taken
-/// out (docs/statistics/calibration.md; tools/statistics).
+/// out (docs/statistics/diagnosis.md; tools/statistics).
 double CalibratedProbability(const NameFeatures& features);
+
+/// log(p/(1 - p)), and back.
+double LogOddsOf(double probability);
+double ProbabilityOf(double log_odds);
 
 /// Simulated cases behind the calibration.
 int CalibrationCases();

@@ -13,6 +13,6 @@ struct CalibrationTable {
   std::array<double, NameFeatures::kCount> weights;
 };
 inline constexpr CalibrationTable kCalibration = {
-    922, 5.65, {-2.248, -0.8238, -1.392, -3.912, 1.909, -1.169, -0.06562}};
+    1008, 6.904, {-2.585, -0.7185, -1.556, -4.889, 2.15, -1.139, -0.1048}};
 
 }  // namespace hoplab

@@ -13,8 +13,6 @@ bool IsOneOf(const std::vector<SetAside>& members, int candidate) {
                      [&](const SetAside& m) { return m.candidate == candidate; });
 }
 
-double LogOddsOf(double probability) { return std::log(probability / (1.0 - probability)); }
-
 bool IsInAGroup(const Naming& naming, int candidate) {
   return std::any_of(naming.groups.begin(), naming.groups.end(), [&](const std::vector<int>& g) {
     return std::find(g.begin(), g.end(), candidate) != g.end();

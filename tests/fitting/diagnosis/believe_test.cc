@@ -58,6 +58,13 @@ TEST(Believe, ARivalThatIsBehindDoesNotMakeANameUnlikelyWhereOnlyNoiseIsLeft) {
   EXPECT_EQ(GroupProbability(f, wider, false), alone);
   EXPECT_GT(GroupProbability(f, wider, true), 0.9);
   EXPECT_LE(GroupProbability(f, wider, true), 0.98);
+  // Part of the log odds that it adds is believed.
+  NameFeatures as_part = f;
+  as_part.gap = std::log1p(50.0);
+  as_part.group = 1.0;
+  const double best = LogOddsOf(0.98 * CalibratedProbability(as_part));
+  EXPECT_NEAR(LogOddsOf(GroupProbability(f, wider, true)),
+              LogOddsOf(alone) + 0.8 * (best - LogOddsOf(alone)), 1e-12);
 }
 
 // A search finds a corner of the model's error that some cause fits.
