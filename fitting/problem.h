@@ -29,6 +29,8 @@ struct SharedParameter {
   std::string only_recording = {};
   /// Small sizes change nothing (EffectInfo::has_threshold).
   bool has_threshold = false;
+  /// It stays where it is; only deviations of it are fitted (fitting/deviation.h).
+  bool held = false;
 };
 
 /// A value one trial has of its own, to be fitted beside the shared ones: a component of its start,

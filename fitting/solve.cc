@@ -290,6 +290,9 @@ SolveResult Solve(const SolveRequest& request) {
   // there while the rest is solved. What the gradient pulls inside at the end of a run is free in
   // the next, until nothing changes.
   RunSettings settings{.held = request.held};
+  for (int k = 0; k < request.problem->shared_count(); ++k)
+    if (request.problem->shared[static_cast<std::size_t>(k)].held && !Contains(settings.held, k))
+      settings.held.push_back(k);
   if (request.hold_shared) settings.held = AllShared(*request.problem);
   Places put;  // on their bounds before this run
   int iterations = 0;

@@ -69,7 +69,7 @@ std::pair<double, double> CutInterval(double value, double half, const SharedPar
 
 bool AtBound(double value, const SharedParameter& s) {
   const double near = 1e-6 * s.scale;
-  return value <= s.lower + near || value >= s.upper - near;
+  return s.held || value <= s.lower + near || value >= s.upper - near;
 }
 
 // What the trials together know of the values that are not at a bound, the `active` ones.

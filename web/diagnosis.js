@@ -3,7 +3,7 @@
 const statusKinds = {supported: 'one', indistinguishable: 'three', excluded: 'two', not_needed: 'two', not_tested: 'soft'};
 const statusSymbols = {supported: 'circle', indistinguishable: 'diamond', excluded: 'x-thin-open', not_needed: 'line-ew-open', not_tested: 'circle-open'};
 
-const causeText = (c) => (c.only_in_trial ? `${c.effect} (${c.only_in_trial} only)` : c.effect);
+const causeText = (c) => (c.each_trial ? `${c.effect} of each trial's own size` : c.only_in_trial ? `${c.effect} (${c.only_in_trial} only)` : c.effect);
 
 // Sizes of a candidate's parameters, from the table of candidates: [{parameter, unit, typical, ...}].
 function sizesOf(candidate) {

@@ -65,7 +65,7 @@ Json VariesOf(const EffectParameter& p, const Heterogeneity& h, const VaryingVal
 
 // Sizes trial by trial where trials do not agree on one; null where they do.
 Json VariesRecord(const Diagnosis& d, const CauseReport& c) {
-  if (!c.Varies()) return nullptr;
+  if (!c.Varies() && !c.cause.each_trial) return nullptr;
   const ExtensionReport& e = *d.extension;
   const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
   Json out = Json::array();
@@ -74,7 +74,8 @@ Json VariesRecord(const Diagnosis& d, const CauseReport& c) {
         k < c.refitted.size() && c.refitted[k] ? &*c.refitted[k] : nullptr;
     Json one = VariesOf(c.cause.Parameter(static_cast<int>(k)), c.sizes[k], refitted, train);
     one["told"] = (c.main || e.MainCauses().empty()) && e.TellsSizesOf(c, k);
-    one["with_sizes"] = refitted ? SizesWorth(d, *e.sizes) : Json(nullptr);
+    one["in_the_model"] = c.cause.each_trial;
+    one["with_sizes"] = refitted && !c.cause.each_trial ? SizesWorth(d, *e.sizes) : Json(nullptr);
     out.push_back(one);
   }
   return out;
@@ -118,6 +119,7 @@ Json CausesRecord(const Diagnosis& d) {
       const auto member = static_cast<int>(d.naming.MemberOf(c.candidate));
       out.push_back({{"name", c.cause.effect->info.name},
                      {"only_in_trial", TextOrNull(c.cause.only_recording)},
+                     {"each_trial", c.cause.each_trial},
                      {"parameters", SizesOfCause(c.cause, best.ValuesOf(member))},
                      {"probability", NumberOrNull(c.probability)},
                      {"probability_group", NumberOrNull(c.group_probability)},

@@ -256,6 +256,7 @@ std::string PlaceText(const FitProblem& problem, const MisfitCell& cell) {
 
 std::string CauseText(const Candidate& candidate) {
   const std::string name(candidate.effect->info.name);
+  if (candidate.each_trial) return name + " of each trial's own size";
   return candidate.only_recording.empty() ? name
                                           : name + " in " + Printable(candidate.only_recording);
 }

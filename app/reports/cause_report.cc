@@ -36,8 +36,9 @@ void AddCauseRow(TextTable& table, const SharedParameter& s, double value,
     range = FixedOrMore(interval.ci->first * unit.factor, decimals) + " .. " +
             FixedOrMore(interval.ci->second * unit.factor, decimals);
   }
-  table.AddRow({s.name, shown, interval.at_bound ? "at its bound" : range, unit.unit, remarks[0],
-                remarks[1]});
+  if (interval.at_bound) range = "at its bound";
+  if (s.held) range = "held: the mean is none";
+  table.AddRow({s.name, shown, range, unit.unit, remarks[0], remarks[1]});
 }
 
 // Places of a candidate's values among the shared ones of a model that has it; -1: it has not.
@@ -163,7 +164,7 @@ std::string DifferentlyText(const CauseReport& c, std::size_t k,
                            FixedOrMore(high * shown.factor, decimals));
   }
   return fmt::format("{}{} in every trial, differently: mean {}{}, spread {} ({}): {}",
-                     CauseText(c.cause),
+                     c.cause.effect->info.name,
                      c.sizes.size() > 1 ? "." + std::string(p.name) : std::string(),
                      SizeText(value.mean, unit), interval, SizeText(value.spread, unit),
                      ChanceText(c.sizes[k].p_value), SizesText(value.sizes, train, unit));
@@ -190,13 +191,15 @@ std::string SizesWorthText(const Diagnosis& d) {
 std::string VariesLines(const Diagnosis& d, bool colours) {
   const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
   std::string text;
+  bool beside_the_model = false;
   for (const CauseReport* c : d.extension->ToldCauses()) {
     for (std::size_t k = 0; k < c->sizes.size(); ++k) {
-      if (d.extension->TellsSizesOf(*c, k))
-        text += Labelled("varies", DifferentlyText(*c, k, train), colours);
+      if (!d.extension->TellsSizesOf(*c, k)) continue;
+      text += Labelled("varies", DifferentlyText(*c, k, train), colours);
+      beside_the_model |= !c->cause.each_trial;
     }
   }
-  if (!text.empty()) text += Labelled("", SizesWorthText(d), colours);
+  if (beside_the_model) text += Labelled("", SizesWorthText(d), colours);
   return text;
 }
 

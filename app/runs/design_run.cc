@@ -166,7 +166,8 @@ class Run {
     if (!d.refusal.empty() || d.interrupted) return;
     train_ = TrialsOf(d.problem, TrialRole::kTrain);
     for (std::size_t m = 0; m < d.naming.rivals.size(); ++m) {
-      if (d.naming.rivals[m].size() < 2) continue;
+      // A trial to come has a size of its own, which nobody knows.
+      if (d.naming.rivals[m].size() < 2 || d.naming.best.has_own_sizes()) continue;
       run_.separates = true;
       run_.rivals = std::move(d.naming.rivals[m]);
       run_.rivals.resize(std::min(run_.rivals.size(), kMostRivals));
@@ -179,7 +180,8 @@ class Run {
       return;
     }
     run_.separates = false;
-    run_.model = d.naming.best.members.empty() ? d.null : d.naming.best;
+    run_.model =
+        d.naming.best.members.empty() || d.naming.best.has_own_sizes() ? d.null : d.naming.best;
     run_.parameter = 0;
     run_.decision = "nothing needs separating (verdict " + std::string(NameOf(d.verdict)) + ")";
   }

@@ -128,7 +128,10 @@ void ProposeNextTrial(Diagnosis& d, const DiagnosisOptions& options) {
   if (!d.extension || d.verdict == Verdict::kUnexplained) return;
   const std::vector<TrialProblem> train = TrialsOf(d.problem, TrialRole::kTrain);
   for (const std::vector<FittedModel>& rivals : d.naming.rivals) {
-    if (rivals.size() < 2 || d.experiment || options.fit.IsStopped()) continue;
+    // A trial to come has a size of its own, which nobody knows.
+    if (rivals.size() < 2 || d.experiment || rivals.front().has_own_sizes() ||
+        options.fit.IsStopped())
+      continue;
     if (options.stage) options.stage("looking for the trial that would tell the causes apart");
     d.experiment = ProposeExperiment(rivals, train, options.fit.jobs);
   }

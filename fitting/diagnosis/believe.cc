@@ -93,7 +93,8 @@ void Believe(ExtensionReport& report, const Diagnosis& diagnosis,
     f.group = static_cast<double>(naming.groups[member].size() - 1);
     const auto first = sizes.begin() + best.PlaceOf(static_cast<int>(member));
     c.sizes.assign(first, first + c.cause.parameter_count());
-    f.heterogeneity = Disagreement(c.sizes, c.cause);
+    // Sizes of each trial's own disagree by what they are.
+    f.heterogeneity = c.cause.each_trial ? 0.0 : Disagreement(c.sizes, c.cause);
     c.group_probability = std::min(GroupProbability(f, naming.wider[member], leaves_noise),
                                    MostBelievable(report.OfMisfit(c.share), unexplained));
     c.probability = c.group_probability * naming.group_weights[member].front();

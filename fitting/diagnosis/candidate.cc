@@ -93,6 +93,7 @@ bool IsOfAllLegs(const FitProblem& problem, const Effect& effect) {
 
 std::string Candidate::Name() const {
   const std::string name(effect->info.name);
+  if (each_trial) return name + " of each trial's own size";
   return only_recording.empty() ? name : name + " in " + only_recording;
 }
 
@@ -142,7 +143,8 @@ FitProblem Extend(const FitProblem& problem, std::span<const Candidate> candidat
       extended.shared.push_back(
           {std::string(c.effect->info.name) + "." + std::string(p.name) + suffix,
            std::string(p.unit), SensitivityDirection::EffectParameter(index, place), p.lower,
-           p.upper, p.null, std::abs(p.typical), c.only_recording, c.effect->info.has_threshold});
+           p.upper, p.null, std::abs(p.typical), c.only_recording, c.effect->info.has_threshold,
+           c.mean_held});
     }
   }
   return extended;

@@ -14,6 +14,12 @@ struct Candidate {
   const Effect* effect = nullptr;
   std::string only_recording = {};             // file of the one trial it acts in; empty: all
   std::vector<OpenParameter> parameters = {};  // that may be off their null, with their bounds
+  /// Of another size in each trial: the model's trials have deviations of its first parameter
+  /// (fitting/deviation.h). Extend does not add them.
+  bool each_trial = false;
+  /// Where a value of the plain model does what it would do with one size in all trials, their mean
+  /// is none.
+  bool mean_held = false;
 
   Candidate() = default;
   Candidate(const Effect* of, std::string recording = {}, const KnownCauses& known = {})
@@ -25,7 +31,7 @@ struct Candidate {
   const EffectParameter& Parameter(int i) const {
     return parameters[static_cast<std::size_t>(i)].info;
   }
-  /// "air_drag", or "air_drag in train-2.csv".
+  /// "air_drag", "air_drag in train-2.csv" or "air_drag of each trial's own size".
   std::string Name() const;
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fitting/diagnosis/believe.h"
+#include "fitting/diagnosis/each_trial.h"
 #include "fitting/diagnosis/heterogeneity.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/null_fit.h"
@@ -46,6 +47,7 @@ class Pipeline {
     Look(candidates);
     if (Stopped()) return Finish();
     if (d_.detection.p_value <= kDetectionLevel) Name(candidates);
+    if (!Stopped() && LeavesMuch()) NameOfEachTrial(candidates);
     if (Stopped()) return Finish();
     RestateUnseen(train_, options_.fit.jobs, d_.naming.best);
     Stage("measuring on held-out trials");
@@ -125,8 +127,7 @@ class Pipeline {
   }
 
   // ---- name
-  void Name(const std::vector<Candidate>& candidates) {
-    Stage("refitting with every candidate cause");
+  NamingOptions HowToName() const {
     NamingOptions naming;
     naming.max_effects = options_.max_effects;
     naming.begin = beforehand_.begin;
@@ -141,7 +142,50 @@ class Pipeline {
                       refits, of);
       };
     }
-    d_.naming = NameCauses({&d_.plain, &d_.null}, candidates, NullAt(candidates), train_, naming);
+    return naming;
+  }
+  void Name(const std::vector<Candidate>& candidates) {
+    Stage("refitting with every candidate cause");
+    d_.naming =
+        NameCauses({&d_.plain, &d_.null}, candidates, NullAt(candidates), train_, HowToName());
+  }
+
+  // What was found, each cause of one size for all trials, is not enough, or is pieced together.
+  bool LeavesMuch() const {
+    if (d_.detection.p_value > kDetectionLevel || MisfitOverNoise(d_.detection) < kSlight)
+      return false;
+    const FittedModel& best = d_.naming.best;
+    const double share = LeftShare(d_.detection, 2.0 * best.cost, best.parameter_count());
+    int in_one_trial = 0;
+    bool at_bound = !AtWall(best.problem, best.shared).empty();
+    for (int i = 0; i < static_cast<int>(best.members.size()); ++i) {
+      at_bound |= best.AtPhysicalBound(i);
+      in_one_trial += !best.members[static_cast<std::size_t>(i)].only_recording.empty();
+    }
+    const bool is_left = best.evidence.discrepancy_probability() > 0.5 && share > options_.material;
+    return is_left || at_bound || in_one_trial > 1;
+  }
+
+  // A cause whose size is each trial's own, where that explains the data better. (Hops of a trial
+  // are no trials; a robot's first stances are looked at trial by trial anyway.)
+  void NameOfEachTrial(const std::vector<Candidate>& candidates) {
+    if (d_.by_hop || d_.problem.robot_legs().count > 0 || options_.max_effects < 1) return;
+    const std::vector<OwnSizes> promising =
+        PromisingOwnSizes(d_, candidates, train_, options_.fit.jobs);
+    if (promising.empty()) return;
+    Stage("refitting with a cause of each trial's own size");
+    EachTrialRequest request;
+    request.null = {&d_.plain, &d_.null};
+    request.candidates = candidates;
+    request.promising = promising;
+    request.with_one_size = &d_.naming;
+    request.noise_squares = &d_.noise_squares;
+    request.naming = HowToName();
+    std::optional<EachTrialFound> found = NameEachTrial(request, Settings());
+    if (!found) return;
+    d_.naming = std::move(found->naming);
+    train_ = std::move(found->train);
+    own_sizes_ = std::move(found->value);
   }
 
   // ---- extend, measure
@@ -214,7 +258,15 @@ class Pipeline {
                                .material = options_.material,
                                .seed = options_.Seed(Draws::kBootstrap)},
                               Settings());
-    Believe(report, d_, HeterogeneityOf(best, train_, options_.fit.jobs));
+    std::vector<Heterogeneity> sizes = HeterogeneityOf(best, train_, options_.fit.jobs);
+    if (own_sizes_) {
+      const int place = own_sizes_->place;
+      sizes[static_cast<std::size_t>(place)] =
+          HeterogeneityAt(best, train_, place, options_.fit.jobs);
+    }
+    Believe(report, d_, sizes);
+    for (CauseReport& c : report.causes)
+      if (c.cause.each_trial) c.refitted = {own_sizes_};
     return report;
   }
 
@@ -245,36 +297,14 @@ class Pipeline {
     NoteOwnSizes();
   }
 
-  // What is there in every trial, of another size in each.
+  // What is there in every trial, of another size in each, and is not named.
   void NoteOwnSizes() {
-    const std::vector<Candidate> candidates = CandidatesOf(d_.problem, options_.candidates);
-    std::optional<OwnSizes> own =
-        BestOwnSizes(LinearisedAt(d_.plain, candidates), candidates, train_);
-    std::optional<OwnSizes> beside = OwnSizesBesideLargest(candidates);
-    if (beside && !(own && own->explained >= beside->explained)) own = std::move(beside);
-    if (!own || (d_.extension && d_.extension->explained >= own->explained)) return;
-    d_.own_sizes = TextOf(*own, train_);
+    if (own_sizes_) return;
+    const std::vector<OwnSizes> own = PromisingOwnSizes(
+        d_, CandidatesOf(d_.problem, options_.candidates), train_, options_.fit.jobs);
+    if (own.empty() || (d_.extension && d_.extension->explained >= own.front().explained)) return;
+    d_.own_sizes = TextOf(own.front(), train_);
     d_.notes.push_back(d_.own_sizes);
-  }
-
-  // The same, beside the told cause that explains most in all trials.
-  std::optional<OwnSizes> OwnSizesBesideLargest(const std::vector<Candidate>& candidates) const {
-    const CauseReport* largest = nullptr;
-    for (const CauseReport* c :
-         d_.extension ? d_.extension->ToldCauses() : std::vector<const CauseReport*>())
-      if (c->cause.only_recording.empty() && !(largest && largest->share >= c->share)) largest = c;
-    if (!largest) return std::nullopt;
-    FittedModel alone = d_.naming.candidates[static_cast<std::size_t>(largest->candidate)].alone;
-    if (!alone.ok()) return std::nullopt;
-    alone.problem.noise = d_.plain.problem.noise;
-    const std::vector<Candidate> others = CandidatesBeside(alone, candidates);
-    const Linearisation at = LinearisedAt(alone, others);
-    std::optional<OwnSizes> own = BestOwnSizes(at, others, train_);
-    if (!own) return std::nullopt;
-    const double left = LeftShare(d_.detection, at.chi2(), alone.parameter_count());
-    own->explained = 1.0 - left * (1.0 - own->explained);
-    own->beside = largest->cause.Name();
-    return own;
   }
 
   const DiagnosisOptions& options_;
@@ -282,6 +312,7 @@ class Pipeline {
   Diagnosis d_;
   ProbeBasis basis_;
   std::vector<TrialProblem> train_;
+  std::optional<VaryingValue> own_sizes_;  // of the told cause that has one in each trial
 };
 
 }  // namespace

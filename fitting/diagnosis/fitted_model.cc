@@ -149,6 +149,11 @@ bool FittedModel::AtPhysicalBound(int i) const {
   return false;
 }
 
+bool FittedModel::has_own_sizes() const {
+  return std::any_of(members.begin(), members.end(),
+                     [](const Candidate& c) { return c.each_trial; });
+}
+
 FittedModel Refit(const FittedModel& base, std::span<const Candidate> added,
                   const Eigen::VectorXd& sizes, const RefitSettings& settings) {
   // A search that gains less than this share of the forecast went into the wrong valley.

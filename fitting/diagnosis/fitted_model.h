@@ -37,6 +37,8 @@ struct FittedModel {
   /// A member's value lies on a bound other than its null: physics would have to give more.
   bool AtPhysicalBound(int i) const;
   int parameter_count() const { return ParameterCount(members); }
+  /// Some member has a size of each trial's own (Candidate::each_trial).
+  bool has_own_sizes() const;
   /// Log-likelihood gained over `null` [nats].
   double GainOver(const FittedModel& null) const { return null.cost - cost; }
 };

@@ -1,6 +1,7 @@
 #include "fitting/diagnosis/heterogeneity.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -14,25 +15,32 @@ namespace hoplab {
 namespace {
 
 // Trials' rows with one value free in each: b_i ~ N(0, tau^2) beside the shared steps s,
-// residuals r_i + C_i s + c_i b_i. With b_i integrated out the rows have the covariance
-// I + tau^2 c c', whose inverse is I - w c c', w = tau^2/(1 + tau^2 c'c).
+// residuals r_i + C_i s + c_i b_i, held values having no steps. With b_i integrated out the rows
+// have the covariance I + tau^2 c c', whose inverse is I - w c c', w = tau^2/(1 + tau^2 c'c).
 class RandomEffect {
  public:
-  RandomEffect(const std::vector<EliminatedTrial>& trials, int value)
-      : trials_(trials), value_(value) {}
+  RandomEffect(const std::vector<EliminatedTrial>& trials, int value, const std::vector<int>& held)
+      : trials_(trials), value_(value) {
+    for (EliminatedTrial& t : trials_) {
+      effects_.push_back(t.empty() ? Eigen::VectorXd() : Eigen::VectorXd(t.columns.col(value)));
+      for (const int k : t.empty() ? std::vector<int>() : held) t.columns.col(k).setZero();
+    }
+    mean_is_held_ = std::find(held.begin(), held.end(), value) != held.end();
+  }
 
   // Restricted log-likelihood at tau, the shared steps marginalised; leaves their estimate.
   double LogLikelihood(double tau) {
     Eigen::MatrixXd H;
     Eigen::VectorXd g;
     double sum = 0.0;
-    for (const EliminatedTrial& t : trials_) {
+    for (std::size_t i = 0; i < trials_.size(); ++i) {
+      const EliminatedTrial& t = trials_[i];
       if (t.empty()) continue;
       if (H.size() == 0) {
         H = Eigen::MatrixXd::Zero(t.columns.cols(), t.columns.cols());
         g = Eigen::VectorXd::Zero(t.columns.cols());
       }
-      const auto c = t.columns.col(value_);
+      const Eigen::VectorXd& c = effects_[i];
       const double V = c.squaredNorm(), w = tau * tau / (1.0 + tau * tau * V);
       const Eigen::RowVectorXd cC = c.transpose() * t.columns;
       const double cr = c.dot(t.residuals);
@@ -48,18 +56,20 @@ class RandomEffect {
 
   double mean_step() const { return step_[value_]; }
   // Of the last LogLikelihood(tau).
-  double SizeStep(const EliminatedTrial& t, double tau) const {
-    const auto c = t.columns.col(value_);
+  double SizeStep(std::size_t i, double tau) const {
+    const EliminatedTrial& t = trials_[i];
+    const Eigen::VectorXd& c = effects_[i];
     const double w = tau * tau / (1.0 + tau * tau * c.squaredNorm());
     return step_[value_] - w * c.dot(t.residuals + t.columns * step_);
   }
   // Of that, for the trial's true one: given the shared steps b_i is known to w, and SizeStep
   // follows them along e - w c'C.
-  double SizeError(const EliminatedTrial& t, double tau) const {
-    const auto c = t.columns.col(value_);
+  double SizeError(std::size_t i, double tau) const {
+    const EliminatedTrial& t = trials_[i];
+    const Eigen::VectorXd& c = effects_[i];
     const double w = tau * tau / (1.0 + tau * tau * c.squaredNorm());
     Eigen::VectorXd along = -w * t.columns.transpose() * c;
-    along[value_] += 1.0;
+    if (!mean_is_held_) along[value_] += 1.0;
     return std::sqrt(w + std::max(along.dot(solver_.solve(along)), 0.0));
   }
   // Minus the second derivative of LogLikelihood by log tau.
@@ -71,8 +81,10 @@ class RandomEffect {
   }
 
  private:
-  const std::vector<EliminatedTrial>& trials_;
+  std::vector<EliminatedTrial> trials_;
+  std::vector<Eigen::VectorXd> effects_;  // c_i
   int value_;
+  bool mean_is_held_ = false;
   Eigen::LDLT<Eigen::MatrixXd> solver_;
   Eigen::VectorXd step_;
 };
@@ -90,8 +102,8 @@ void Centre(std::vector<EliminatedTrial>& parts) {
 
 // The spread of the restricted likelihood's maximum and what it brings; steps in the value's scale.
 void Spread(const std::vector<EliminatedTrial>& parts, int k, double value, double scale,
-            double information, Heterogeneity& h) {
-  RandomEffect effect(parts, k);
+            double information, const std::vector<int>& held, Heterogeneity& h) {
+  RandomEffect effect(parts, k, held);
   const double none = effect.LogLikelihood(0.0);
   // From a tenth of what one trial can tell to a thousand times it.
   const double told = 1.0 / std::sqrt(information / (h.degrees_of_freedom + 1));
@@ -105,17 +117,17 @@ void Spread(const std::vector<EliminatedTrial>& parts, int k, double value, doub
   effect.LogLikelihood(tau);
   h.mean = value + scale * effect.mean_step();
   h.spread = scale * tau;
-  for (const EliminatedTrial& part : parts) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    const bool sees = !part.empty() && part.columns.col(k).squaredNorm() > 0.0;
-    h.sizes.push_back(sees ? value + scale * effect.SizeStep(part, tau) : kNone);
-    h.std_errors.push_back(sees ? scale * effect.SizeError(part, tau) : kNone);
+    const bool sees = !parts[i].empty() && parts[i].columns.col(k).squaredNorm() > 0.0;
+    h.sizes.push_back(sees ? value + scale * effect.SizeStep(i, tau) : kNone);
+    h.std_errors.push_back(sees ? scale * effect.SizeError(i, tau) : kNone);
   }
 }
 
 // Of the value in column k of the trials, in its scale.
-Heterogeneity Describe(const std::vector<EliminatedTrial>& parts, int k, double value,
-                       double scale) {
+Heterogeneity Describe(const std::vector<EliminatedTrial>& parts, int k, double value, double scale,
+                       const std::vector<int>& held) {
   Heterogeneity h;
   double information = 0.0, pull = 0.0, squares = 0.0;
   int trials = 0;
@@ -134,7 +146,7 @@ Heterogeneity Describe(const std::vector<EliminatedTrial>& parts, int k, double 
   h.degrees_of_freedom = trials - 1;
   h.p_value = boost::math::cdf(
       boost::math::complement(boost::math::chi_squared(static_cast<double>(trials - 1)), h.chi2));
-  Spread(parts, k, value, scale, information, h);
+  Spread(parts, k, value, scale, information, held, h);
   return h;
 }
 
@@ -143,6 +155,13 @@ std::vector<KeptColumn> SharedColumns(const FitProblem& problem) {
   for (int k = 0; k < problem.shared_count(); ++k)
     columns.push_back({k, problem.shared[static_cast<std::size_t>(k)].scale});
   return columns;
+}
+
+std::vector<int> HeldOf(const FitProblem& problem) {
+  std::vector<int> held;
+  for (int k = 0; k < problem.shared_count(); ++k)
+    if (problem.shared[static_cast<std::size_t>(k)].held) held.push_back(k);
+  return held;
 }
 
 // A trial's rows with its deviation of one shared value taken back: as they would be without, to
@@ -185,7 +204,8 @@ std::vector<Heterogeneity> HeterogeneityOf(const FittedModel& model,
   Centre(parts);
   std::vector<Heterogeneity> out;
   for (int k = 0; k < n; ++k)
-    out.push_back(Describe(parts, k, model.shared[k], columns[static_cast<std::size_t>(k)].scale));
+    out.push_back(Describe(parts, k, model.shared[k], columns[static_cast<std::size_t>(k)].scale,
+                           HeldOf(model.problem)));
   return out;
 }
 
@@ -196,8 +216,8 @@ Heterogeneity HeterogeneityAt(const FittedModel& model, const std::vector<TrialP
       EliminateTrials(model, train, jobs, [&](std::size_t at, TrialEvaluation& e) {
         return WithoutDeviation(train[at], place, e, model.initial_states[at], columns);
       });
-  return Describe(parts, place, model.shared[place],
-                  columns[static_cast<std::size_t>(place)].scale);
+  return Describe(parts, place, model.shared[place], columns[static_cast<std::size_t>(place)].scale,
+                  HeldOf(model.problem));
 }
 
 }  // namespace hoplab

@@ -14,6 +14,7 @@ struct Heterogeneity {
 
   /// The value as N(mean, spread^2) over trials, the spread by restricted likelihood with every
   /// other shared value free; unit of the value. spread 0: one value serves all.
+  /// (A value that is held is the mean.)
   double mean = 0.0, spread = 0.0;
   double gain = 0.0;  // nats of restricted likelihood over one value for all
   /// Minus the second derivative of the restricted log-likelihood by log spread, at spread; 0 where

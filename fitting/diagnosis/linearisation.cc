@@ -108,7 +108,7 @@ LinearisedTrial LineariseTrial(const FitProblem& problem, const std::vector<int>
 
 bool OnBound(const SharedParameter& s, double value) {
   const double near = 1e-6 * s.scale;
-  return value <= s.lower + near || value >= s.upper - near;
+  return s.held || value <= s.lower + near || value >= s.upper - near;
 }
 
 }  // namespace

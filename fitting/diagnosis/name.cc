@@ -55,6 +55,7 @@ class Search {
   Naming Run() {
     if (options_.max_effects < 1) {
       naming_.best = null_;
+      naming_.worth = refits_.Worth({});
       naming_.unlisted_probability = null_.evidence.discrepancy_probability();
       Judge({});
       return std::move(naming_);
@@ -68,6 +69,7 @@ class Search {
     current = Confirmed(current);
     naming_.best = refits_.At(current);
     naming_.best_set = current;
+    naming_.worth = refits_.Worth(current);
     for (const CandidateSet& less : Eliminations(current))
       naming_.without.push_back(refits_.Usable(less) ? refits_.At(less) : FittedModel());
     for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {

@@ -79,6 +79,7 @@ struct Naming {
   double local_log_odds = 0.0;              // against one in one trial only
   FittedModel best;                         // without members if none pays
   CandidateSet best_set;
+  double worth = 0.0;  // logarithm of its posterior weight, of all models' common constant [nats]
   double unlisted_probability = 0.0;  // that something acts that no list holds
   /// One a member of `best`: places in `candidates` of what does as well there, itself first.
   std::vector<std::vector<int>> groups;

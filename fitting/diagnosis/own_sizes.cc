@@ -3,9 +3,13 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/text.h"
+#include "fitting/diagnosis/gate.h"
+#include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/score.h"
+#include "fitting/diagnosis/verdict.h"
 
 namespace hoplab {
 namespace {
@@ -36,17 +40,34 @@ bool InRoom(const Hypothesis& h, const Eigen::VectorXd& sizes) {
   return sizes.minCoeff() >= h.lower[0] - doubt && sizes.maxCoeff() <= h.upper[0] + doubt;
 }
 
+// In typical sizes.
+double HowUnusual(const OwnSizes& own) {
+  double squares = 0.0;
+  for (const double size : own.sizes) squares += size * size;
+  return std::sqrt(squares) / std::abs(own.cause.Parameter(0).typical);
+}
+
+// Place among the members of what explains most of those that act in all trials.
+std::optional<std::size_t> LargestInAllTrials(const Naming& naming) {
+  std::optional<std::size_t> largest;
+  for (std::size_t i = 0; i < naming.best.members.size(); ++i)
+    if (naming.best.members[i].only_recording.empty() &&
+        !(largest && naming.without[*largest].cost >= naming.without[i].cost))
+      largest = i;
+  return largest;
+}
+
 }  // namespace
 
-std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Candidate> candidates,
-                                     const std::vector<TrialProblem>& train) {
+std::vector<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Candidate> candidates,
+                                   const std::vector<TrialProblem>& train) {
   const double misfit = at.chi2() - at.degrees_of_freedom();
   const std::size_t n = train.size();
-  if (!(misfit > 0.0) || n < 2 || n > kMostOwnTrials || at.trials_left_out > 0) return std::nullopt;
+  if (!(misfit > 0.0) || n < 2 || n > kMostOwnTrials || at.trials_left_out > 0) return {};
   // Squares that further sizes must gain, over what any cause gains with one.
   const double price = std::log(static_cast<double>(at.samples)) * static_cast<double>(n - 1);
-  std::optional<OwnSizes> best;
-  double with_one = 0.0, least_unusual = 0.0;
+  std::vector<OwnSizes> found;
+  double with_one = 0.0;
   const std::vector<Hypothesis> hypotheses = HypothesesOf(candidates);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& c = candidates[i];
@@ -63,15 +84,54 @@ std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Ca
     if (!InRoom(hypotheses[i], sizes)) continue;
     const double gained = at.chi2() - (at.r + cut * sizes).squaredNorm();
     const double explained = std::min(gained / misfit, 1.0);
-    if (explained < kLeastOwn) continue;
-    const double unusual = sizes.norm() / c.Parameter(0).typical;
-    const bool alike = best && std::abs(explained - best->explained) < kAlike;
-    if (best && (alike ? unusual >= least_unusual : explained <= best->explained)) continue;
-    least_unusual = unusual;
-    best = OwnSizes{c, {sizes.begin(), sizes.end()}, explained, ""};
+    if (explained >= kLeastOwn) found.push_back({c, {sizes.begin(), sizes.end()}, explained, ""});
   }
-  if (best && best->explained * misfit < with_one + price) return std::nullopt;
-  return best;
+  std::erase_if(found,
+                [&](const OwnSizes& own) { return own.explained * misfit < with_one + price; });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const OwnSizes& a, const OwnSizes& b) { return a.explained > b.explained; });
+  const auto alike = std::find_if(found.begin(), found.end(), [&](const OwnSizes& own) {
+    return found.front().explained - own.explained >= kAlike;
+  });
+  std::stable_sort(found.begin(), alike, [](const OwnSizes& a, const OwnSizes& b) {
+    return HowUnusual(a) < HowUnusual(b);
+  });
+  return found;
+}
+
+std::vector<OwnSizes> PromisingOwnSizes(const Diagnosis& diagnosis,
+                                        std::span<const Candidate> candidates,
+                                        const std::vector<TrialProblem>& train, int jobs) {
+  const auto best_beside = [&](const FittedModel& model, std::span<const Candidate> tested,
+                               double& left) {
+    Linearisation at = LineariseAt(model, tested, train, jobs);
+    at.alike_rows = AlikeRows(train, diagnosis.noise_squares);
+    left = LeftShare(diagnosis.detection, at.chi2(), model.parameter_count());
+    return BestOwnSizes(at, tested, train);
+  };
+  double left = 1.0;
+  std::vector<OwnSizes> all = best_beside(diagnosis.plain, candidates, left);
+  if (const std::optional<std::size_t> largest = LargestInAllTrials(diagnosis.naming)) {
+    const Naming& naming = diagnosis.naming;
+    FittedModel alone =
+        naming.candidates[static_cast<std::size_t>(naming.best_set[*largest])].alone;
+    alone.problem.noise = diagnosis.plain.problem.noise;
+    if (alone.ok()) {
+      for (OwnSizes& own : best_beside(alone, CandidatesBeside(alone, candidates), left)) {
+        own.explained = 1.0 - left * (1.0 - own.explained);
+        own.beside = naming.best.members[*largest].Name();
+        all.push_back(std::move(own));
+      }
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const OwnSizes& a, const OwnSizes& b) { return a.explained > b.explained; });
+  std::vector<OwnSizes> once;
+  for (OwnSizes& own : all)
+    if (std::none_of(once.begin(), once.end(),
+                     [&](const OwnSizes& o) { return o.cause == own.cause; }))
+      once.push_back(std::move(own));
+  return once;
 }
 
 std::string TextOf(const OwnSizes& own, const std::vector<TrialProblem>& train) {

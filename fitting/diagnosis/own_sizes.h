@@ -1,11 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "fitting/diagnosis/candidate.h"
+#include "fitting/diagnosis/diagnosis.h"
 #include "fitting/diagnosis/linearisation.h"
 
 namespace hoplab {
@@ -19,12 +18,19 @@ struct OwnSizes {
   std::string beside;         // a cause that acts in all trials, of one size, and explains its part
 };
 
-/// The cause of one parameter that explains most so, by sizes that it can have. `at`: the
-/// candidates beside a model. Absent where none explains kLeastOwn of the misfit
-/// and gains what further sizes cost.
+/// The causes of one parameter that explain most so, by sizes that they can have; of those that
+/// explain as much as the best the one of the more usual sizes first. `at`: the candidates beside a
+/// model. Empty where none explains kLeastOwn of the misfit and gains what further sizes cost.
 inline constexpr double kLeastOwn = 0.7;
-std::optional<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Candidate> candidates,
-                                     const std::vector<TrialProblem>& train);
+std::vector<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Candidate> candidates,
+                                   const std::vector<TrialProblem>& train);
+
+/// The same, each cause once: beside the plain model of `diagnosis`, and beside the cause alone
+/// that explains most in all trials of those it has found. `explained` is of the plain model's
+/// misfit.
+std::vector<OwnSizes> PromisingOwnSizes(const Diagnosis& diagnosis,
+                                        std::span<const Candidate> candidates,
+                                        const std::vector<TrialProblem>& train, int jobs);
 
 /// A sentence about them.
 std::string TextOf(const OwnSizes& own, const std::vector<TrialProblem>& train);

@@ -48,13 +48,19 @@ void ForgetFailedRivals(Naming& naming, std::size_t member, std::vector<int>& as
 FittedModel Without(const FittedModel& model, const std::vector<SetAside>& members,
                     const FitProblem& null_problem, const RefitSettings& settings) {
   FittedModel less = model;
+  // With the deviations that the model has in them.
+  FitProblem null = null_problem;
+  null.trials = model.problem.trials;
+  const std::vector<TrialProblem> train = TrialsOf(null, TrialRole::kTrain);
+  RefitSettings own = settings;
+  own.train = &train;
   for (const SetAside& m : members) {
     const auto at = std::find(less.members.begin(), less.members.end(), m.cause);
     if (at == less.members.end() || !less.ok()) continue;
-    less = RefitWithout(less, static_cast<int>(at - less.members.begin()), null_problem, settings);
+    less = RefitWithout(less, static_cast<int>(at - less.members.begin()), null, own);
     less.settled = false;
   }
-  if (!less.settled) Settle(less, settings);
+  if (!less.settled) Settle(less, own);
   return less;
 }
 

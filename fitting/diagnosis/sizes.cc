@@ -29,6 +29,7 @@ std::vector<DifferingCause> DifferingCauses(const ExtensionReport& report, const
   const double matters = material * report.explained * excess;
   std::vector<DifferingCause> causes;
   for (const CauseReport* c : report.ToldCauses()) {
+    if (c->cause.each_trial) continue;
     DifferingCause cause;
     for (std::size_t k = 0; k < c->sizes.size(); ++k) {
       if (!Differs(c->sizes[k])) continue;
@@ -86,6 +87,7 @@ VaryingModel RefitOf(const FittedModel& best, std::vector<DifferingCause> causes
 
 void HandOut(const VaryingModel& v, const Diagnosis& d, ExtensionReport& report) {
   for (CauseReport& c : report.causes) {
+    if (c.cause.each_trial) continue;
     c.refitted.resize(c.sizes.size());
     for (std::size_t k = 0; k < c.refitted.size(); ++k) {
       const int place = FirstPlace(d, c) + static_cast<int>(k);
@@ -111,7 +113,8 @@ bool SizesMatter(const SizesReport& sizes, const ExtensionReport& report, double
 void MeasureSizes(ExtensionReport& report, const Diagnosis& d, double material, std::uint64_t seed,
                   const RefitSettings& settings) {
   const std::vector<const CauseReport*> told = report.ToldCauses();
-  if (std::none_of(told.begin(), told.end(), [](const CauseReport* c) { return c->Varies(); }))
+  if (std::none_of(told.begin(), told.end(),
+                   [](const CauseReport* c) { return c->Varies() && !c->cause.each_trial; }))
     return;
   const FittedModel& best = d.naming.best;
   std::vector<DifferingCause> differing = DifferingCauses(

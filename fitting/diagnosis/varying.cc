@@ -166,6 +166,37 @@ FittedModel UnderWhiteNoise(FittedModel model) {
   return model;
 }
 
+void BringToRest(VaryingModel& v, const RefitSettings& settings, const NoiseModel& also) {
+  RefitSettings own = settings;
+  own.train = &v.train;
+  v.converged = false;
+  std::vector<Heterogeneity> seen;
+  for (; v.rounds < kMostRounds && !v.converged; ++v.rounds) {
+    if (settings.stop && *settings.stop) return;
+    SetRidges(v);
+    // Another ridge is another cost: what the last one came to says nothing.
+    v.model.cost = std::numeric_limits<double>::infinity();
+    if (!EndFit(v.model, own)) return;
+    PutInside(v);
+    SetPriors(v);
+    SettleNoise(v.model, own, also);
+    if (!v.model.settled) return;
+    v.converged = Look(v, seen, settings.jobs) < kAtRest;
+    if (std::any_of(v.values.begin(), v.values.end(),
+                    [](const VaryingValue& value) { return !(value.spread > 0.0); })) {
+      v.converged = false;
+      return;
+    }
+  }
+  if (!v.converged) return;
+  v.log_z = v.model.evidence.log_z();
+  for (std::size_t k = 0; k < v.values.size(); ++k)
+    v.log_z += LogSpreadIntegral(
+        v.model.problem.shared[static_cast<std::size_t>(v.values[k].place)], seen[k]);
+  AddIntervals(v, settings.jobs);
+  v.square = SquareOf(v);
+}
+
 VaryingModel RefitVarying(const FittedModel& model, const std::vector<int>& places,
                           const RefitSettings& settings) {
   VaryingModel v;
@@ -177,32 +208,12 @@ VaryingModel RefitVarying(const FittedModel& model, const std::vector<int>& plac
     return v;
   }
   Begin(v.values, v);
-  RefitSettings own = settings;
-  own.train = &v.train;
-  std::vector<Heterogeneity> seen;
-  for (; v.rounds < kMostRounds && !v.converged; ++v.rounds) {
-    if (settings.stop && *settings.stop) return v;
-    SetRidges(v);
-    // Another ridge is another cost: what the last one came to says nothing.
-    v.model.cost = std::numeric_limits<double>::infinity();
-    if (!EndFit(v.model, own)) return v;
-    PutInside(v);
-    SetPriors(v);
-    SettleNoise(v.model, own, model.problem.noise);
-    if (!v.model.settled) return v;
-    v.converged = Look(v, seen, settings.jobs) < kAtRest;
-    std::vector<int> left;
-    for (const VaryingValue& value : v.values)
-      if (value.spread > 0.0) left.push_back(value.place);
-    if (left.size() < v.values.size()) return RefitVarying(model, left, settings);
-  }
-  if (!v.converged) return v;
-  v.gain = v.model.evidence.log_z() - model.evidence.log_z();
-  for (std::size_t k = 0; k < v.values.size(); ++k)
-    v.gain += LogSpreadIntegral(v.model.problem.shared[static_cast<std::size_t>(v.values[k].place)],
-                                seen[k]);
-  AddIntervals(v, settings.jobs);
-  v.square = SquareOf(v);
+  BringToRest(v, settings, model.problem.noise);
+  std::vector<int> left;
+  for (const VaryingValue& value : v.values)
+    if (value.spread > 0.0) left.push_back(value.place);
+  if (left.size() < v.values.size()) return RefitVarying(model, left, settings);
+  if (v.converged) v.gain = v.log_z - model.evidence.log_z();
   return v;
 }
 

@@ -30,9 +30,11 @@ struct VaryingModel {
   bool converged = false;
   int rounds = 0;
   double square = 0.0;  // squares of data over sigma and of priors, N(0, spread^2) of deviations
-  /// Nats of evidence over the model with one size for all trials. Both evidences are Laplace's
-  /// with the same priors of shared values and noise; deviations are integrated out under
-  /// N(0, spread^2), spreads under LogSizePrior of one side.
+  /// Laplace's evidence, deviations integrated out under N(0, spread^2), spreads under LogSizePrior
+  /// of one side [nats].
+  double log_z = 0.0;
+  /// `log_z` over that of the model with one size for all trials, whose shared values and noise
+  /// have the same priors.
   double gain = 0.0;
 };
 
@@ -52,6 +54,11 @@ FittedModel UnderWhiteNoise(FittedModel model);
 /// one size again. `settings.train` are the trials `model` was fitted to.
 VaryingModel RefitVarying(const FittedModel& model, const std::vector<int>& places,
                           const RefitSettings& settings);
+
+/// The same of a model that has its deviations: fits it, and brings its spreads to rest. What the
+/// trials of `settings` are is not looked at. `also`: as SettleNoise has it. Not `converged` where
+/// some spread came to 0; then nothing else is to be used.
+void BringToRest(VaryingModel& v, const RefitSettings& settings, const NoiseModel& also = {});
 
 /// Gives the deviations the priors with which least squares find them. These weigh rows as if all
 /// noise were white; a size is then drawn to the mean as it should be only where its prior is

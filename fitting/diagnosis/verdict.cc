@@ -177,6 +177,7 @@ std::vector<const CauseReport*> ExtensionReport::ToldCauses() const {
 }
 
 bool ExtensionReport::TellsSizesOf(const CauseReport& cause, std::size_t k) const {
+  if (cause.cause.each_trial) return true;
   if (!sizes || !Differs(cause.sizes[k])) return false;
   return sizes->refitted && sizes->pays && sizes->matters && cause.refitted[k];
 }

@@ -15,7 +15,7 @@ constexpr double kColumnTolerance = 1e-10;
 
 bool OnBound(const SharedParameter& s, double value) {
   const double near = 1e-6 * s.scale;
-  return value <= s.lower + near || value >= s.upper - near;
+  return s.held || value <= s.lower + near || value >= s.upper - near;
 }
 
 // Sum of the logarithms of the diagonal of R over its first `count` columns, what nothing sees left
@@ -154,8 +154,9 @@ std::optional<RestrictedLikelihood::Part> RestrictedLikelihood::Make(const FitPr
   }
   for (Eigen::Index k = 0; k < width; ++k) {
     const auto place = static_cast<std::size_t>(columns[static_cast<std::size_t>(k)]);
-    part.block.col(part.own + k) =
-        e.jacobian.col(static_cast<Eigen::Index>(place)) * problem.shared[place].scale;
+    // Of what is held the likelihood says nothing.
+    const double scale = problem.shared[place].held ? 0.0 : problem.shared[place].scale;
+    part.block.col(part.own + k) = e.jacobian.col(static_cast<Eigen::Index>(place)) * scale;
   }
   part.block.col(part.own + width) = e.residuals;
   part.block.conservativeResize(Eigen::NoChange, part.own + width + 1);

@@ -31,8 +31,9 @@ std::string Unbroken(const std::string& text) {
   return words;
 }
 
+// Of few trials the told model has one size, and what sizes are worth stands beside it.
 TEST(SizesInWords, DragThatDiffersIsToldWithItsSizesAndWhatTheyExplain) {
-  const Dataset dataset = HopsWithDrag({0.03, 0.09, 0.05, 0.07, 0.02, 0.08}, {0.06}, 3);
+  const Dataset dataset = HopsWithDrag({0.03, 0.09, 0.05, 0.07}, {0.06}, 3);
   const DiagnosisRun run = RunOf(dataset);
   ASSERT_TRUE(run.diagnosis.extension) << run.diagnosis.reason;
   const std::string text = Unbroken(DiagnosisReport(dataset, run, true, false));
@@ -45,7 +46,8 @@ TEST(SizesInWords, DragThatDiffersIsToldWithItsSizesAndWhatTheyExplain) {
   EXPECT_EQ(varies.at("name"), "c_drag");
   EXPECT_EQ(varies.at("refitted"), true);
   EXPECT_EQ(varies.at("told"), true);
-  EXPECT_EQ(varies.at("trials").size(), 6u);
+  EXPECT_EQ(varies.at("in_the_model"), false);
+  EXPECT_EQ(varies.at("trials").size(), 4u);
   EXPECT_NEAR(varies.at("trials").at(1).at("value"), 0.09,
               4.0 * varies.at("trials").at(1).at("std_error").get<double>());
   const Json& worth = varies.at("with_sizes");
@@ -53,6 +55,29 @@ TEST(SizesInWords, DragThatDiffersIsToldWithItsSizesAndWhatTheyExplain) {
   EXPECT_GT(worth.at("explained"), worth.at("explained_one_size"));
   EXPECT_LT(worth.at("held_out_rmse").at("body_x_m"),
             worth.at("held_out_rmse_one_size").at("body_x_m"));
+}
+
+// Of more the model has them itself.
+TEST(SizesInWords, DragOfEachTrialsOwnIsNamedSo) {
+  const Dataset dataset = HopsWithDrag({0.03, 0.09, 0.05, 0.07, 0.02, 0.08}, {0.06}, 3);
+  const DiagnosisRun run = RunOf(dataset);
+  ASSERT_TRUE(run.diagnosis.extension) << run.diagnosis.reason;
+  const std::string text = Unbroken(DiagnosisReport(dataset, run, true, false));
+  EXPECT_NE(text.find("lacks air_drag of each trial's own size"), std::string::npos) << text;
+  EXPECT_NE(text.find("air_drag in every trial, differently: mean 0.0"), std::string::npos) << text;
+  EXPECT_NE(text.find("train-2.csv 0.0"), std::string::npos) << text;
+  EXPECT_EQ(text.find("with these sizes the causes explain "), std::string::npos) << text;
+
+  const Json causes = CausesRecord(run.diagnosis);
+  EXPECT_EQ(causes.at(0).at("name"), "air_drag");
+  EXPECT_EQ(causes.at(0).at("each_trial"), true);
+  const Json& varies = causes.at(0).at("varies").at(0);
+  EXPECT_EQ(varies.at("refitted"), true);
+  EXPECT_EQ(varies.at("told"), true);
+  EXPECT_EQ(varies.at("in_the_model"), true);
+  EXPECT_TRUE(varies.at("with_sizes").is_null());
+  EXPECT_NEAR(varies.at("trials").at(1).at("value"), 0.09,
+              4.0 * varies.at("trials").at(1).at("std_error").get<double>());
 }
 
 TEST(SizesInWords, NothingIsSaidWhereOneSizeServesAll) {

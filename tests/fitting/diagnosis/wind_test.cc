@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "fitting/diagnosis/diagnosis.h"
 #include "fitting/diagnosis/verdict.h"
+#include "tests/support/diagnosed_hops.h"
 #include "tests/support/diagnosis_cases.h"
 #include "tests/support/moving_air.h"
 
@@ -198,11 +199,15 @@ Dataset BallsThatSpin(std::uint64_t seed) {
 }
 
 // The forward one leaves between a quarter and a half of what the drag leaves. (With seed 2 one
-// friction of all, which the others pull at, is told in its place.)
+// friction of all, which the others pull at, is told in its place.) A diagnosis goes on to a
+// friction of each trial's own.
 TEST(InOneTrial, IsLookedForWhereATrialStandsOut) {
   for (const std::uint64_t seed : {1, 3, 4}) {
-    const Diagnosis d = Diagnose(BallsThatSpin(seed), {});
-    const std::vector<Candidate>& told = d.naming.best.members;
+    const testing::NullFit fit(BallsThatSpin(seed));
+    const std::vector<Candidate> candidates = CandidatesOf(fit.problem, {});
+    const Naming naming =
+        NameCauses(fit.fits(), candidates, fit.Linearised(fit.settled, candidates), fit.train, {});
+    const std::vector<Candidate>& told = naming.best.members;
     EXPECT_TRUE(std::any_of(told.begin(), told.end(), [](const Candidate& c) {
       return c.Name() == "bounce_coulomb_friction in train-4.csv";
     })) << seed;
