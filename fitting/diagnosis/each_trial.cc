@@ -303,6 +303,7 @@ void Join(const std::vector<World>& worlds, const EachTrialRequest& request, dou
 
 std::optional<EachTrialFound> NameEachTrial(const EachTrialRequest& request,
                                             const RefitSettings& settings) {
+  if (std::ssize(*settings.train) < kFewestTrials) return std::nullopt;
   std::vector<Searched> all = SearchAll(request, settings);
   if (all.empty()) return std::nullopt;
   Searched& best = all.front();

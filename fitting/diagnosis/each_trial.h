@@ -12,7 +12,7 @@ namespace hoplab {
 
 /// Nats of evidence, over the best of one size for all, from which a cause of each trial's own size
 /// is told. Where what acts is not in the catalogue, sizes that are free in each trial stand in for
-/// it, with gains of 6 to 33 nats in the calibration's cases; three of fourteen gained more than
+/// it, with gains of 5 to 33 nats in the calibration's cases; three of sixteen gained more than
 /// this. What was planted so gained 55 and more (docs/decisions/0022).
 inline constexpr double kOwnSizesPay = 20.0;
 

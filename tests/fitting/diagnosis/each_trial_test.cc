@@ -129,6 +129,21 @@ TEST(EachTrial, IsNotToldWhereTrialsAreAlike) {
                                                   "touchdown_angle_bias"}))));
 }
 
+// The same sizes, once as they come and once falling with the angle that is stated: there what is
+// missing may depend on it.
+TEST(EachTrial, IsNotToldWhereSizesGoWithTheSetUp) {
+  constexpr double kFalling[] = {0.03, 0.02, 0.01, -0.015, -0.025, -0.03, 0.02, -0.02};
+  const Diagnosis d =
+      Diagnose(HopsWithOwn("touchdown_angle_bias", kFalling), testing::OptionsWith(kCauses));
+  EXPECT_FALSE(OwnSizesTold(d));
+}
+
+TEST(EachTrial, IsNotToldOfFewTrials) {
+  Dataset few = HopsWithOwn("touchdown_angle_bias", kOffByHand);
+  few.trials.erase(few.trials.begin() + 4, few.trials.begin() + 6);
+  EXPECT_FALSE(OwnSizesTold(Diagnose(few, testing::OptionsWith(kCauses))));
+}
+
 TEST(EachTrial, DoesNotDependOnTheNumberOfJobs) {
   DiagnosisOptions options = testing::OptionsWith(kCauses);
   const Dataset dataset = HopsWithOwn("touchdown_angle_bias", kOffByHand);

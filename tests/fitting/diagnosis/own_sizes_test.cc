@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
+#include "fitting/diagnosis/believe.h"
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
@@ -48,6 +50,25 @@ TEST(OwnSizes, OfAnglesSetByHandAreToldTrialByTrial) {
   EXPECT_NE(text.find(" rad); where angles are set by hand, touchdown_angle_sigma_deg"),
             std::string::npos)
       << text;
+}
+
+// A larger cause acts in all trials: beside it the angles are seen. (Of more trials they are
+// named.)
+TEST(OwnSizes, AreLookedForBesideTheLargestCauseToo) {
+  const EffectSpec drag = EffectOfSize("air_drag", 0.15);
+  Dataset d = DatasetOf({.effects = {drag}, .train = 4});
+  const double off[] = {0.03, -0.025, 0.02, -0.03};
+  for (std::size_t i = 0; i < std::size(off); ++i)
+    d.trials[i] =
+        DatasetOf({.effects = {drag, EffectOfSize("touchdown_angle_bias", off[i])}, .train = 4})
+            .trials[i];
+  const Diagnosis found =
+      Diagnose(d, testing::OptionsWith({"air_drag", "touchdown_angle_bias", "touchdown_loss"}));
+  EXPECT_TRUE(std::any_of(found.notes.begin(), found.notes.end(), [](const std::string& note) {
+    return note.starts_with(
+        "air_drag in all trials and touchdown_angle_bias of another size in each trial would "
+        "explain ");
+  })) << found.reason;
 }
 
 // What they have in common is the modulus.
@@ -102,17 +123,30 @@ TEST(OwnSizes, AreThoseThatACauseCanHave) {
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(losses->sizes[i], kLosses[i], 1e-12);
 }
 
-// Hops of a trial are no trials: there it is a note.
 TEST(OwnSizes, AreToldByADiagnosisThatExplainsLess) {
-  DiagnosisOptions options = testing::OptionsWith(testing::kSixEffects);
-  options.span = Segmentation::kHops;
-  const Diagnosis d = Diagnose(HopsOffBy(kOff), options);
+  const Diagnosis d = Diagnose(HopsOffBy(kOff), testing::OptionsWith(testing::kSixEffects));
+  ASSERT_EQ(d.verdict, Verdict::kUnexplained);
   EXPECT_EQ(std::count_if(d.notes.begin(), d.notes.end(),
                           [](const std::string& note) {
                             return note.starts_with("touchdown_angle_bias of another size in each");
                           }),
-            1)
-      << d.reason;
+            1);
+}
+
+TEST(OwnSizes, AreToldOnceOfADiagnosisThatIsJudgedAnew) {
+  const DiagnosisOptions options = testing::OptionsWith(testing::kSixEffects);
+  const Diagnosis d = Diagnose(HopsOffBy(kOff), options);
+  ASSERT_TRUE(d.extension && d.extension->causes.size() > 1);
+  const auto told = [](const std::vector<std::string>& notes) {
+    return std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("of another size in each trial") != std::string::npos;
+    });
+  };
+  ASSERT_EQ(told(d.notes), 1);
+  const SetAside out = AsSetAside(d.extension->causes.back(), *d.extension, d.naming);
+  const Diagnosis without = DiagnosedWithout(d, {out}, options);
+  EXPECT_EQ(without.extension->causes.size() + 1, d.extension->causes.size());
+  EXPECT_EQ(told(without.notes), 1);
 }
 
 TEST(OwnSizes, AreNotWhatOneSizeForAllExplains) {
