@@ -175,4 +175,16 @@ std::optional<std::size_t> FindTopAfterStance(const Samples& heights, double lan
   return static_cast<std::size_t>(top - y.begin());
 }
 
+std::optional<std::size_t> FindTopBeforeFall(const Samples& heights, double lands_m,
+                                             double lowest_m, double doubt) {
+  const std::vector<double>& y = heights.y;
+  const auto flies = [&](double h) { return h > lands_m + doubt; };
+  const auto last = std::find_if(y.rbegin(), y.rend(), flies);
+  if (last == y.rend() ||
+      std::none_of(last.base(), y.end(), [&](double h) { return h < lowest_m - doubt; }))
+    return std::nullopt;
+  const auto begin = std::find_if(last, y.rend(), [&](double h) { return h < lands_m - doubt; });
+  return static_cast<std::size_t>(std::max_element(begin.base(), last.base()) - y.begin());
+}
+
 }  // namespace hoplab

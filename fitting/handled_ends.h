@@ -32,4 +32,10 @@ std::optional<std::size_t> FindCatch(const Samples& heights, double sigma, doubl
 std::optional<std::size_t> FindTopAfterStance(const Samples& heights, double lands_m, double doubt,
                                               std::size_t fewest);
 
+/// The sample at the top of the last flight of a body that falls: it sinks below `lowest_m`, where
+/// no leg is left to carry it, and does not rise above `lands_m`, where the leg lands, again.
+/// `doubt`: of a height [m].
+std::optional<std::size_t> FindTopBeforeFall(const Samples& heights, double lands_m,
+                                             double lowest_m, double doubt);
+
 }  // namespace hoplab

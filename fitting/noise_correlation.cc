@@ -64,6 +64,15 @@ struct ExpectedLeft : LeftInWindows {
   }
 };
 
+// The first place of a window behind its last gap, where rows are missing; 0: it has none.
+std::size_t BehindGap(std::span<const double> times) {
+  constexpr double kGap = 1.5;  // mean steps
+  const double mean = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  for (std::size_t i = times.size() - 1; i > 0; --i)
+    if (times[i] - times[i - 1] > kGap * mean) return i;
+  return 0;
+}
+
 // Of windows in flight.
 struct SeenInFlight : LeftInWindows {
   std::size_t windows = 0;
@@ -80,7 +89,12 @@ SeenInFlight LookAtFlights(std::span<const SampledColumn> columns, double most) 
         begin += static_cast<std::size_t>(values.rend() - missing);
         continue;
       }
-      const double length = column.times[begin + kOfWindow - 1] - column.times[begin];
+      const std::span<const double> times = column.times.subspan(begin, kOfWindow);
+      if (const std::size_t behind = BehindGap(times); behind > 0) {
+        begin += behind;
+        continue;
+      }
+      const double length = times.back() - times.front();
       begin += kOfWindow;
       const Eigen::VectorXd left =
           parabola * Eigen::Map<const Eigen::VectorXd>(values.data(), kOfWindow);

@@ -52,8 +52,33 @@ Samples SamplesOf(const Trial& trial, const std::vector<double>& values) {
   return s;
 }
 
+// The end that no simulation follows: a hand that catches the body, or its fall. `flown`: the
+// heights from the first flight on.
+void FindEnd(const Trial& trial, std::size_t place, const Samples& flown, double sigma,
+             std::vector<TraceFault>& faults) {
+  constexpr double kFallen = 0.25;  // of a leg's height: no law's leg carries its body lower
+  constexpr double kDoubt = 6.0;
+  // A leg carries it at most where it stands upright.
+  const double upright_m = TouchdownHeight(trial.mechanism, 0.0);
+  if (!(upright_m > 0.0)) return;
+  TraceFault end{TraceFault::Kind::kAfterCatch, place, Channel::kBodyY, {}, 0.0};
+  std::optional<std::size_t> first = FindCatch(flown, sigma, FreeFall(trial.mechanism), upright_m);
+  const bool has_one_leg = trial.mechanism.type == MechanismKind::kCLeg ||
+                           trial.mechanism.type == MechanismKind::kStraightLeg;
+  if (!first && has_one_leg) {
+    end.kind = TraceFault::Kind::kFall;
+    const double lands_m = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
+    first = FindTopBeforeFall(flown, lands_m, kFallen * upright_m, kDoubt * sigma);
+    if (first) ++*first;  // the top itself is compared
+  }
+  if (!first || *first < kLeftOver || *first >= flown.size()) return;
+  for (std::size_t row = flown.row[*first]; row < trial.trace.time_s.size(); ++row)
+    end.rows.push_back(row);
+  faults.push_back(end);
+}
+
 // What is before a record's first flight and after its last one: hands that hold the body and catch
-// it, a stance. A clock's motors do not wait for a hand.
+// it, a stance, a fall. A clock's motors do not wait for a hand.
 void FindEnds(const Trial& trial, std::size_t place, const ChannelSpec& channel,
               std::vector<TraceFault>& faults) {
   const std::vector<double>* values = trial.trace.Find(Channel::kBodyY);
@@ -85,15 +110,7 @@ void FindEnds(const Trial& trial, std::size_t place, const ChannelSpec& channel,
     for (std::size_t row = 0; row < s.row[begins]; ++row) stance.rows.push_back(row);
     faults.push_back(stance);
   }
-  // A leg carries it at most where it stands upright.
-  const double lands_m = TouchdownHeight(trial.mechanism, 0.0);
-  if (!std::isfinite(lands_m)) return;
-  const auto caught = FindCatch(s.From(begins), sigma, g, lands_m);
-  if (!caught || *caught < kLeftOver) return;
-  TraceFault after{TraceFault::Kind::kAfterCatch, place, Channel::kBodyY, {}, 0.0};
-  for (std::size_t row = s.row[begins + *caught]; row < values->size(); ++row)
-    after.rows.push_back(row);
-  faults.push_back(after);
+  FindEnd(trial, place, s.From(begins), sigma, faults);
 }
 
 void FindIn(const Trial& trial, std::size_t place, const ChannelSpec& channel,
@@ -141,6 +158,8 @@ std::string_view NameOf(TraceFault::Kind kind) {
       return "after_catch";
     case TraceFault::Kind::kBeforeFlight:
       return "before_flight";
+    case TraceFault::Kind::kFall:
+      return "fall";
   }
   return "";
 }
@@ -202,10 +221,7 @@ void MoveStart(const Release& release, double since, double moved_m, Trial& tria
 
 Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults) {
   for (const TraceFault& fault : faults) {
-    if (fault.kind == TraceFault::Kind::kBeforeRelease ||
-        fault.kind == TraceFault::Kind::kAfterCatch ||
-        fault.kind == TraceFault::Kind::kBeforeFlight)
-      continue;
+    if (fault.IsAnEnd()) continue;
     for (TraceColumn& column : dataset.trials[fault.trial].trace.columns) {
       if (column.name != ChannelName(fault.channel)) continue;
       if (fault.kind == TraceFault::Kind::kJump)
@@ -217,7 +233,7 @@ Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults) {
   // Rows are counted as they were recorded: the end goes first.
   for (auto fault = faults.rbegin(); fault != faults.rend(); ++fault) {
     Trial& trial = dataset.trials[fault->trial];
-    if (fault->kind == TraceFault::Kind::kAfterCatch)
+    if (fault->kind == TraceFault::Kind::kAfterCatch || fault->kind == TraceFault::Kind::kFall)
       Erase(fault->rows.front(), trial.trace.time_s.size(), trial.trace);
     if (fault->kind == TraceFault::Kind::kBeforeFlight) {
       Erase(0, fault->rows.back() + 1, trial.trace);
@@ -230,105 +246,6 @@ Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults) {
     MoveStart(fault->release, trial.trace.time_s.front() - fault->release.time_s, moved_m, trial);
   }
   return dataset;
-}
-
-namespace {
-
-// What a reader is told of one kind of fault in one channel.
-class Telling {
- public:
-  Telling(const Dataset& dataset, const TraceFault& first, bool kept)
-      : trial_(dataset.trials[first.trial]), first_(first), kept_(kept) {}
-
-  bool Covers(const TraceFault& fault) const {
-    return fault.kind == first_.kind && fault.channel == first_.channel;
-  }
-  void Add(const TraceFault& fault) {
-    count_ += fault.rows.size();
-    ++trials_;
-    largest_ = std::max(largest_, fault.largest);
-  }
-
-  std::string Sentence() const {
-    const std::string name = ChannelName(first_.channel);
-    const bool one = count_ == 1;
-    const std::string samples = std::to_string(count_) + (one ? " sample of " : " samples of ") +
-                                name + Many() + (one ? ", in " : ", first in ") + Where() + ", ";
-    switch (first_.kind) {
-      case TraceFault::Kind::kStray:
-        return samples + (one ? "lies" : "lie") + " off the motion before and after by up to " +
-               Size() + Fate(one ? "it is" : "they are");
-      case TraceFault::Kind::kHeld:
-        return samples + (one ? "repeats" : "repeat") +
-               " the one before to the last digit, as where a sensor holds its value" +
-               Fate(one ? "it is" : "they are");
-      case TraceFault::Kind::kBeforeRelease:
-        return "the body is held until " + Rounded(first_.release.time_s) + " s of " + trial_.file +
-               Others() + ", and then falls free; what is before" + NotCompared(" is");
-      case TraceFault::Kind::kAfterCatch:
-        return "the body rests in the air at the end of " + trial_.file + Others() +
-               ": it was caught, at " + Rounded(trial_.trace.time_s[first_.rows[0]]) +
-               " s; what follows" + NotCompared(" is");
-      case TraceFault::Kind::kBeforeFlight:
-        return trial_.file + Others() +
-               " begins in a stance; what is before the top of its first flight, at " +
-               Rounded(trial_.trace.time_s[first_.rows.back() + 1]) + " s," + NotCompared(" is");
-      case TraceFault::Kind::kJump:
-        break;
-    }
-    return name + " jumps by " + Size() +
-           (one ? "" : " at most, " + std::to_string(count_) + " times") + Many() +
-           (one ? ", in " : ", first in ") + Where() + ", while the motion goes on" + Reason() +
-           Fate("what follows is");
-  }
-
- private:
-  std::string Many() const {
-    return trials_ > 1 ? " in " + std::to_string(trials_) + " trials" : "";
-  }
-  std::string Others() const {
-    return trials_ > 1 ? " (likewise in " + std::to_string(trials_ - 1) + " more)" : "";
-  }
-  std::string Where() const {
-    return trial_.file + " at " + Rounded(trial_.trace.time_s[first_.rows[0]]) + " s";
-  }
-  std::string Size() const { return Rounded(largest_) + " " + ChannelUnit(first_.channel); }
-  std::string NotCompared(const std::string& what) const {
-    return what + (kept_ ? " compared all the same" : " not compared");
-  }
-  std::string Fate(const std::string& what) const { return "; " + NotCompared(what); }
-  std::string Reason() const {
-    constexpr double kTurn = 2.0 * kPi;
-    const bool angle = std::string_view(ChannelUnit(first_.channel)) == "rad";
-    if (angle && std::abs(largest_ - kTurn) < 0.01 * kTurn)
-      return ", by a whole turn: an angle must go on counting";
-    return angle ? "" : ", as where a camera or a marker is moved";
-  }
-
-  const Trial& trial_;
-  const TraceFault& first_;
-  bool kept_;
-  std::size_t count_ = 0, trials_ = 0;
-  double largest_ = 0.0;
-};
-
-}  // namespace
-
-std::vector<std::string> FaultSentences(const Dataset& dataset,
-                                        const std::vector<TraceFault>& faults, bool kept) {
-  std::vector<Telling> tellings;
-  for (const TraceFault& fault : faults) {
-    auto telling = std::find_if(tellings.begin(), tellings.end(),
-                                [&](const Telling& t) { return t.Covers(fault); });
-    if (telling == tellings.end()) {
-      tellings.emplace_back(dataset, fault, kept);
-      telling = std::prev(tellings.end());
-    }
-    telling->Add(fault);
-  }
-  std::vector<std::string> sentences;
-  for (const Telling& telling : tellings) sentences.push_back(telling.Sentence());
-  return sentences;
 }
 
 }  // namespace hoplab

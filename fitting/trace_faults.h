@@ -16,7 +16,8 @@ struct TraceFault {
     kJump,   // from these rows on the motion goes on smoothly, but from another place
     kBeforeRelease,  // the body is held, and then let go: the rows before (FindRelease)
     kAfterCatch,     // it is caught in the air: the rows from there on (FindCatch)
-    kBeforeFlight    // the record begins in a stance: the rows before its first flight's top
+    kBeforeFlight,   // the record begins in a stance: the rows before its first flight's top
+    kFall            // the body falls to the ground: the rows after its last flight's top
   };
   Kind kind = Kind::kStray;
   std::size_t trial = 0;
@@ -24,8 +25,14 @@ struct TraceFault {
   std::vector<std::size_t> rows;  // of the trace, ascending
   double largest = 0.0;           // the largest distance [the channel's unit]
   Release release = {};           // of kBeforeRelease
+
+  /// The rows are all before, or all after, what is compared.
+  bool IsAnEnd() const {
+    return kind == Kind::kBeforeRelease || kind == Kind::kAfterCatch ||
+           kind == Kind::kBeforeFlight || kind == Kind::kFall;
+  }
 };
-/// "stray", "held", "jump", "before_release", "after_catch" or "before_flight".
+/// "stray", "held", "jump", "before_release", "after_catch", "before_flight" or "fall".
 std::string_view NameOf(TraceFault::Kind kind);
 
 /// All of them, by what is recorded alone: no law is asked. The motion beside a sample is a
@@ -42,9 +49,9 @@ std::vector<TraceFault> FindTraceFaults(const Dataset& dataset);
 
 /// The dataset with stray and held samples missing, and of a channel that jumps all that follows:
 /// nobody knows where the body is from there on. A trial begins after the release and ends before
-/// the catch; a start that is stated is that of the release, moved on to the first row. One that
-/// begins in a stance begins at the top of its first flight, and what is stated of its start is
-/// dropped: the trace has it.
+/// the catch, or at the top of the flight from which the body fell; a start that is stated is that
+/// of the release, moved on to the first row. One that begins in a stance begins at the top of its
+/// first flight, and what is stated of its start is dropped: the trace has it.
 Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults);
 
 /// A sentence for each channel and kind, for a reader: how many samples of which trials, and

@@ -11,6 +11,7 @@
 #include "base/nan.h"
 #include "base/parallel.h"
 #include "fitting/eliminated_trial.h"
+#include "fitting/shared_bounds.h"
 #include "fitting/trial_noise.h"
 
 namespace hoplab {
@@ -67,11 +68,6 @@ std::pair<double, double> CutInterval(double value, double half, const SharedPar
   return {std::max(value - half, s.lower), std::min(value + half, s.upper)};
 }
 
-bool AtBound(double value, const SharedParameter& s) {
-  const double near = 1e-6 * s.scale;
-  return s.held || value <= s.lower + near || value >= s.upper - near;
-}
-
 // What the trials together know of the values that are not at a bound, the `active` ones.
 struct Known {
   std::vector<int> active;
@@ -87,7 +83,7 @@ Known Gather(const FitProblem& problem, const std::vector<TrialProblem>& trials,
   Known known;
   std::vector<KeptColumn> columns;
   for (int k = 0; k < problem.shared_count(); ++k) {
-    if (AtBound(shared[k], problem.shared[k])) continue;
+    if (IsHeldOrOnBound(problem.shared[k], shared[k])) continue;
     known.active.push_back(k);
     columns.push_back({k, problem.shared[k].scale});
   }
@@ -270,7 +266,8 @@ Uncertainty AssessUncertainty(const FitProblem& problem, const std::vector<Trial
   out.parameters.resize(n);
   // Values on a bound are taken as given; what the rest would do if they moved is a question for
   // the profile.
-  for (int k = 0; k < n; ++k) out.parameters[k].at_bound = AtBound(shared[k], problem.shared[k]);
+  for (int k = 0; k < n; ++k)
+    out.parameters[k].at_bound = IsHeldOrOnBound(problem.shared[k], shared[k]);
   const Known known = Gather(problem, trials, shared, initial_states, loss, jobs);
   const int m = static_cast<int>(known.active.size());
   const EliminatedTrial all = Stacked(known.parts);

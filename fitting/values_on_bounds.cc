@@ -4,9 +4,6 @@
 
 namespace hoplab {
 
-bool IsOnLower(const SharedParameter& s, double value) { return value <= s.lower + 1e-9 * s.scale; }
-bool IsOnUpper(const SharedParameter& s, double value) { return value >= s.upper - 1e-9 * s.scale; }
-
 bool Contains(const Places& places, int k) {
   return std::find(places.begin(), places.end(), k) != places.end();
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "fitting/shared_bounds.h"
 #include "fitting/solve.h"
 #include "fitting/trial_evaluations.h"
 
@@ -10,10 +11,6 @@ namespace hoplab {
 /// Places of shared values in FitProblem::shared.
 using Places = std::vector<int>;
 bool Contains(const Places& places, int k);
-
-/// Whether a shared value lies on its bound, but for rounding.
-bool IsOnLower(const SharedParameter& s, double value);
-bool IsOnUpper(const SharedParameter& s, double value);
 
 /// The shared values on a bound that the cost pushes outward, at the last point whose derivatives
 /// were asked for; those that the request holds are left out.

@@ -122,6 +122,28 @@ bool TakesExtension(const Json& record) {
          (text("verdict") == "named" || text("verdict") == "confounded");
 }
 
+// Refuses a run that has no model, or none that holds.
+void RequireModel(const Json& json, const std::string& place, const std::string& command,
+                  const Json& source) {
+  const std::string status = json.value("status", Json("ok")).get<std::string>();
+  const bool estimates = command == "fit" || command == "diagnose" || command == "optimize";
+  if (estimates && (status == "failed" || status == "stuck")) {
+    throw InputError({place, "status = " + Printable(status),
+                      "must be a run with a result: its values are no estimate",
+                      "Give the folder of a fit, a diagnosis or a simulation that succeeded."});
+  }
+  const auto found = source.find("mechanism");
+  if (found == source.end() || !found->is_object()) {
+    throw InputError({place, "command = " + Printable(command), "must be a run with a model",
+                      "Give the folder of a fit, a diagnosis or a simulation that succeeded."});
+  }
+  if (!found->contains("law")) {
+    throw InputError({place + ": mechanism", "law = absent",
+                      "must be told: an earlier hoplab wrote this run, and kept less of the model",
+                      "Run the command anew."});
+  }
+}
+
 }  // namespace
 
 Parameters<double> ExportedModel::Effective() const {
@@ -150,26 +172,10 @@ ExportedModel ModelOfRun(const std::filesystem::path& folder, const StoredRun& r
   const std::string place = Printable((folder / "run.json").string(), 200);
   const Json& json = run.record;
   const std::string command = json.value("command", Json("")).get<std::string>();
-  const std::string status = json.value("status", Json("ok")).get<std::string>();
-  const bool estimates = command == "fit" || command == "diagnose" || command == "optimize";
-  if (estimates && (status == "failed" || status == "stuck")) {
-    throw InputError({place, "status = " + Printable(status),
-                      "must be a run with a result: its values are no estimate",
-                      "Give the folder of a fit, a diagnosis or a simulation that succeeded."});
-  }
   const bool extended = TakesExtension(json);
   const Json& source = extended ? json.at("extension") : json;
-  const auto found = source.find("mechanism");
-  if (found == source.end() || !found->is_object()) {
-    throw InputError({place, "command = " + Printable(command), "must be a run with a model",
-                      "Give the folder of a fit, a diagnosis or a simulation that succeeded."});
-  }
-  if (!found->contains("law")) {
-    throw InputError({place + ": mechanism", "law = absent",
-                      "must be told: an earlier hoplab wrote this run, and kept less of the model",
-                      "Run the command anew."});
-  }
-  const RecordReader mechanism(place + ": mechanism", *found);
+  RequireModel(json, place, command, source);
+  const RecordReader mechanism(place + ": mechanism", source.at("mechanism"));
   ExportedModel model;
   const std::string subject = json.contains("dataset") && json["dataset"].is_string()
                                   ? json["dataset"].get<std::string>()

@@ -102,7 +102,9 @@ std::string CausesSentence(const Diagnosis& d, std::size_t most) {
   const ExtensionReport& e = *d.extension;
   const std::vector<const CauseReport*> told = e.ToldCauses();
   std::vector<std::string> names;
+  double shares = 0.0;
   for (const CauseReport* c : told) {
+    shares += e.OfMisfit(c->share);
     std::string name = GroupText(d, *c, most);
     if (told.size() > 1 && most > 1) name += fmt::format(" ({})", ShareText(e.OfMisfit(c->share)));
     names.push_back(std::move(name));
@@ -116,6 +118,9 @@ std::string CausesSentence(const Diagnosis& d, std::size_t most) {
                          : "The simulation ";
   text += sure ? "lacks " : told_probability >= kLikely ? "probably lacks " : "may lack ";
   text += FirstOf(names, most);
+  // What each explains alone beside the others is little where they do much the same.
+  if (told.size() > 1 && names.size() <= most && shares < 0.5 * e.explained)
+    text += fmt::format(", together {}", ShareText(e.explained));
   if (!sure) text += fmt::format(" (P {:.2f})", told_probability);
   if (ActsBeside(e))
     text += fmt::format(" and something not listed (P {:.2f})", 1.0 - e.Probability());

@@ -23,11 +23,13 @@ constexpr std::size_t kMostTrials = 12;  // listed of a size that differs betwee
 struct CauseInterval {
   std::optional<std::pair<double, double>> ci;
   bool at_bound = false;
+  std::optional<double> spread;  // of sizes that are each trial's own
 };
 
 void AddCauseRow(TextTable& table, const SharedParameter& s, double value,
                  const CauseInterval& interval, const std::array<std::string, 2>& remarks) {
-  const ReadableUnit unit = ReadableUnitOf(value, s.unit);
+  const ReadableUnit unit =
+      ReadableUnitOf(std::max(std::abs(value), interval.spread.value_or(0.0)), s.unit);
   std::string shown = Significant(value * unit.factor, 3), range;
   if (interval.ci) {
     const double half = 0.5 * (interval.ci->second - interval.ci->first) * unit.factor;
@@ -37,7 +39,12 @@ void AddCauseRow(TextTable& table, const SharedParameter& s, double value,
             FixedOrMore(interval.ci->second * unit.factor, decimals);
   }
   if (interval.at_bound) range = "at its bound";
-  if (s.held) range = "held: the mean is none";
+  if (interval.spread) {
+    const double spread = *interval.spread * unit.factor;
+    const int decimals = DecimalsFor(spread);
+    shown = FixedOrMore(value * unit.factor, decimals);
+    range = "+- " + FixedOrMore(spread, decimals) + " by trial";
+  }
   table.AddRow({s.name, shown, range, unit.unit, remarks[0], remarks[1]});
 }
 
@@ -74,7 +81,9 @@ void AddCause(TextTable& table, const Diagnosis& d, const CauseReport& cause, bo
       CauseInterval interval;
       if (!rival) {
         const ParameterUncertainty& p = u.parameters[at];
-        interval = {between ? p.ci95_between_trials : p.ci95, p.at_bound};
+        interval = {between ? p.ci95_between_trials : p.ci95, p.at_bound, std::nullopt};
+        if (cause.cause.each_trial && cause.refitted.at(static_cast<std::size_t>(i)))
+          interval.spread = cause.refitted[static_cast<std::size_t>(i)]->spread;
       }
       std::string share, chance;
       if (i == 0) {

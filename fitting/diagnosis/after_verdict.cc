@@ -97,6 +97,7 @@ void NoteTilt(Diagnosis& d) {
       return m.effect == c->cause.effect && m.only_recording == c->cause.only_recording;
     });
     if (c->cause.effect != FindEffect("constant_force") || at == model.members.end()) continue;
+    if (c->cause.each_trial) continue;  // no tilt is another one in each trial
     const double force = model.ValuesOf(static_cast<int>(at - model.members.begin()))[0];
     const double tilt = -force / (p.m * p.g);
     if (!(std::abs(tilt) < kMostTilt)) continue;

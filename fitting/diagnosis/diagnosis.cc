@@ -155,19 +155,23 @@ class Pipeline {
     if (d_.detection.p_value > kDetectionLevel || MisfitOverNoise(d_.detection) < kSlight)
       return false;
     const FittedModel& best = d_.naming.best;
-    const double share = LeftShare(d_.detection, 2.0 * best.cost, best.parameter_count());
     int in_one_trial = 0;
     bool at_bound = !AtWall(best.problem, best.shared).empty();
     for (int i = 0; i < static_cast<int>(best.members.size()); ++i) {
       at_bound |= best.AtPhysicalBound(i);
       in_one_trial += !best.members[static_cast<std::size_t>(i)].only_recording.empty();
     }
-    const bool is_left = best.evidence.discrepancy_probability() > 0.5 && share > options_.material;
-    return is_left || at_bound || in_one_trial > 1;
+    return LeavesMore(best) || at_bound || in_one_trial > 1;
+  }
+  // Than noise and details.
+  bool LeavesMore(const FittedModel& best) const {
+    const double share = LeftShare(d_.detection, 2.0 * best.cost, best.parameter_count());
+    return best.evidence.discrepancy_probability() > 0.5 && share > options_.material;
   }
 
-  // A cause whose size is each trial's own, where that explains the data better. (Hops of a trial
-  // are no trials; a robot's first stances are looked at trial by trial anyway.)
+  // A cause whose size is each trial's own, where that explains the data better, and all of them:
+  // sizes that are free in each trial take up much of what they are not. (Hops of a trial are no
+  // trials; a robot's first stances are looked at trial by trial anyway.)
   void NameOfEachTrial(const std::vector<Candidate>& candidates) {
     if (d_.by_hop || d_.problem.robot_legs().count > 0 || options_.max_effects < 1) return;
     const std::vector<OwnSizes> promising =
@@ -182,7 +186,7 @@ class Pipeline {
     request.noise_squares = &d_.noise_squares;
     request.naming = HowToName();
     std::optional<EachTrialFound> found = NameEachTrial(request, Settings());
-    if (!found) return;
+    if (!found || LeavesMore(found->naming.best)) return;
     d_.naming = std::move(found->naming);
     train_ = std::move(found->train);
     own_sizes_ = std::move(found->value);

@@ -14,6 +14,9 @@ namespace {
 
 constexpr int kResamples = 200;
 constexpr double kForceRankTolerance = 1e-6;
+// A bump of which the data see less than this share of what they see of the group's plainest one is
+// hardly visited: it would take any size.
+constexpr double kHardlySeen = 1e-6;
 // Subsets of terms whose BIC differs by less than rounding of their fits say the same.
 constexpr double kTie = 1e-4;
 constexpr std::array kTermNames = {"1", "s", "s^2", "s^3"};
@@ -28,8 +31,10 @@ struct Estimate {
 
 Estimate EstimateGroup(const Linearisation& at, const ProbeGroup& group) {
   Estimate out;
+  double most = 0.0;
+  for (int k = 0; k < group.count; ++k) most = std::max(most, Information(at, group.first + k));
   for (int k = 0; k < group.count; ++k) {
-    if (Information(at, group.first + k) > 0.0) out.seen.push_back(k);
+    if (Information(at, group.first + k) > kHardlySeen * most) out.seen.push_back(k);
   }
   const auto n = static_cast<Eigen::Index>(out.seen.size());
   if (n == 0) return out;

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "fitting/eliminated_trial.h"
+#include "fitting/shared_bounds.h"
 
 namespace hoplab {
 namespace {
@@ -106,17 +107,12 @@ LinearisedTrial LineariseTrial(const FitProblem& problem, const std::vector<int>
   return out;
 }
 
-bool OnBound(const SharedParameter& s, double value) {
-  const double near = 1e-6 * s.scale;
-  return s.held || value <= s.lower + near || value >= s.upper - near;
-}
-
 }  // namespace
 
 std::vector<int> FreeShared(const FitProblem& problem, const Eigen::VectorXd& shared) {
   std::vector<int> free;
   for (int k = 0; k < static_cast<int>(shared.size()); ++k) {
-    if (!OnBound(problem.shared[static_cast<std::size_t>(k)], shared[k])) free.push_back(k);
+    if (!IsHeldOrOnBound(problem.shared[static_cast<std::size_t>(k)], shared[k])) free.push_back(k);
   }
   return free;
 }

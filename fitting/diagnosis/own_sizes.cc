@@ -21,6 +21,9 @@ constexpr std::size_t kShown = 8;
 constexpr double kUndetermined = 1e-3;
 // Causes whose shares differ by less do as well; the one of the more usual sizes is told.
 constexpr double kAlike = 0.01;
+// Sizes that differ explain this share of the misfit more than one size of the cause does. Where
+// rows are many, sizes that are all but equal differ for certain, too.
+constexpr double kLeastDifferent = 0.1;
 
 // The candidate's column cut to each trial in turn, what the fitted values take of it projected
 // out.
@@ -72,7 +75,8 @@ std::vector<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Cand
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& c = candidates[i];
     const int first = hypotheses[i].first;
-    with_one = std::max(with_one, ScoreOf(at, hypotheses[i]).score);
+    const double alike = ScoreOf(at, hypotheses[i]).score;
+    with_one = std::max(with_one, alike);
     if (c.parameter_count() != 1 || c.effect->info.has_threshold) continue;
     const Eigen::MatrixXd cut = CutToTrials(at, first, n);
     const double least = std::sqrt(kInseparable) * at.length[first];
@@ -83,6 +87,7 @@ std::vector<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Cand
     const Eigen::VectorXd sizes = -qr.solve(at.r);
     if (!InRoom(hypotheses[i], sizes)) continue;
     const double gained = at.chi2() - (at.r + cut * sizes).squaredNorm();
+    if (gained - alike < kLeastDifferent * misfit) continue;
     const double explained = std::min(gained / misfit, 1.0);
     if (explained >= kLeastOwn) found.push_back({c, {sizes.begin(), sizes.end()}, explained, ""});
   }

@@ -20,7 +20,8 @@ struct OwnSizes {
 
 /// The causes of one parameter that explain most so, by sizes that they can have; of those that
 /// explain as much as the best the one of the more usual sizes first. `at`: the candidates beside a
-/// model. Empty where none explains kLeastOwn of the misfit and gains what further sizes cost.
+/// model. Empty where none explains kLeastOwn of the misfit, and a tenth of it more than one size
+/// of the cause, and gains what further sizes cost.
 inline constexpr double kLeastOwn = 0.7;
 std::vector<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Candidate> candidates,
                                    const std::vector<TrialProblem>& train);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "fitting/shared_bounds.h"
 #include "fitting/trial_noise.h"
 
 namespace hoplab {
@@ -12,11 +13,6 @@ namespace {
 
 // A diagonal of R below this share of its column's length: a direction nothing sees.
 constexpr double kColumnTolerance = 1e-10;
-
-bool OnBound(const SharedParameter& s, double value) {
-  const double near = 1e-6 * s.scale;
-  return s.held || value <= s.lower + near || value >= s.upper - near;
-}
 
 // Sum of the logarithms of the diagonal of R over its first `count` columns, what nothing sees left
 // out.
@@ -56,7 +52,7 @@ RestrictedLikelihood::RestrictedLikelihood(const FitProblem& problem,
                                            const LikelihoodDetail& detail)
     : channels_(static_cast<Eigen::Index>(problem.channels.size())), jobs_(jobs) {
   for (int k = 0; k < problem.shared_count(); ++k) {
-    const bool bound = OnBound(problem.shared[static_cast<std::size_t>(k)], shared[k]);
+    const bool bound = IsHeldOrOnBound(problem.shared[static_cast<std::size_t>(k)], shared[k]);
     (bound ? bound_ : free_).push_back(k);
   }
   SetPriorWidths(detail.prior_widths);

@@ -147,6 +147,9 @@ class Robot final : public HybridSystem<T> {
   T HeldUp(int i, const T& angle, const T* z) const;
   void TakeBendAlong(int i, const T& angle, T* z);
   T DrawnOff(const Leg& leg, const Hip& hip, const T& press, const T* z) const;
+  struct Seen;  // what guards ask about
+  Seen LookAt(Mode mode, const T& t, const T* z) const;
+  T MarginOf(const GuardRef& guard, const Seen& seen, const T& t, const T* z) const;
   T TouchdownMargin(const GuardRef& guard, const Hip& hip, const T* z) const;
   T LiftoffMargin(const GuardRef& guard, const Hip& hip, const ClampedLoad<T>& load, const T& press,
                   const T* z) const;
@@ -159,6 +162,8 @@ class Robot final : public HybridSystem<T> {
                          const T* dz) const;
   Forces ForcesOf(const Frame& frame, const T& t, const T* z) const;
   void SlideOutsideCone(int i, double went, const T& t, const T* z);
+  std::optional<Outcome> Happens(const GuardRef& guard, const T& t, T* z,
+                                 std::optional<EventKind>& turned_out);
   void TakeJump(const GuardRef& guard, const std::array<T, kMaxLegs>& told, const T& t, T* z);
   void Settle(int except, const T& t, T* z);
   void AskCones(int except, const T& t, T* z);

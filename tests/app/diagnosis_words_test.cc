@@ -94,6 +94,19 @@ TEST_F(VerdictSentenceTest, NamesMainCausesWithTheirSharesAndNoOthers) {
   EXPECT_EQ(text.find("sensor_offset_y"), std::string::npos);
 }
 
+// Causes that do much the same explain little beside each other, and the misfit together.
+TEST_F(VerdictSentenceTest, SaysWhatCausesExplainTogetherWhereEachAloneExplainsLittle) {
+  Accept({Add("ground_compliance")}, 0.99, 0.093);
+  Accept({Add("sensor_offset_y")}, 0.99, 0.080);
+  d_.verdict = Verdict::kNamed;
+  const std::string text = VerdictSentence(d_);
+  EXPECT_EQ(text.find("The simulation lacks ground_compliance (9.3 %) and sensor_offset_y "
+                      "(8.0 %), together 100 %; it takes"),
+            0u)
+      << text;
+  EXPECT_LE(WordsOf(text), 30);
+}
+
 TEST_F(VerdictSentenceTest, SaysHowLikelyANameInDoubtIs) {
   Accept({Add("air_drag")}, 0.8);
   d_.verdict = Verdict::kConfounded;

@@ -1,5 +1,5 @@
-// Hands before a flight and after it, on paths in closed form: free fall, falls against friction,
-// stances.
+// Hands before a flight and after it, and falls, on paths in closed form: free fall, falls against
+// friction, stances.
 #include "fitting/handled_ends.h"
 
 #include <gtest/gtest.h>
@@ -214,6 +214,92 @@ TEST(CaughtBody, EndsItsTrial) {
   const std::vector<std::string> told = FaultSentences(recorded, faults, false);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].substr(0, 30), "the body rests in the air at t");
+}
+
+// One hop, and then a fall to the ground, on which the body comes to lie.
+double HopsAndFalls(double t) {
+  constexpr double kLies_m = 0.03;
+  if (t < 0.1) return 0.18 - 0.04 * std::sin(31.4 * t);
+  const double since = t - 0.1;
+  return std::max(0.18 + 1.3 * since - 0.5 * kG * since * since, kLies_m);
+}
+constexpr double kTop_s = 0.1 + 1.3 / kG;
+
+// However it is sampled, the end is the top of that flight; a deep stance is no fall.
+TEST(FindTopBeforeFall, FindsTheTopOfTheLastFlight) {
+  int all = 0;
+  for (const Sampling& sampling : kSamplings) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      const RandomStream random(seed, 13 + static_cast<std::uint64_t>(sampling.rate));
+      const Samples s = Sampled(HopsAndFalls, 0.7, sampling.rate, sampling.sigma, random);
+      const auto top = FindTopBeforeFall(s, 0.18, 0.045, 6.0 * sampling.sigma);
+      ASSERT_TRUE(top) << sampling.rate << " Hz, seed " << seed;
+      const double off = std::sqrt(12.0 * sampling.sigma / kG) + 1.0 / sampling.rate;
+      EXPECT_NEAR(s.t[*top] - 0.3, kTop_s, off) << sampling.rate << " Hz, seed " << seed;
+      ++all;
+    }
+  }
+  EXPECT_EQ(all, 240);
+  const auto deep = [](double t) { return 0.2 - 0.1 * std::sin(20.0 * t); };
+  const Samples hops = Sampled(deep, 1.0, 500, 0.001, RandomStream(1, 1));
+  EXPECT_FALSE(FindTopBeforeFall(hops, 0.18, 0.045, 0.006));
+}
+
+// All columns end there, and what follows is told.
+TEST(FallenBody, EndsItsTrial) {
+  MechanismSpec leg;
+  leg.gravity_m_per_s2 = kG;
+  leg.c_leg.rest_radius_m = 0.09;
+  const Dataset recorded =
+      OneTrial(leg, Sampled(HopsAndFalls, 0.8, 500, 0.0005, RandomStream(5, 1)));
+  const std::vector<TraceFault> faults = FindTraceFaults(recorded);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, TraceFault::Kind::kFall);
+  const Trial rest = WithoutFaults(recorded, faults).trials[0];
+  EXPECT_EQ(rest.trace.time_s.size(), faults[0].rows.front());
+  EXPECT_EQ(rest.trace.columns[0].values.size(), faults[0].rows.front());
+  EXPECT_EQ(faults[0].rows.back() + 1, recorded.trials[0].trace.time_s.size());
+  EXPECT_NEAR(rest.trace.time_s.back() - 0.3, kTop_s, 0.03);
+  const std::vector<std::string> told = FaultSentences(recorded, faults, false);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].substr(0, 38), "the body falls to the ground at the en");
+}
+
+// A trial whose body goes on in flight from its last row, falls, and comes to lie on the ground.
+void LetFall(Trial& trial, RandomStream random) {
+  constexpr int kBack = 10;
+  Trace& trace = trial.trace;
+  const double step = trace.time_s[1] - trace.time_s[0];
+  for (TraceColumn& column : trace.columns) {
+    std::vector<double>& values = column.values;
+    const bool falls = column.name == "body_y_m";
+    const double g = falls ? kG : 0.0, last = values.back();
+    const double speed = (last - values[values.size() - 1 - kBack]) / (kBack * step);
+    for (int k = 1; k <= 300; ++k) {
+      const double since = step * k;
+      const double flown =
+          last + (speed - 0.5 * g * kBack * step) * since - 0.5 * g * since * since;
+      values.push_back((falls ? std::max(flown, 0.02) : flown) + 5e-4 * random.Normal());
+    }
+  }
+  while (trace.time_s.size() < trace.columns[0].values.size())
+    trace.time_s.push_back(trace.time_s.back() + step);
+}
+
+// The rig's drops, two of which end in a fall: the fit is that of the drops without it.
+TEST(FallenBody, IsFittedUpToItsLastFlight) {
+  const Dataset plain = ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/rig-drops");
+  Dataset fallen = plain;
+  for (std::size_t i = 0; i < 2; ++i) LetFall(fallen.trials[i], RandomStream(9, i));
+  const FitProblem problem = MakeProblem(fallen, {});
+  ASSERT_EQ(problem.trace_faults.size(), 2U);
+  for (const TraceFault& fault : problem.trace_faults)
+    EXPECT_EQ(fault.kind, TraceFault::Kind::kFall);
+  EXPECT_NE(problem.notes.front().find("falls to the ground"), std::string::npos);
+  const auto modulus = [](const Dataset& dataset) {
+    return FitDataset(dataset, {}, {}).result.shared[0];
+  };
+  EXPECT_NEAR(modulus(fallen) / modulus(plain), 1.0, 2e-3);
 }
 
 // The same drops with a hand before them, the same fit.

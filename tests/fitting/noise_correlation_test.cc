@@ -59,6 +59,25 @@ TEST(NoiseCorrelation, OfWhiteNoiseIsNone) {
   }
 }
 
+// Frames are dropped: what is beside such a gap is no neighbour of what is behind it.
+TEST(NoiseCorrelation, IsNotThatOfGaps) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Dataset dropped = HopsWithAlikeNoise(seed, 0.0);
+    RandomStream random(seed, 79);
+    for (Trial& trial : dropped.trials) {
+      Trace& trace = trial.trace;
+      for (std::size_t row = trace.time_s.size() - 1; row > 0; --row) {
+        if (random.Uniform(0.0, 1.0) > 0.03) continue;
+        const auto at = static_cast<std::ptrdiff_t>(row);
+        trace.time_s.erase(trace.time_s.begin() + at);
+        for (TraceColumn& column : trace.columns) column.values.erase(column.values.begin() + at);
+      }
+    }
+    for (const std::size_t channel : {0, 1})
+      EXPECT_EQ(CorrelationIn(dropped, channel), 0.0) << seed;
+  }
+}
+
 TEST(NoiseCorrelation, IsThatOfNeighboursInFlight) {
   for (const double rho : {0.5, 0.7}) {
     double sum = 0.0;

@@ -88,6 +88,24 @@ EffectSpec SpecOf(const PlantedEffect& planted) {
   return spec;
 }
 
+// In one trial, as Truth::own_sizes says.
+std::vector<PlantedEffect> EffectsIn(const Truth& truth, std::size_t trial) {
+  constexpr std::uint64_t kStream = 200'000;
+  RandomStream random(truth.seed, kStream + trial);
+  std::vector<PlantedEffect> effects = truth.effects;
+  for (PlantedEffect& planted : effects) {
+    const EffectInfo& info = FindEffect(planted.name)->info;
+    const double draw = random.Normal();
+    for (std::size_t i = 0; i < planted.values.size(); ++i) {
+      const EffectParameter& p = info.parameters[i];
+      const bool has_one_sign = p.lower >= p.null || p.upper <= p.null;
+      const double factor = has_one_sign ? std::abs(draw) : draw;
+      planted.values[i] = p.null + factor * (planted.values[i] - p.null);
+    }
+  }
+  return effects;
+}
+
 Dataset Exact(Law law, const std::vector<PlantedEffect>& effects, std::uint64_t seed,
               std::vector<std::string>* notes) {
   Scenario scenario = DiagnosisScenario(law);
@@ -216,6 +234,11 @@ Dataset MakeDataset(const Truth& truth, std::vector<std::string>* notes) {
         dataset.trials[i].trace = clean.trials[i].trace;
     }
   }
+  if (truth.own_sizes) {
+    for (std::size_t i = 0; i < dataset.trials.size(); ++i)
+      dataset.trials[i].trace =
+          Exact(truth.law, EffectsIn(truth, i), truth.seed, notes).trials[i].trace;
+  }
   AddNoise(truth, dataset);
   dataset.mechanism = Nominal(dataset.mechanism);
   for (Trial& t : dataset.trials) t.mechanism = Nominal(t.mechanism);
@@ -247,10 +270,10 @@ SealedCase::SealedCase(const std::filesystem::path& folder, const Truth& truth) 
   WriteDataset(made, dataset());
   std::ofstream seal(folder_ / "sealed.txt");
   seal.precision(17);
-  seal << NameOf(truth.law) << ' ' << truth.size << ' ' << truth.seed << ' ' << truth.mirrored
-       << ' ' << static_cast<int>(truth.noise.kind) << ' ' << truth.noise.dropped << ' '
-       << truth.noise.stated << ' ' << (truth.only_recording.empty() ? "-" : truth.only_recording)
-       << '\n';
+  seal << NameOf(truth.law) << ' ' << truth.size << ' ' << truth.seed << ' ' << truth.own_sizes
+       << ' ' << truth.mirrored << ' ' << static_cast<int>(truth.noise.kind) << ' '
+       << truth.noise.dropped << ' ' << truth.noise.stated << ' '
+       << (truth.only_recording.empty() ? "-" : truth.only_recording) << '\n';
   for (const PlantedEffect& e : truth.effects) {
     seal << e.name << ' ' << e.values.size();
     for (double value : e.values) seal << ' ' << value;
@@ -263,8 +286,8 @@ Truth SealedCase::Open() const {
   Truth truth;
   std::string law;
   int kind = 0;
-  seal >> law >> truth.size >> truth.seed >> truth.mirrored >> kind >> truth.noise.dropped >>
-      truth.noise.stated >> truth.only_recording;
+  seal >> law >> truth.size >> truth.seed >> truth.own_sizes >> truth.mirrored >> kind >>
+      truth.noise.dropped >> truth.noise.stated >> truth.only_recording;
   const auto found = FindLaw(law);
   if (!seal || !found) throw std::runtime_error("the seal is broken");
   truth.law = *found;

@@ -42,6 +42,9 @@ struct Truth {
   std::vector<PlantedEffect> effects;  // none: the model is right
   double size = 0.0;                   // in delta80; 0 without an effect
   std::string only_recording = {};     // the one trial the effects act in; empty: all
+  /// Each trial has sizes of its own: `effects` times N(0, 1), drawn from the seed; its absolute
+  /// where an effect has one sign.
+  bool own_sizes = false;
   /// The traces are mirrored about those without an effect: to first order the opposite sizes.
   bool mirrored = false;
   std::uint64_t seed = 1;  // of noise and initial states

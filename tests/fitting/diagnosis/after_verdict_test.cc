@@ -91,6 +91,11 @@ TEST(AfterVerdict, AForceIsToldAsATiltOfGroundAndCameraToo) {
                             return other.find("the camera is turned") != std::string::npos;
                           }),
             0);
+  // A tilt is the same in all trials.
+  d.notes.clear();
+  for (CauseReport& cause : d.extension->causes) cause.cause.each_trial = true;
+  TellBesides(d, options);
+  EXPECT_EQ(tilts(), 0);
 }
 
 // Twice the mass and twice all forces is the same motion.

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 
 #include "tests/fitting/diagnosis/logistic.h"
@@ -32,10 +33,26 @@ struct Name {
   double group_told = 0.0;  // as the program tells it, by its own table and rules
 };
 
+// Of cases whose cause has another size in each trial, or of all others.
+struct OwnSizesTold {
+  int cases = 0, told = 0, right = 0;  // with such a name; with the one that was planted
+};
+
 struct Cases {
   std::vector<Name> names;
   int planted = 0, left_out = 0, single_left_out = 0;
+  // Cases with a cause of each trial's own size: in the catalogue, and taken out of it; all others.
+  OwnSizesTold own, own_left_out, alike;
 };
+
+void CountOwnSizes(const Outcome& o, OwnSizesTold& count) {
+  ++count.cases;
+  for (const Outcome::Seen& s : o.seen) {
+    if (!s.each_trial) continue;
+    ++count.told;
+    count.right += s.right ? 1 : 0;
+  }
+}
 
 // How often, in all, the cause is taken for one that no list holds. The cases are weighted to it:
 // what they hold of the two kinds is the suite's choice and no fact.
@@ -54,8 +71,9 @@ fs::path Folder() {
 
 void WriteCase(std::ofstream& csv, const Outcome& o, const char* kind) {
   const auto begin = [&] {
-    csv << kind << ',' << o.truth.effects.front().name << ',' << NameOf(o.truth.law) << ','
-        << o.truth.size << ',' << o.truth.seed << ',' << NameOf(o.verdict) << ',';
+    csv << kind << (o.truth.own_sizes ? "_own," : ",") << o.truth.effects.front().name << ','
+        << NameOf(o.truth.law) << ',' << o.truth.size << ',' << o.truth.seed << ','
+        << NameOf(o.verdict) << ',';
   };
   for (const Outcome::Seen& s : o.seen) {
     begin();
@@ -72,72 +90,120 @@ void WriteCase(std::ofstream& csv, const Outcome& o, const char* kind) {
   csv << '\n';
 }
 
-Cases RunCases() {
-  std::ofstream csv(Folder() / "calibration.csv");
-  csv << "kind,planted,law,size,seed,verdict,name,main,right,group_right,probability,evidence,"
-         "unlisted,left_share_raw,at_bound";
-  for (const std::string_view name : NameFeatures::Names()) csv << ',' << name;
-  csv << '\n';
-  Cases cases;
-  std::map<std::string, int> halves;  // effects fall to the halves in turn, by name
-  for (const Effect* e : AllEffects()) halves[std::string(e->info.name)] = 0;
-  int turn = 0;
-  for (auto& [name, half] : halves) half = turn++ % 2;
-  const auto add = [&](const std::vector<Outcome>& outcomes, bool left_out) {
-    for (const Outcome& o : outcomes) {
-      WriteCase(csv, o, left_out ? "left_out" : "planted");
-      const int number = cases.planted + cases.left_out;
-      (left_out ? cases.left_out : cases.planted) += 1;
-      const bool single = o.truth.effects.size() == 1;
-      if (left_out && single) ++cases.single_left_out;
-      for (const Outcome::Seen& s : o.seen) {
-        const double group = s.group_probability;
-        cases.names.push_back({number, halves[o.truth.effects.front().name], left_out, single,
-                               s.group_right, group > 0.0 ? s.probability / group : 0.0, s.right,
-                               s.features, group});
-      }
-    }
-    csv.flush();
-  };
-  const int seeds = SeedCount(10);
-  for (const double size : {1.5, 4.0, 16.0})
-    add(RunAll(PlantEach(Table::kNaming, size, seeds)), false);
-  for (const double size : {4.0, 16.0}) {
-    add(RunAll(PlantEach(Table::kLeftOut, size, 2 * seeds),
-               [](const Truth& t) { return std::vector{t.effects.front().name}; }),
-        true);
+// Runs cases, counts what they told and writes it down as they come.
+class CaseBook {
+ public:
+  CaseBook() : csv_(Folder() / "calibration.csv") {
+    csv_ << "kind,planted,law,size,seed,verdict,name,main,right,group_right,probability,evidence,"
+            "unlisted,left_share_raw,at_bound";
+    for (const std::string_view name : NameFeatures::Names()) csv_ << ',' << name;
+    csv_ << '\n';
+    // Effects fall to the halves in turn, by name.
+    for (const Effect* e : AllEffects()) halves_[std::string(e->info.name)] = 0;
+    int turn = 0;
+    for (auto& [name, half] : halves_) half = turn++ % 2;
   }
+
+  using Without = std::function<std::vector<std::string>(const Truth&)>;
+  /// Planted, and in the catalogue; `without`: what else is taken out of it.
+  void Plant(const std::vector<Truth>& truths, const Without& without = nullptr) {
+    Run(truths, without, false);
+  }
+  /// A planted effect is among those taken out.
+  void LeaveOut(const std::vector<Truth>& truths, const Without& without) {
+    Run(truths, without, true);
+  }
+  Cases Take() { return std::move(cases_); }
+
+ private:
+  void Run(const std::vector<Truth>& truths, const Without& without, bool left_out) {
+    for (const Outcome& o : RunAll(truths, without)) Add(o, left_out);
+    csv_.flush();
+  }
+  void Add(const Outcome& o, bool left_out) {
+    WriteCase(csv_, o, left_out ? "left_out" : "planted");
+    const bool own = o.truth.own_sizes;
+    CountOwnSizes(o, !own ? cases_.alike : left_out ? cases_.own_left_out : cases_.own);
+    const int number = cases_.planted + cases_.left_out;
+    (left_out ? cases_.left_out : cases_.planted) += 1;
+    const bool single = o.truth.effects.size() == 1;
+    if (left_out && single) ++cases_.single_left_out;
+    for (const Outcome::Seen& s : o.seen) {
+      const double group = s.group_probability;
+      cases_.names.push_back({number, halves_[o.truth.effects.front().name], left_out, single,
+                              s.group_right, group > 0.0 ? s.probability / group : 0.0, s.right,
+                              s.features, group});
+    }
+  }
+
+  std::ofstream csv_;
+  std::map<std::string, int> halves_;
+  Cases cases_;
+};
+
+std::vector<std::string> FirstOf(const Truth& t) { return {t.effects.front().name}; }
+
+void RunSingle(CaseBook& book, int seeds) {
+  for (const double size : {1.5, 4.0, 16.0}) book.Plant(PlantEach(Table::kNaming, size, seeds));
+  for (const double size : {4.0, 16.0})
+    book.LeaveOut(PlantEach(Table::kLeftOut, size, 2 * seeds), FirstOf);
+}
+
+void RunPairs(CaseBook& book, int seeds) {
   for (const double size : {4.0, 16.0}) {
     const std::vector<Truth> pairs = PlantPairs(size, seeds);
-    add(RunAll(pairs), false);
+    book.Plant(pairs);
     for (const std::size_t out : {0, 1})
-      add(RunAll(pairs, [out](const Truth& t) { return std::vector{t.effects[out].name}; }), true);
+      book.LeaveOut(pairs, [out](const Truth& t) { return std::vector{t.effects[out].name}; });
   }
-  // A real leg has more than two causes, and details that no list holds.
-  const std::vector<Truth> triples = PlantTriples(16.0, 4.0, seeds);
-  add(RunAll(triples), false);
-  const std::vector<Truth> detailed = PlantTriples(16.0, 1.5, 2 * seeds);
-  add(RunAll(detailed, [](const Truth& t) { return std::vector{t.effects.back().name}; }), false);
-  // Nor does any law hold a real leg to the last digit.
+}
+
+// Nor is every cause of one size in all trials.
+void RunOwnSizes(CaseBook& book, int seeds) {
+  for (const double size : {4.0, 16.0}) {
+    const std::vector<Truth> own = PlantOwnSizes(size, std::max(seeds / 2, 1));
+    book.Plant(own);
+    book.LeaveOut(own, FirstOf);
+  }
+}
+
+// A real leg has more than two causes, and details that no list holds.
+void RunTriples(CaseBook& book, int seeds) {
+  book.Plant(PlantTriples(16.0, 4.0, seeds));
+  book.Plant(PlantTriples(16.0, 1.5, 2 * seeds),
+             [](const Truth& t) { return std::vector{t.effects.back().name}; });
+}
+
+// Nor does any law hold a real leg to the last digit.
+void RunNearLaws(CaseBook& book, int seeds) {
+  const std::string between = "higher_order_bending";
   for (const double size : {4.0, 16.0}) {
     std::vector<Truth> near = PlantPairs(size, 3 * seeds);
     const std::vector<Truth> single = PlantEach(Table::kNaming, size, 3 * seeds);
     near.insert(near.end(), single.begin(), single.end());
-    std::erase_if(near, [](const Truth& t) { return t.law != Law::kLargeDeflection; });
+    std::erase_if(near, [&](const Truth& t) {
+      return t.law != Law::kLargeDeflection || t.effects.front().name == between;
+    });
     for (Truth& t : near) {
       t.law = Law::kElastica;
       t.told_law = Law::kLargeDeflection;
     }
-    const std::string between = "higher_order_bending";
-    std::erase_if(near, [&](const Truth& t) { return t.effects.front().name == between; });
-    add(RunAll(near, [&](const Truth&) { return std::vector{between}; }), false);
-    add(RunAll(near,
-               [&](const Truth& t) {
-                 return std::vector{between, t.effects.front().name};
-               }),
-        true);
+    book.Plant(near, [&](const Truth&) { return std::vector{between}; });
+    book.LeaveOut(near, [&](const Truth& t) {
+      return std::vector{between, t.effects.front().name};
+    });
   }
-  return cases;
+}
+
+Cases RunCases() {
+  CaseBook book;
+  const int seeds = SeedCount(10);
+  RunSingle(book, seeds);
+  RunPairs(book, seeds);
+  RunOwnSizes(book, seeds);
+  RunTriples(book, seeds);
+  RunNearLaws(book, seeds);
+  return book.Take();
 }
 
 Eigen::VectorXd Columns(const Name& n) {
@@ -247,8 +313,9 @@ TEST(DiagnosisStatistics, CasesForTheCalibration) {
   report.Say(
       "%d planted cases (one effect at 1.5, 4 and 16 delta80, two at 4 and 16, two at 16 with a "
       "third at 4, and with a third at 1.5 that is out of the catalogue; one and two at 4 and 16 "
-      "on a leg of the law elastica, told by the law large_deflection), %d with a "
-      "planted effect out of the catalogue (4 and 16). Cases are weighted as if the cause "
+      "on a leg of the law elastica, told by the law large_deflection; one of another size in each "
+      "trial, 4 and 16 times N(0, 1)), %d with a planted effect out of the catalogue (4 and 16). "
+      "Cases are weighted as if the cause "
       "were out of the catalogue in %.0f %% of all. Effects fall into two halves by name; "
       "each is told by a table fitted to the other.",
       cases.planted, cases.left_out, 100.0 * kLeftOutShare);
@@ -256,6 +323,13 @@ TEST(DiagnosisStatistics, CasesForTheCalibration) {
   report.Say(
       "The same names with the probabilities that the program tells, all its rules applied.");
   Tell(as_told, report);
+  const auto tell = [&](const char* where, const OwnSizesTold& n) {
+    report.Say("%s: %d cases, %d with a name of each trial's own size, %d of them right.", where,
+               n.cases, n.told, n.right);
+  };
+  tell("Another size in each trial", cases.own);
+  tell("The same out of the catalogue", cases.own_left_out);
+  tell("All others", cases.alike);
   // With few seeds the bins are small.
   EXPECT_LE(halved.error, SeedCount(10) == 10 ? 0.03 : 0.06);
   for (const Summary* s : {&halved, &as_told}) {

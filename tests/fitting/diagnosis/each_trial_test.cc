@@ -138,6 +138,18 @@ TEST(EachTrial, IsNotToldWhereSizesGoWithTheSetUp) {
   EXPECT_FALSE(OwnSizesTold(d));
 }
 
+// The air's drag is in no list: sizes that are free in each trial take up most of it, and not all.
+TEST(EachTrial, IsNotToldWhereMuchIsLeft) {
+  const Diagnosis d =
+      Diagnose(HopsWithOwn("touchdown_angle_bias", kOffByHand, {EffectOfSize("air_drag", 0.1)}),
+               testing::OptionsWith({"touchdown_angle_bias"}));
+  EXPECT_EQ(d.verdict, Verdict::kUnexplained);
+  EXPECT_FALSE(OwnSizesTold(d));
+  EXPECT_NE(d.own_sizes.find("touchdown_angle_bias of another size in each trial would explain"),
+            std::string::npos)
+      << d.own_sizes;
+}
+
 TEST(EachTrial, IsNotToldOfFewTrials) {
   Dataset few = HopsWithOwn("touchdown_angle_bias", kOffByHand);
   few.trials.erase(few.trials.begin() + 4, few.trials.begin() + 6);

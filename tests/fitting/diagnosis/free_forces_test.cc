@@ -78,6 +78,23 @@ TEST(FreeForces, TheMostSignificantComesFirst) {
   EXPECT_LT(forces.forces.front().p_value, 1e-6);
 }
 
+// A place where no stance goes has no force: what would act there moves nothing.
+TEST(FreeForces, HaveNoSizeWhereTheDataHardlyGo) {
+  const ProbeBasis basis = ProbesOf(Law::kLargeDeflection);
+  const ProbeGroup& group = GroupNamed(basis, "chord force, loading");
+  ASSERT_GE(group.count, 3);
+  Linearisation at = NullFit(testing::World{}).With(basis.probes);
+  const int first = group.first;
+  ASSERT_GT(Information(at, first + 1), 0.0);
+  const FreeForces before = Reconstruct(at, basis, 1);
+  EXPECT_TRUE(std::isfinite(ForceNamed(before, group.name)->points[1].value));
+  at.columns.col(first + 1) *= 1e-4;
+  at.length[first + 1] *= 1e-4;
+  const FreeForces after = Reconstruct(at, basis, 1);
+  EXPECT_TRUE(std::isnan(ForceNamed(after, group.name)->points[1].value));
+  EXPECT_TRUE(std::isfinite(ForceNamed(after, group.name)->points[2].value));
+}
+
 TEST(FreeForces, OfCleanDataNoneStandsOut) {
   const ProbeBasis basis = ProbesOf(Law::kLargeDeflection);
   const FreeForces forces = Reconstruct(NullFit(testing::World{}).With(basis.probes), basis, 1);

@@ -123,6 +123,12 @@ TEST(OwnSizes, AreThoseThatACauseCanHave) {
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(losses->sizes[i], kLosses[i], 1e-12);
 }
 
+// Of so many rows they differ for certain, and one size for all explains them all the same.
+TEST(OwnSizes, AreNotToldWhereTheyAreAllButEqual) {
+  constexpr double kAllButEqual[] = {0.0300, 0.0295, 0.0305, 0.0298};
+  EXPECT_FALSE(FoundWhere("touchdown_angle_bias", kAllButEqual));
+}
+
 TEST(OwnSizes, AreToldByADiagnosisThatExplainsLess) {
   const Diagnosis d = Diagnose(HopsOffBy(kOff), testing::OptionsWith(testing::kSixEffects));
   ASSERT_EQ(d.verdict, Verdict::kUnexplained);

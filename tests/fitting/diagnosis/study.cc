@@ -62,8 +62,8 @@ void ReadVerdict(const Diagnosis& d, Outcome& out) {
 
 bool IsPlanted(const Truth& truth, const Candidate& c) {
   return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const PlantedEffect& e) {
-    return e.name == c.effect->info.name &&
-           (c.only_recording.empty() || c.only_recording == truth.only_recording);
+    return e.name == c.effect->info.name && (c.only_recording.empty() || truth.own_sizes ||
+                                             c.only_recording == truth.only_recording);
   });
 }
 
@@ -74,6 +74,7 @@ void ReadCauses(const Diagnosis& d, Outcome& out) {
   const auto see = [&](const auto& c, const std::vector<int>& group) -> Outcome::Seen& {
     Outcome::Seen& seen = out.seen.emplace_back();
     seen.name = c.cause.Name();
+    seen.each_trial = c.cause.each_trial;
     seen.probability = c.probability;
     seen.group_probability = c.group_probability;
     seen.evidence = c.evidence_probability;
@@ -212,6 +213,23 @@ std::vector<Truth> PlantEach(Table table, double size, int seeds) {
            .seed = NoiseSeed(table, static_cast<int>(random.Uniform(0.0, 1e6)))});
     }
   }
+  return truths;
+}
+
+std::vector<Truth> PlantOwnSizes(double size, int seeds) {
+  std::vector<Truth> truths = PlantEach(Table::kOwnSizes, size, seeds);
+  std::erase_if(truths, [](Truth& t) {
+    const EffectInfo& info = FindEffect(t.effects.front().name)->info;
+    if (info.parameters.size() != 1 || info.has_threshold) return true;
+    t.own_sizes = true;
+    std::vector<std::string> notes;
+    try {
+      MakeDataset(t, &notes);
+    } catch (const std::exception&) {
+      return true;  // a size drawn is one that the effect cannot have
+    }
+    return !notes.empty();
+  });
   return truths;
 }
 

@@ -38,7 +38,7 @@ struct Outcome {
   /// group.
   struct Seen {
     std::string name;
-    bool main = false;
+    bool main = false, each_trial = false;
     double probability = 0.0;        // told
     double group_probability = 0.0;  // that a name of its group is right
     double evidence = 0.0;           // of the evidence alone
@@ -80,7 +80,8 @@ enum class Table : std::uint64_t {
   kTwoEffects,
   kRules,
   kNoise,
-  kPowerLost
+  kPowerLost,
+  kOwnSizes
 };
 std::uint64_t NoiseSeed(Table table, int number);
 
@@ -90,6 +91,9 @@ int EveryNth();
 /// `seeds` cases of each effect of the catalogue at `size`, one effect after the other; law, sign
 /// (direction) and noise are drawn. Effects no law allows at that size are not among them.
 std::vector<Truth> PlantEach(Table table, double size, int seeds);
+
+/// The same of effects with one parameter and no threshold, with a size in each trial of its own.
+std::vector<Truth> PlantOwnSizes(double size, int seeds);
 
 /// How an effect can be planted under a law; null: it is in no catalogue of that law.
 const EffectCase* CaseOf(Law law, std::string_view name);
