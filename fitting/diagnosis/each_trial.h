@@ -13,7 +13,7 @@ namespace hoplab {
 /// Nats of evidence, over the best of one size for all, from which a cause of each trial's own size
 /// is told. Where what acts is not in the catalogue, sizes that are free in each trial stand in for
 /// it, with gains of 5 to 33 nats in the calibration's cases; three of sixteen gained more than
-/// this. What was planted so gained 55 and more (docs/decisions/0022).
+/// this. (What leaves more than details is not told either: docs/decisions/0022.)
 inline constexpr double kOwnSizesPay = 20.0;
 
 /// What a search found in which one cause has a size of each trial's own.
