@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -66,10 +67,14 @@ struct ExpectedLeft : LeftInWindows {
 
 // The first place of a window behind its last gap, where rows are missing; 0: it has none.
 std::size_t BehindGap(std::span<const double> times) {
-  constexpr double kGap = 1.5;  // mean steps
-  const double mean = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-  for (std::size_t i = times.size() - 1; i > 0; --i)
-    if (times[i] - times[i - 1] > kGap * mean) return i;
+  constexpr double kGap = 1.5;  // of the usual step
+  std::array<double, kOfWindow - 1> steps;
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = times[i + 1] - times[i];
+  std::array<double, kOfWindow - 1> sorted = steps;
+  const auto middle = sorted.begin() + sorted.size() / 2;
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  for (std::size_t i = steps.size(); i > 0; --i)
+    if (steps[i - 1] > kGap * *middle) return i;
   return 0;
 }
 

@@ -56,7 +56,7 @@ Samples SamplesOf(const Trial& trial, const std::vector<double>& values) {
 // heights from the first flight on.
 void FindEnd(const Trial& trial, std::size_t place, const Samples& flown, double sigma,
              std::vector<TraceFault>& faults) {
-  constexpr double kFallen = 0.25;  // of a leg's height: no law's leg carries its body lower
+  constexpr double kFallen = 0.25;  // of a leg's height, where simulations end, too
   constexpr double kDoubt = 6.0;
   // A leg carries it at most where it stands upright.
   const double upright_m = TouchdownHeight(trial.mechanism, 0.0);
@@ -68,7 +68,8 @@ void FindEnd(const Trial& trial, std::size_t place, const Samples& flown, double
   if (!first && has_one_leg) {
     end.kind = TraceFault::Kind::kFall;
     const double lands_m = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
-    first = FindTopBeforeFall(flown, lands_m, kFallen * upright_m, kDoubt * sigma);
+    const double lowest_m = trial.mechanism.fall_height_m.value_or(kFallen * upright_m);
+    first = FindTopBeforeFall(flown, lands_m, lowest_m, kDoubt * sigma);
     if (first) ++*first;  // the top itself is compared
   }
   if (!first || *first < kLeftOver || *first >= flown.size()) return;

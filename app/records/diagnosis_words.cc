@@ -118,13 +118,17 @@ std::string CausesSentence(const Diagnosis& d, std::size_t most) {
                          : "The simulation ";
   text += sure ? "lacks " : told_probability >= kLikely ? "probably lacks " : "may lack ";
   text += FirstOf(names, most);
-  // What each explains alone beside the others is little where they do much the same.
-  if (told.size() > 1 && names.size() <= most && shares < 0.5 * e.explained)
-    text += fmt::format(", together {}", ShareText(e.explained));
-  if (!sure) text += fmt::format(" (P {:.2f})", told_probability);
+  std::string rest;
+  if (!sure) rest += fmt::format(" (P {:.2f})", told_probability);
   if (ActsBeside(e))
-    text += fmt::format(" and something not listed (P {:.2f})", 1.0 - e.Probability());
-  return text + "; " + HeldOutClause(d) + ".";
+    rest += fmt::format(" and something not listed (P {:.2f})", 1.0 - e.Probability());
+  rest += "; " + HeldOutClause(d) + ".";
+  // What each explains alone beside the others is little where they do much the same.
+  const std::string together = fmt::format(", together {}", ShareText(e.explained));
+  const bool little = told.size() > 1 && told.size() == e.causes.size() && names.size() <= most &&
+                      shares < 0.5 * e.explained;
+  return little && WordsOf(text + together + rest) <= kMostWords ? text + together + rest
+                                                                 : text + rest;
 }
 
 // ", 97 % of it in leg_angle_1" where the simulation follows all other channels.

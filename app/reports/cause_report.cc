@@ -43,7 +43,8 @@ void AddCauseRow(TextTable& table, const SharedParameter& s, double value,
     const double spread = *interval.spread * unit.factor;
     const int decimals = DecimalsFor(spread);
     shown = FixedOrMore(value * unit.factor, decimals);
-    range = "+- " + FixedOrMore(spread, decimals) + " by trial";
+    range = "spread " + FixedOrMore(spread, decimals) + " by trial";
+    if (interval.at_bound) range += ", at its bound";
   }
   table.AddRow({s.name, shown, range, unit.unit, remarks[0], remarks[1]});
 }

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kResamples = 200;
 constexpr double kForceRankTolerance = 1e-6;
-// A bump of which the data see less than this share of what they see of the group's plainest one is
-// hardly visited: it would take any size.
+// A bump of which the data see less than this share of what they see of the group's best seen one
+// is hardly visited: it would take any size.
 constexpr double kHardlySeen = 1e-6;
 // Subsets of terms whose BIC differs by less than rounding of their fits say the same.
 constexpr double kTie = 1e-4;

@@ -105,6 +105,10 @@ TEST_F(VerdictSentenceTest, SaysWhatCausesExplainTogetherWhereEachAloneExplainsL
             0u)
       << text;
   EXPECT_LE(WordsOf(text), 30);
+  // What an untold cause explains is not theirs.
+  Accept({Add("leg_mass")}, 0.99, 0.7);
+  d_.extension->causes.back().main = false;
+  EXPECT_EQ(VerdictSentence(d_).find("together"), std::string::npos) << VerdictSentence(d_);
 }
 
 TEST_F(VerdictSentenceTest, SaysHowLikelyANameInDoubtIs) {

@@ -45,12 +45,9 @@ long TrainRows(const FitProblem& problem) {
   return rows;
 }
 
-// The fall shows in the traces, too: their rows are kept, so that it is the simulation that tells.
 TEST(CarriedBeginnings, OfHopsThatEndInAFallAreFittedAsWholeTraces) {
   const Dataset d = HopsToTheFall(3);
-  ProblemOptions keep;
-  keep.keep_stray = true;
-  const FitProblem problem = MakeProblem(d, keep);
+  const FitProblem problem = MakeProblem(d, {});
   const DatasetFit fit = FitTraces(problem, {});
   ASSERT_TRUE(fit.result.ok) << fit.result.message;
   EXPECT_TRUE(fit.result.stop.IsMinimum());
@@ -60,18 +57,6 @@ TEST(CarriedBeginnings, OfHopsThatEndInAFallAreFittedAsWholeTraces) {
   EXPECT_EQ(fit.problem.trials.size(), problem.trials.size());
   EXPECT_GE(TrainRows(fit.problem), 0.75 * TrainRows(problem));
   EXPECT_LT(TrainRows(fit.problem), TrainRows(problem));
-  EXPECT_NEAR(fit.result.shared[0], 22e9, 0.01 * 22e9);
-  EXPECT_NEAR(fit.result.shared[1], kDamping, 0.02 * kDamping);
-}
-
-TEST(CarriedBeginnings, AreNotNeededWhereTheTraceShowsTheFall) {
-  const FitProblem problem = MakeProblem(HopsToTheFall(3), {});
-  ASSERT_FALSE(problem.trace_faults.empty());
-  EXPECT_EQ(problem.trace_faults.front().kind, TraceFault::Kind::kFall);
-  const DatasetFit fit = FitTraces(problem, {});
-  ASSERT_TRUE(fit.result.ok) << fit.result.message;
-  EXPECT_TRUE(fit.left_out.empty());
-  EXPECT_FALSE(fit.by_hop) << fit.note;
   EXPECT_NEAR(fit.result.shared[0], 22e9, 0.01 * 22e9);
   EXPECT_NEAR(fit.result.shared[1], kDamping, 0.02 * kDamping);
 }

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "base/random.h"
+#include "base/units.h"
 #include "datasets/read_dataset.h"
 #include "fitting/check.h"
 #include "fitting/fit_dataset.h"
@@ -240,9 +241,43 @@ TEST(FindTopBeforeFall, FindsTheTopOfTheLastFlight) {
     }
   }
   EXPECT_EQ(all, 240);
-  const auto deep = [](double t) { return 0.2 - 0.1 * std::sin(20.0 * t); };
-  const Samples hops = Sampled(deep, 1.0, 500, 0.001, RandomStream(1, 1));
-  EXPECT_FALSE(FindTopBeforeFall(hops, 0.18, 0.045, 0.006));
+}
+
+// Stances of 0.1 s, 40 mm deep, and flights of 0.25 s.
+double Hopping(double t) {
+  constexpr double kStance_s = 0.1, kFlight_s = 0.25;
+  const double since = std::fmod(t, kStance_s + kFlight_s);
+  if (since < kStance_s) return 0.18 - 0.04 * std::sin(kPi * since / kStance_s);
+  const double flown = since - kStance_s;
+  return 0.18 + 0.5 * kG * flown * (kFlight_s - flown);
+}
+
+// Downhill a body comes below any height, and hops on; so does one that dips deep, and one whose
+// marker is lost for a moment.
+TEST(FindTopBeforeFall, SaysNothingOfABodyThatHopsOn) {
+  int all = 0;
+  for (const double down : {0.0, 0.02, 0.05, 0.1, 0.2})  // m/s
+    for (const double until : {2.0, 4.0, 5.03, 6.0, 6.11}) {
+      const auto path = [&](double t) { return Hopping(t) - down * t; };
+      const Samples s = Sampled(path, until, 500, 0.001, RandomStream(2, ++all));
+      EXPECT_FALSE(FindTopBeforeFall(s, 0.18, 0.045, 0.006)) << down << " m/s, " << until << " s";
+    }
+  EXPECT_EQ(all, 25);
+  const auto deep = [](double t) { return 0.15 - 0.14 * std::sin(20.0 * t); };
+  const Samples dips = Sampled(deep, 1.02, 500, 0.001, RandomStream(1, 1));
+  EXPECT_FALSE(FindTopBeforeFall(dips, 0.18, 0.045, 0.006));
+  Samples lost = Sampled(Hopping, 0.78, 500, 0.001, RandomStream(1, 2));
+  lost.y[lost.size() - 10] = 0.0;
+  EXPECT_FALSE(FindTopBeforeFall(lost, 0.18, 0.045, 0.006));
+}
+
+// A marker that is seen in the air for a sample, after the fall, is no flight.
+TEST(FindTopBeforeFall, TakesNoStraySampleForAFlight) {
+  Samples s = Sampled(HopsAndFalls, 0.8, 500, 0.0005, RandomStream(4, 1));
+  const auto before = FindTopBeforeFall(s, 0.18, 0.045, 0.003);
+  ASSERT_TRUE(before);
+  s.y[*before + 130] = 0.3;
+  EXPECT_EQ(FindTopBeforeFall(s, 0.18, 0.045, 0.003), before);
 }
 
 // All columns end there, and what follows is told.
@@ -263,6 +298,11 @@ TEST(FallenBody, EndsItsTrial) {
   const std::vector<std::string> told = FaultSentences(recorded, faults, false);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].substr(0, 38), "the body falls to the ground at the en");
+  // Where the simulation is told to go on further down, so does the trial.
+  leg.fall_height_m = 0.01;
+  EXPECT_TRUE(
+      FindTraceFaults(OneTrial(leg, Sampled(HopsAndFalls, 0.8, 500, 0.0005, RandomStream(5, 1))))
+          .empty());
 }
 
 // A trial whose body goes on in flight from its last row, falls, and comes to lie on the ground.
