@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "datasets/suspect_things.h"
+#include "fitting/falls.h"
 #include "fitting/stray_samples.h"
 
 namespace hoplab {

@@ -64,6 +64,12 @@ TEST(SizesInWords, DragOfEachTrialsOwnIsNamedSo) {
   ASSERT_TRUE(run.diagnosis.extension) << run.diagnosis.reason;
   const std::string text = Unbroken(DiagnosisReport(dataset, run, true, false));
   EXPECT_NE(text.find("lacks air_drag of each trial's own size"), std::string::npos) << text;
+  // An interval of their mean would say little: the table has how far they differ.
+  const std::size_t row = text.find("air_drag.c_drag ");
+  ASSERT_NE(row, std::string::npos) << text;
+  const std::size_t spread = text.find(" spread 0.0", row);
+  EXPECT_LT(spread, row + 40) << text;
+  EXPECT_LT(text.find(" by trial N s^2/m^2 ", spread), spread + 20) << text;
   EXPECT_NE(text.find("air_drag in every trial, differently: mean 0.0"), std::string::npos) << text;
   EXPECT_NE(text.find("train-2.csv 0.0"), std::string::npos) << text;
   EXPECT_EQ(text.find("with these sizes the causes explain "), std::string::npos) << text;

@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "datasets/read_dataset.h"
 #include "fitting/check.h"
+#include "fitting/falls.h"
 #include "fitting/fit_dataset.h"
 #include "fitting/problem.h"
 #include "fitting/trace_faults.h"
