@@ -141,7 +141,7 @@ TEST(EachTrial, IsNotToldWhereSizesGoWithTheSetUp) {
 // The air's drag is in no list: sizes that are free in each trial take up most of it, and not all.
 TEST(EachTrial, IsNotToldWhereMuchIsLeft) {
   const Diagnosis d =
-      Diagnose(HopsWithOwn("touchdown_angle_bias", kOffByHand, {EffectOfSize("air_drag", 0.1)}),
+      Diagnose(HopsWithOwn("touchdown_angle_bias", kOffByHand, {EffectOfSize("air_drag", 0.05)}),
                testing::OptionsWith({"touchdown_angle_bias"}));
   EXPECT_EQ(d.verdict, Verdict::kUnexplained);
   EXPECT_FALSE(OwnSizesTold(d));
