@@ -1,8 +1,10 @@
 #include "datasets/smoothness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "base/nan.h"
@@ -15,6 +17,7 @@ constexpr std::size_t kWindows = 12;  // fewer tell nothing
 // At 50 Hz the third differences are those of the motion.
 constexpr double kCoarsest_s = 0.0105;
 constexpr double kNotWhite = 0.0;  // white noise has -0.55 +- 0.1
+constexpr double kHardlyWhite = -0.2;
 
 struct Window {
   double square, correlation;
@@ -47,6 +50,27 @@ double MedianOfQuietest(std::vector<Window>& windows) {
   return quarter->correlation;
 }
 
+// Of third differences of samples so many apart.
+double CorrelationAt(std::span<const SampledColumn> columns, std::size_t stride) {
+  std::vector<Window> windows;
+  for (const SampledColumn& column : columns) AddWindows(column, stride, windows);
+  return MedianOfQuietest(windows);
+}
+
+// The same of noise through a filter, `apart` in units of its time constant.
+double ExpectedCorrelation(double apart) {
+  constexpr std::array kOfThird = {-1.0, 6.0, -15.0, 20.0, -15.0, 6.0, -1.0};
+  constexpr double kProducts = (kWindow - 4.0) / (kWindow - 3.0);  // in a window, over its squares
+  const auto covariance = [&](double lag) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < kOfThird.size(); ++j)
+      sum +=
+          kOfThird[j] * CorrelationThroughFilter((static_cast<double>(j) - 3.0 + lag) * apart, 1.0);
+    return sum;
+  };
+  return kProducts * covariance(1.0) / covariance(0.0);
+}
+
 double StepOf(std::span<const SampledColumn> columns) {
   double step = 0.0;
   for (const SampledColumn& c : columns)
@@ -62,19 +86,42 @@ double SmoothnessOfNoise(std::span<const SampledColumn> columns) {
   const double step = StepOf(columns);
   if (step > kCoarsest_s) return kNaN;
   double smoothness = kNaN;
-  std::vector<Window> windows;
   for (std::size_t stride = 1; stride == 1 || static_cast<double>(stride) * step <= kApart_s;
-       stride *= 2) {
-    windows.clear();
-    for (const SampledColumn& column : columns) AddWindows(column, stride, windows);
-    if (windows.empty()) break;
-    smoothness = std::fmax(smoothness, MedianOfQuietest(windows));
-  }
+       stride *= 2)
+    smoothness = std::fmax(smoothness, CorrelationAt(columns, stride));
   return smoothness;
 }
 
 bool IsSmoothed(std::span<const SampledColumn> columns) {
   return SmoothnessOfNoise(columns) > kNotWhite;
+}
+
+bool AreSmoothed(std::span<const double> smoothness) {
+  if (smoothness.empty()) return false;
+  const auto [least, most] = std::minmax_element(smoothness.begin(), smoothness.end());
+  return *least >= kHardlyWhite && *most >= kNotWhite;  // not where one is NaN
+}
+
+double CorrelationThroughFilter(double apart, double tau) {
+  const double u = std::abs(apart) / (std::numbers::sqrt2 * tau), c = std::cos(u), s = std::sin(u);
+  return std::exp(-u) * (c + s + 2.0 / 3.0 * u * s);
+}
+
+double FilterTimeOf(std::span<const SampledColumn> columns) {
+  const double step = StepOf(columns);
+  if (!(step > 0.0 && step <= kCoarsest_s)) return kNaN;
+  for (std::size_t stride = ApartIn(columns); stride > 0; --stride) {
+    const double correlation = CorrelationAt(columns, stride);
+    if (!(correlation >= kNotWhite)) continue;
+    // Of steps over the time constant: it falls from 0.6 to - 0.6 between these.
+    double near = 0.3, far = 3.0;
+    for (int halvings = 0; halvings < 40; ++halvings) {
+      const double middle = 0.5 * (near + far);
+      (ExpectedCorrelation(middle) > correlation ? near : far) = middle;
+    }
+    return static_cast<double>(stride) * step / near;
+  }
+  return kNaN;
 }
 
 std::size_t ApartIn(std::span<const SampledColumn> columns) {

@@ -19,6 +19,17 @@ struct SampledColumn {
 double SmoothnessOfNoise(std::span<const SampledColumn> columns);
 /// Whether it is positive.
 bool IsSmoothed(std::span<const SampledColumn> columns);
+/// Whether a body's coordinates went through a filter, by the SmoothnessOfNoise of each: one is
+/// positive, and none is that of white noise. One alone may be known so well that its differences
+/// are those of the motion.
+bool AreSmoothed(std::span<const double> smoothness);
+
+/// Correlation of noise that went through the filter of M105, M116; times in s.
+double CorrelationThroughFilter(double apart, double tau);
+/// Time constant of that filter [s], for which the correlation of third differences would be what
+/// it is where the motion is at its quietest (SmoothnessOfNoise), at the widest distance of samples
+/// at which it is positive. NaN where it is nowhere.
+double FilterTimeOf(std::span<const SampledColumn> columns);
 
 /// Samples that are compared lie at most so far apart: a stance lasts longer [s].
 inline constexpr double kApart_s = 0.01;

@@ -1,11 +1,12 @@
 #include "fitting/noise_correlation.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "fitting/left_by_parabola.h"
 #include "fitting/noise.h"
 
 namespace hoplab {
@@ -20,17 +21,6 @@ constexpr std::size_t kFewestWindows = 12;
 // simulation: 1.3 to 1.7 over the root of the samples.
 constexpr double kRoughnessError = 1.5;
 constexpr double kSquaresOfFlight = 10.0;  // of a window, over the noise's: more is no flight
-
-// What is left of a vector beside a parabola through `n` even times.
-Eigen::MatrixXd LeftByParabola(int n) {
-  Eigen::MatrixXd powers(n, 3);
-  for (int i = 0; i < n; ++i) {
-    const double s = 2.0 * i / (n - 1) - 1.0;
-    powers.row(i) << 1.0, s, s * s;
-  }
-  const Eigen::MatrixXd q = powers.householderQr().householderQ() * Eigen::MatrixXd::Identity(n, 3);
-  return Eigen::MatrixXd::Identity(n, n) - q * q.transpose();
-}
 
 // What parabolas leave in windows: sums of squares, of products of neighbours, and of squares of
 // the first and the second differences.

@@ -1,7 +1,5 @@
 #include "fitting/smoothed_traces.h"
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "base/text.h"
@@ -9,17 +7,11 @@
 #include "model/pose_filter.h"
 
 namespace hoplab {
-namespace {
-
-constexpr double kHardlyWhite = -0.2;
-
-}  // namespace
 
 std::vector<Channel> SmoothedChannels(const FitProblem& problem) {
-  // A pitch may be known so well that its differences are those of the motion, and so may one of
-  // the two coordinates: both have to look alike.
+  // A pitch may be known so well that its differences are those of the motion.
   std::vector<Channel> smoothed;
-  double least = 1.0, most = -1.0;
+  std::vector<double> smoothness;
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     if (!IsFiltered(problem.channels[c].channel)) continue;
     smoothed.push_back(problem.channels[c].channel);
@@ -28,13 +20,9 @@ std::vector<Channel> SmoothedChannels(const FitProblem& problem) {
     std::vector<SampledColumn> columns;
     for (std::size_t i = 0; i < samples.size(); ++i)
       columns.push_back({problem.trials[i].row_times, samples[i]});
-    const double smoothness = SmoothnessOfNoise(columns);
-    if (std::isnan(smoothness)) return {};
-    least = std::min(least, smoothness);
-    most = std::max(most, smoothness);
+    smoothness.push_back(SmoothnessOfNoise(columns));
   }
-  if (least < kHardlyWhite || most < 0.0) return {};
-  return smoothed;
+  return AreSmoothed(smoothness) ? smoothed : std::vector<Channel>();
 }
 
 std::vector<std::string> SmoothedTraces(const FitProblem& problem) {

@@ -18,7 +18,8 @@ class Telling {
       : trial_(dataset.trials[first.trial]), first_(first), kept_(kept) {}
 
   bool Covers(const TraceFault& fault) const {
-    return fault.kind == first_.kind && fault.channel == first_.channel;
+    return fault.kind == first_.kind &&
+           (fault.channel == first_.channel || fault.kind == TraceFault::Kind::kSmoothedEnd);
   }
   void Add(const TraceFault& fault) {
     count_ += fault.rows.size();
@@ -54,6 +55,10 @@ class Telling {
         return "the body falls to the ground at the end of " + trial_.file + Others() +
                "; what follows the top of its last flight, at " +
                Rounded(trial_.trace.time_s[first_.rows[0] - 1]) + " s," + NotCompared(" is");
+      case TraceFault::Kind::kSmoothedEnd:
+        return "the traces were smoothed; " + std::to_string(count_) +
+               " samples near their ends, since a filter has none beyond them," +
+               NotCompared(" are");
       case TraceFault::Kind::kJump:
         break;
     }

@@ -5,12 +5,14 @@
 #include <iterator>
 #include <numeric>
 #include <string_view>
+#include <utility>
 
 #include "base/nan.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "datasets/suspect_things.h"
 #include "fitting/falls.h"
+#include "fitting/smoothed_ends.h"
 #include "fitting/stray_samples.h"
 
 namespace hoplab {
@@ -162,6 +164,8 @@ std::string_view NameOf(TraceFault::Kind kind) {
       return "before_flight";
     case TraceFault::Kind::kFall:
       return "fall";
+    case TraceFault::Kind::kSmoothedEnd:
+      return "smoothed_end";
   }
   return "";
 }
@@ -175,6 +179,7 @@ std::vector<TraceFault> FindTraceFaults(const Dataset& dataset) {
     for (std::size_t k = 0; channel.id == Channel::kBodyY && k < dataset.trials.size(); ++k)
       FindEnds(dataset.trials[k], k, channel, faults);
   }
+  for (TraceFault& end : FindSmoothedEnds(dataset)) faults.push_back(std::move(end));
   return faults;
 }
 

@@ -17,7 +17,8 @@ struct TraceFault {
     kBeforeRelease,  // the body is held, and then let go: the rows before (FindRelease)
     kAfterCatch,     // it is caught in the air: the rows from there on (FindCatch)
     kBeforeFlight,   // the record begins in a stance: the rows before its first flight's top
-    kFall            // the body falls to the ground: the rows after its last flight's top
+    kFall,           // the body falls to the ground: the rows after its last flight's top
+    kSmoothedEnd     // of a trace that was smoothed: the samples near its ends (FindSmoothedEnds)
   };
   Kind kind = Kind::kStray;
   std::size_t trial = 0;
@@ -32,7 +33,8 @@ struct TraceFault {
            kind == Kind::kBeforeFlight || kind == Kind::kFall;
   }
 };
-/// "stray", "held", "jump", "before_release", "after_catch", "before_flight" or "fall".
+/// "stray", "held", "jump", "before_release", "after_catch", "before_flight", "fall" or
+/// "smoothed_end".
 std::string_view NameOf(TraceFault::Kind kind);
 
 /// All of them, by what is recorded alone: no law is asked. The motion beside a sample is a
@@ -47,11 +49,12 @@ std::string_view NameOf(TraceFault::Kind kind);
 /// samples is off the motion before them, as in a trace that is sampled coarsely, nothing is found.
 std::vector<TraceFault> FindTraceFaults(const Dataset& dataset);
 
-/// The dataset with stray and held samples missing, and of a channel that jumps all that follows:
-/// nobody knows where the body is from there on. A trial begins after the release and ends before
-/// the catch, or at the top of the flight from which the body fell; a start that is stated is that
-/// of the release, moved on to the first row. One that begins in a stance begins at the top of its
-/// first flight, and what is stated of its start is dropped: the trace has it.
+/// The dataset with stray and held samples and those near the ends of smoothed traces missing, and
+/// of a channel that jumps all that follows: nobody knows where the body is from there on. A trial
+/// begins after the release and ends before the catch, or at the top of the flight from which the
+/// body fell; a start that is stated is that of the release, moved on to the first row. One that
+/// begins in a stance begins at the top of its first flight, and what is stated of its start is
+/// dropped: the trace has it.
 Dataset WithoutFaults(Dataset dataset, const std::vector<TraceFault>& faults);
 
 /// A sentence for each channel and kind, for a reader: how many samples of which trials, and

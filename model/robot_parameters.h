@@ -32,6 +32,7 @@ struct RobotParameters {
   T clamp{0.0};              // length of every leg that its hub holds rigid [m]
   T damping{0.0};            // retardation time of every leg's material [s]
   T leg_mass{0.0};           // of every leg, beside the body's [kg]
+  T stiffness_drift{0.0};    // of every leg, gamma_E [1/s]
   T lateral_stiffness{1.0};  // of straight legs, across [N/m]; k and l0 are those of Parameters
   std::array<T, kMaxLegs> E{T(1.0), T(1.0), T(1.0), T(1.0)};      // [Pa]
   std::array<T, kMaxLegs> hip_x{T(0.0), T(0.0), T(0.0), T(0.0)};  // in the body frame [m]
@@ -69,11 +70,12 @@ struct RobotParameters {
   /// Every differentiable number, in one order: for converting.
   template <class Self, class Do>
   static void Each(Self& p, const Do& act) {
-    for (auto* v : {&p.pitch_inertia, &p.com_x,    &p.com_y,        &p.rotor_inertia,
-                    &p.motor_kp,      &p.motor_kd, &p.torque_limit, &p.motor_gain,
-                    &p.motor_lag,     &p.friction, &p.foot_slip,    &p.ground_compliance,
-                    &p.clamp,         &p.damping,  &p.leg_mass,     &p.lateral_stiffness,
-                    &p.period,        &p.duty,     &p.sweep,        &p.offset})
+    for (auto* v : {&p.pitch_inertia,  &p.com_x,    &p.com_y,        &p.rotor_inertia,
+                    &p.motor_kp,       &p.motor_kd, &p.torque_limit, &p.motor_gain,
+                    &p.motor_lag,      &p.friction, &p.foot_slip,    &p.ground_compliance,
+                    &p.clamp,          &p.damping,  &p.leg_mass,     &p.lateral_stiffness,
+                    &p.period,         &p.duty,     &p.sweep,        &p.offset,
+                    &p.stiffness_drift})
       act(*v);
     for (auto* list : {&p.E, &p.hip_x, &p.hip_y, &p.angle, &p.rate, &p.E_scale, &p.extra_damping,
                        &p.gain_of, &p.leg_zero, &p.torque_bias, &p.hip_viscous, &p.hip_coulomb,
@@ -86,7 +88,7 @@ struct RobotParameters {
 template <class To, class From>
 RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   RobotParameters<To> to;
-  std::array<double, 20 + 17 * kMaxLegs> values{};
+  std::array<double, 21 + 17 * kMaxLegs> values{};
   std::size_t n = 0;
   RobotParameters<From>::Each(from, [&](const From& v) { values[n++] = Value(v); });
   n = 0;

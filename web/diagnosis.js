@@ -60,6 +60,12 @@ function variesText(v) {
   return `${text}. With these sizes the causes explain ${shareText(w.explained)} of the misfit instead of ${shareText(w.explained_one_size)}${errors.length ? `, held-out ${errors.join(', ')}` : ''} (${significant(w.evidence_nats, 2)} nats).`;
 }
 
+// Of a cause of each trial's own size: the mean of the sizes and how far they spread.
+function sizeOf(cause, p) {
+  const own = cause.each_trial ? list(cause.varies).find((v) => v.name === p.name && isNumber(v.spread)) : undefined;
+  return `${p.name} = ${quantity(p.value, p.unit, 3)}${own ? ` on average, spread ${quantity(own.spread, p.unit, 2)}` : ''}`;
+}
+
 // Of the misfit; runs of before 2026-11-25 have the share of what all causes explain alone.
 const shareOf = (c) => shareText(c.share_of_misfit ?? c.share);
 const chance = (p) => (isNumber(p) ? p.toFixed(2) : notComputed);
@@ -75,7 +81,7 @@ function causesPart(causes, extension) {
   if (!causes.length && !setAside.length) return undefined;
   const channels = Object.keys(causes[0]?.held_out_rmse_without ?? {});
   const unit = (c) => splitUnit(c).unit;
-  const row = (c) => [causeText({...c, effect: c.name}), c.parameters.map((p) => `${p.name} = ${quantity(p.value, p.unit, 3)}`).join('; '),
+  const row = (c) => [causeText({...c, effect: c.name}), c.parameters.map((p) => sizeOf(c, p)).join('; '),
     shareOf(c), chance(c.probability),
     ...channels.map((ch) => (isNumber(c.held_out_rmse_without[ch]) ? quantity(c.held_out_rmse_without[ch], unit(ch), 3) : notComputed))];
   const heads = ['size', 'explains', 'P', ...channels.map((ch) => `without it, ${splitUnit(ch).name}`)];

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "fitting/filtered_noise.h"
 #include "fitting/noise.h"
 #include "fitting/noise_correlation.h"
 #include "fitting/trial_evaluator.h"
@@ -13,6 +15,12 @@ namespace hoplab {
 namespace {
 
 constexpr double kNoiseExcess = 1.25;
+
+std::string Text(const char* format, double a, double b = 0.0) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
 
 using Samples = std::vector<std::vector<double>>;
 std::vector<SampledColumn> ColumnsOf(const FitProblem& problem, const Samples& samples) {
@@ -47,7 +55,7 @@ bool ComeTogether(Channel a, Channel b) {
 }
 
 // How alike the noise of neighbouring samples is in the channels that come with this one, each in
-// units of its own noise.
+// units of its own noise; 0 where they were smoothed.
 double CorrelationOf(const FitProblem& problem, std::size_t channel) {
   std::vector<Samples> high;
   std::vector<SampledColumn> flights;
@@ -66,24 +74,26 @@ double CorrelationOf(const FitProblem& problem, std::size_t channel) {
   return NoiseCorrelation(flights);
 }
 
-// Noise of a channel over all trials, and how alike it is in neighbouring samples; NaN where there
-// are too few samples. Only coordinates and speeds are parabolas in flight.
+// Noise of a channel over all trials, NaN where there are too few samples, and how many times as
+// strong white noise must be to do the same to a slow motion, and why. Only coordinates and speeds
+// are parabolas in flight.
 struct FlightNoise {
-  double sigma = std::numeric_limits<double>::quiet_NaN(), correlation = 0.0;
+  double sigma = std::numeric_limits<double>::quiet_NaN(), strength = 1.0;
+  std::string why = {};
 };
-FlightNoise NoiseInFlight(const FitProblem& problem, std::size_t channel) {
+FlightNoise NoiseInFlight(const FitProblem& problem, std::size_t channel,
+                          const std::optional<FilteredNoise>& filtered) {
   FlightNoise noise;
   if (problem.channels[channel].channel > Channel::kBodyVy) return noise;
-  noise.correlation = CorrelationOf(problem, channel);
-  const Samples samples = SamplesOf(problem, channel);
-  noise.sigma = EstimateNoise(ColumnsOf(problem, samples)) / SeenByParabolas(noise.correlation);
+  if (filtered && !std::isnan(filtered->sigma[channel]))
+    return {filtered->sigma[channel], filtered->strength,
+            Text("went through a filter (time constant %.3g ms)", 1e3 * filtered->tau)};
+  const double correlation = CorrelationOf(problem, channel);
+  noise.sigma =
+      EstimateNoise(ColumnsOf(problem, SamplesOf(problem, channel))) / SeenByParabolas(correlation);
+  noise.strength = WhiteStrength(correlation);
+  noise.why = Text("of neighbouring samples is alike (correlation %.2f)", correlation);
   return noise;
-}
-
-std::string Text(const char* format, double a, double b = 0.0) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
 }
 
 // The first trial that the model does not simulate to its end, and how it ends; empty: none.
@@ -138,11 +148,18 @@ GateCheck CheckGradients(const GradientCertificate& certificate) {
 
 std::vector<std::string> CorrectNoise(FitProblem& problem) {
   std::vector<std::string> notes;
+  const std::optional<FilteredNoise> filtered = FindFilteredNoise(problem);
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     ChannelProblem& channel = problem.channels[c];
-    const FlightNoise noise = NoiseInFlight(problem, c);
+    const FlightNoise noise = NoiseInFlight(problem, c, filtered);
+    const bool is_filtered = filtered && !std::isnan(filtered->sigma[c]);
     const std::string name(NameOf(channel.channel));
-    if (!channel.sigma_estimated) {
+    if (!channel.sigma_estimated && is_filtered) {
+      // What is stated is the sensor's, before the filter, unless that is too little.
+      if (!(noise.sigma * noise.strength > kNoiseExcess * channel.sigma)) continue;
+      channel.sigma = noise.sigma;
+      channel.sigma_estimated = true;
+    } else if (!channel.sigma_estimated) {
       if (noise.sigma > kNoiseExcess * channel.sigma) {
         notes.push_back(name + Text(": the flights scatter by %.3g, more than the stated sigma "
                                     "%.3g; the larger one is used",
@@ -152,22 +169,22 @@ std::vector<std::string> CorrectNoise(FitProblem& problem) {
       }
       for (std::string& found : FindTrialNoise(problem, c, !channel.sigma_estimated))
         notes.push_back(std::move(found));
-    } else if (noise.correlation > 0.0) {
+    } else if (noise.strength > 1.0) {
       channel.sigma = noise.sigma;
     }
-    if (!(noise.correlation > 0.0)) continue;
-    channel.sigma *= WhiteStrength(noise.correlation);
-    notes.push_back(name + Text(": the noise of neighbouring samples is alike (correlation %.2f), "
-                                "so it counts as white noise of %.3g",
-                                noise.correlation, channel.sigma));
+    if (!(noise.strength > 1.0)) continue;
+    channel.sigma *= noise.strength;
+    notes.push_back(name + ": the noise " + noise.why +
+                    Text(", so it counts as white noise of %.3g", channel.sigma));
   }
   return notes;
 }
 
 std::vector<double> NoiseSquares(const FitProblem& problem) {
   std::vector<double> squares;
+  const std::optional<FilteredNoise> filtered = FindFilteredNoise(problem);
   for (std::size_t c = 0; c < problem.channels.size(); ++c)
-    squares.push_back(std::pow(WhiteStrength(NoiseInFlight(problem, c).correlation), -2));
+    squares.push_back(std::pow(NoiseInFlight(problem, c, filtered).strength, -2));
   return squares;
 }
 

@@ -42,9 +42,9 @@ Gate CheckGate(const FittedModel& null, const std::vector<TrialProblem>& train, 
 
 /// Replaces stated noise that the flights contradict (estimated more than a quarter above it) by
 /// the estimate, gives trials that scatter more a noise of their own (FindTrialNoise), and counts
-/// noise that is alike in neighbouring samples as white noise that does the same to slow motion
-/// (NoiseCorrelation); notes say so. A diagnosis with noise stated too small would see causes
-/// everywhere.
+/// noise that is alike in neighbouring samples (NoiseCorrelation), or went through a filter
+/// (FindFilteredNoise), as white noise that does the same to slow motion; notes say so. A diagnosis
+/// with noise stated too small would see causes everywhere.
 std::vector<std::string> CorrectNoise(FitProblem& problem);
 
 /// Of each channel of a problem corrected so: the mean square, over sigma squared, that noise alone

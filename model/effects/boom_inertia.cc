@@ -11,14 +11,17 @@ struct BoomInertia {
   static constexpr EffectInfo kInfo = {
       .name = "boom_inertia",
       .kind = EffectKind::kParameter,
-      .equation = "inertia m (1 + mu_x) forward, m (1 + mu_y) upward; weight m g",
+      .equation =
+          "inertia m (1 + mu_x) forward, m (1 + mu_y) upward; weight m g; of a robot its body, at "
+          "the centre of mass",
       .sentence =
           "something that moves with the body but is carried by the rig, a boom or a carriage, "
           "makes it sluggish without making it heavier",
       .for_legs = true,
       .for_ball = false,
       .dissipative = false,
-      .parameters = kParameters};
+      .parameters = kParameters,
+      .for_robot = true};
 
   template <class T>
   static void ChangeParameters(const T* p, Parameters<T>& parameters) {

@@ -17,6 +17,7 @@ struct GuideCoulombFriction {
       .dissipative = true,
       .sharp = true,
       .parameters = kParameters,
+      .for_robot = true,
       .about = MachinePart::kGuideOfBall};
   static constexpr double kWidth = 0.02;  // m/s
 

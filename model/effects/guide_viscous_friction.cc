@@ -17,6 +17,7 @@ struct GuideViscousFriction {
       .for_ball = true,
       .dissipative = true,
       .parameters = kParameters,
+      .for_robot = true,
       .about = MachinePart::kGuideOfBall};
 
   template <class T>

@@ -98,6 +98,21 @@ BeyondM2b<S> BeyondM2bAt(const S& phi, const S& f, const Energy& d, const Bendin
           f2 * (G(0, 0) + f * G_f - 0.25 * first(0) - (2.0 / 3.0) * (f * next(0)))};
 }
 
+// Of values alone: the chord, and how chord and turn go with phi and f; the energy goes by f times
+// what the chord does.
+struct SlopesBeyondM2b {
+  double chord, chord_phi, chord_f, turn_f;
+};
+template <class Energy>
+SlopesBeyondM2b SlopesAt(double f, const Energy& G, const ArcShapes& shapes) {
+  const auto& first = shapes.bending;
+  const auto& next = shapes.second_order;
+  return {f * (2.0 * G[0][0] + f * G[0][1] - 0.5 * first[0] - f * next[0]),
+          f * (2.0 * G[1][0] + f * G[1][1] - 0.5 * first[1] - f * next[1]),
+          2.0 * G[0][0] + f * (4.0 * G[0][1] + f * G[0][2]) - 0.5 * first[0] - 2.0 * f * next[0],
+          G[1][0] + f * G[1][1] - 0.25 * first[1] - (2.0 / 3.0) * f * next[1]};
+}
+
 // What the state says to the leg, in a scalar that may be differentiated.
 template <class S>
 struct Situation {
@@ -176,8 +191,9 @@ struct ArcParts {
         C2s(softer2 * (unit * Lifted(shapes.second_order, 1))) {}
 };
 
-// M65: F from the chord, by Newton in values; two rounds more, their slope held, bring the
-// directions in. Newton's error is squared at each round, so a small step is the last.
+// M65: F from the chord, by Newton in values. A round more in the slopes of these values brings the
+// first derivatives in, and one with all derivatives the second ones. Newton's error is squared at
+// each round, so a small step is the last.
 template <class S, class P>
 void AddBeyondM2b(const ArcParts<S, P>& arc, const S& C, const S& Cs, const S& A2s, const S& turn,
                   Statics<S>& out) {
@@ -190,7 +206,7 @@ void AddBeyondM2b(const ArcParts<S, P>& arc, const S& C, const S& Cs, const S& A
   const double least = elastica::kLoadBegin / elastica::LoadScale(phi_now) / per_N;
   const double most = elastica::kLoadEnd / elastica::LoadScale(phi_now) / per_N;
   constexpr double kLastStep = kOfSearch<S> ? 1e-6 : 1e-8;  // over the greatest force
-  double F = at.F_near, slope = 1.0, f = 0.0;
+  double F = at.F_near, f = 0.0;
   if (std::isnan(F)) {  // that of M2b
     const double C0 = Value(C), delta = Value(out.delta);
     F = 2.0 * delta / (C0 + std::sqrt(C0 * C0 + 4.0 * Value(out.A2) * delta));
@@ -204,24 +220,27 @@ void AddBeyondM2b(const ArcParts<S, P>& arc, const S& C, const S& Cs, const S& A
     const double A0 = Value(out.A2) - now * per_N * per_N * arc.shapes.second_order[0];
     const double miss =
         F * (C0 + A0 * F) + now * f * (2.0 * G[0][0] + f * G[0][1]) - Value(out.delta);
-    slope = C0 + 2.0 * A0 * F + now * per_N * (2.0 * G[0][0] + f * (4.0 * G[0][1] + f * G[0][2]));
-    const double step = miss / slope;
+    const double step = miss / (C0 + 2.0 * A0 * F +
+                                now * per_N * (2.0 * G[0][0] + f * (4.0 * G[0][1] + f * G[0][2])));
     F -= step;
     if (!(std::abs(step) > kLastStep * most)) break;
   }
   if (!elastica::InDomain(phi_now, per_N * F)) F = std::numeric_limits<double>::quiet_NaN();
-  out.F = S(P(F));
   const auto table = EnergyNear<S>(phi_now, per_N * F, f, G);
-  const auto at_load = [&](const S& load) {
-    return BeyondM2bAt<S>(at.phi, unit_f * load, table, arc.shapes.bending,
-                          arc.shapes.second_order);
-  };
-  BeyondM2b<S> more = at_load(out.F);
-  for (int round = 0; round < 2; ++round) {
-    const S miss = out.F * (C + out.A2 * out.F) + (blend * r) * more.chord - out.delta;
-    out.F = out.F - P(1.0 / slope) * miss;
-    more = at_load(out.F);
-  }
+  const SlopesBeyondM2b by = SlopesAt(per_N * F, table, arc.shapes);
+  const double slope = Value(C) + 2.0 * Value(out.A2) * F + now * per_N * by.chord_f;
+  S moved =
+      now * by.chord_phi * (at.phi - S(P(phi_now))) + now * by.chord_f * F * (unit_f - S(P(per_N)));
+  moved = moved + S(P(by.chord * (blend * r)));
+  const S first = F * (C + F * out.A2) + moved - out.delta;
+  out.F = S(P(F)) - (1.0 / slope) * first;
+  BeyondM2b<S> more =
+      BeyondM2bAt<S>(at.phi, unit_f * out.F, table, arc.shapes.bending, arc.shapes.second_order);
+  const S miss = out.F * (C + out.A2 * out.F) + (blend * r) * more.chord - out.delta;
+  const S next = (-1.0 / slope) * miss;
+  out.F = out.F + next;
+  more.turn = more.turn + (per_N * by.turn_f) * next;
+  more.energy = more.energy + (per_N * (per_N * F) * by.chord_f) * next;
   out.tip_turn =
       out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + blend * more.turn + turn - out.cos;
   if constexpr (!kIsTangent<S>)

@@ -20,10 +20,12 @@ struct AllMotions {
 /// any type.
 class MotionEquations {
  public:
-  MotionEquations(double mass, double com_x, double com_y, double pitch_inertia)
-      : a_{{mass, 0.0, -mass * com_y},
-           {0.0, mass, mass * com_x},
-           {-mass * com_y, mass * com_x, pitch_inertia + mass * (com_x * com_x + com_y * com_y)}} {}
+  /// The body's `mass` along the ground and across it.
+  MotionEquations(const Vector2<double>& mass, double com_x, double com_y, double pitch_inertia)
+      : a_{{mass.x, 0.0, -mass.x * com_y},
+           {0.0, mass.y, mass.y * com_x},
+           {-mass.x * com_y, mass.y * com_x,
+            pitch_inertia + mass.y * (com_x * com_x) + mass.x * (com_y * com_y)}} {}
 
   /// The next leg, its hip at (x, y) from the reference point, its `mass` by the motion of hip,
   /// base and its own; `own` is the row of that motion, null of a leg that has none; `hub` the

@@ -6,7 +6,6 @@
 
 #include "base/check.h"
 #include "model/laws/leg_load.h"
-#include "model/mechanisms/inertia.h"
 #include "model/mechanisms/robot_bending_inl.h"
 #include "model/mechanisms/robot_blows_inl.h"
 #include "model/mechanisms/robot_dynamics_inl.h"
@@ -27,15 +26,16 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
       effects_(setup.effects),
       inputs_(setup.inputs),
       legs_(robot_.legs),
+      body_(p_),
+      gravity_x_(body_.gravity_x * (1.0 + p_.inertia_x)),
+      gravity_y_(body_.gravity_y * (1.0 + p_.inertia_y)),
       has_body_force_(effects_.HasBodyForce() || inputs_.HasForce()),
       has_leg_mass_(!IsZero(robot_.leg_mass)),
       lags_(robot_.control != MotorControl::kLocked &&
             Value(robot_.motor_lag) >= robot_detail::kShortestLag),
       lags_shortly_(!lags_ && robot_.control != MotorControl::kLocked && !IsZero(robot_.motor_lag)),
-      creeps_(!IsZero(robot_.foot_slip)) {
-  const Inertia<T> weight(p_);
-  gravity_x_ = weight.gravity_x;
-  gravity_y_ = weight.gravity_y;
+      creeps_(!IsZero(robot_.foot_slip)),
+      drifts_(!IsZero(robot_.stiffness_drift)) {
   // A straight leg's mass is its hub's (M97).
   follows_legs_ =
       !robot_.straight_legs && Value(robot_.leg_mass) >= robot_detail::kLightestLeg * Value(p_.m);
@@ -59,6 +59,13 @@ Robot<T>::Robot(const MechanismSetup<T>& setup)
   fall_height_ =
       p_.fall_height == p_.fall_height ? p_.fall_height : robot_detail::kLowestHip * size_;
   ListGuards(Mode::kFlight);
+}
+
+template <class T>
+void Robot<T>::AgeLegs(const T& t) const {
+  if (!drifts_) return;
+  const T share = 1.0 + robot_.stiffness_drift * (t + p_.time_origin);
+  for (int i = 0; i < legs_; ++i) leg_[i].law.SetStiffness(share);
 }
 
 template <class T>
@@ -121,6 +128,7 @@ T Robot<T>::Reach(const T& angle) const {
 
 template <class T>
 Mode Robot<T>::Begin(Mode, T* z) {
+  AgeLegs(T(0.0));
   for (int i = 0; i < legs_; ++i) {
     Leg& leg = leg_[i];
     leg.stance = Stance::kFlight;
@@ -146,6 +154,7 @@ Mode Robot<T>::Begin(Mode, T* z) {
 template <class T>
 Mode Robot<T>::Resume(std::span<const Foot> feet, T* z) {
   HOPLAB_CHECK(static_cast<int>(feet.size()) == legs_);
+  AgeLegs(T(0.0));
   for (int i = 0; i < legs_; ++i) {
     Leg& leg = leg_[i];
     const Foot& foot = feet[static_cast<std::size_t>(i)];
@@ -221,7 +230,7 @@ void Robot<T>::StartSearch(Mode mode, const double* z) {
 
 template <class T>
 std::optional<BallisticFlight<T>> Robot<T>::FreeFlight() const {
-  return BallisticFlight<T>{gravity_x_, gravity_y_, T(0.0)};
+  return BallisticFlight<T>{body_.gravity_x, body_.gravity_y, T(0.0)};
 }
 
 template <class T>
@@ -234,6 +243,7 @@ double Robot<T>::FirstStep(Mode mode, const T*) const {
 
 template <class T>
 Observation<T> Robot<T>::Observe(Mode mode, const T& t, const T* z) const {
+  AgeLegs(t);
   Observation<T> seen = this->Unseen();
   seen[Channel::kBodyX] = z[kX];
   seen[Channel::kBodyY] = z[kY];

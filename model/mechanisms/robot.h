@@ -4,6 +4,7 @@
 
 #include "model/hybrid/hybrid_system.h"
 #include "model/mechanisms/gear.h"
+#include "model/mechanisms/inertia.h"
 #include "model/mechanisms/leg_form.h"
 #include "model/mechanisms/mechanism_setup.h"
 #include "model/mechanisms/motion_equations.h"
@@ -111,6 +112,8 @@ class Robot final : public HybridSystem<T> {
 
   /// The same of the end of the clamp, where the leg begins to bend.
   Hip ClampOf(const Hip& hip) const;
+  /// Makes the legs as stiff as they are at that time of the run.
+  void AgeLegs(const T& t) const;
   struct Frame;  // sine and cosine of the body's pitch over the ground
   Hip HipOf(const Frame& frame, int leg, const T* z) const;
   /// What legs and air do to body and motors.
@@ -240,13 +243,15 @@ class Robot final : public HybridSystem<T> {
   int gears_ = 0;  // motors whose gear has play
   bool has_clamp_;
   T clamp_, cos_clamp_, sin_clamp_;  // the angle the clamp spans [rad]
-  T gravity_x_, gravity_y_;
+  Inertia<T> body_;
+  T gravity_x_, gravity_y_;  // of what no boom carries
   bool has_body_force_;
   bool has_leg_mass_;
   bool lags_, lags_shortly_;  // motors: with a state of their own, or to first order (M86)
   bool follows_legs_;         // these have enough mass for their shape to matter (M89, M98)
   bool foot_has_inertia_;     // and feet that may slide
   bool creeps_;               // feet that hold do, under a force along (M29)
+  bool drifts_;               // the stiffness of all legs, with time
   double size_;               // of the legs, half of one unloaded [m]
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;

@@ -27,7 +27,7 @@ typename Robot<T>::Impact Robot<T>::MomentaOf(const T* z, int without) const {
   now.com = frame.Turn(robot_.com_x, robot_.com_y);
   Sides& sides = now.sides;
   const T& turn = z[Pitch() + 1];
-  const T px = p_.m * (z[kVx] - turn * now.com.y), py = p_.m * (z[kVy] + turn * now.com.x);
+  const T px = body_.mx * (z[kVx] - turn * now.com.y), py = body_.my * (z[kVy] + turn * now.com.x);
   sides.x += px;
   sides.y += py;
   sides.pitch += robot_.pitch_inertia * turn + now.com.x * py - now.com.y * px;

@@ -44,8 +44,10 @@ typename Robot<T>::Push& Robot<T>::PushOf(const Frame& frame, const T& t, const 
     push.on_motor[i] = robot_.control == MotorControl::kLocked ? T(0.0) : T(given + on_hip);
   }
   if (has_body_force_) {
-    Vector2<T> air = effects_.BodyForce(
-        {t + p_.time_origin, z[kX], z[kY], z[kVx], z[kVy], ModeNow() != Mode::kFlight});
+    const T& turn = z[Pitch() + 1];
+    Vector2<T> air =
+        effects_.BodyForce({t + p_.time_origin, z[kX] + com.x, z[kY] + com.y, z[kVx] - turn * com.y,
+                            z[kVy] + turn * com.x, ModeNow() != Mode::kFlight});
     AddInputForce(inputs_, p_.slope, t, air);
     push.force_x += air.x;
     push.force_y += air.y;
@@ -56,6 +58,7 @@ typename Robot<T>::Push& Robot<T>::PushOf(const Frame& frame, const T& t, const 
 // M72, M73.
 template <class T>
 void Robot<T>::Derivative(Mode, const T& t, const T* z, T* dz) const {
+  AgeLegs(t);
   const Frame frame(z[Pitch()] - p_.slope);
   Push& push = PushOf(frame, t, z);
   const bool locked = robot_.control == MotorControl::kLocked;
@@ -87,8 +90,8 @@ void Robot<T>::Accelerate(const Frame& frame, const Push& push, const T* z, T* d
   const Vector2<T>& com = push.com;
   const T& turn = z[Pitch() + 1];
   const T spin = push.moment / robot_.pitch_inertia;
-  dz[kVx] = push.force_x / p_.m + gravity_x_ + spin * com.y + turn * turn * com.x;
-  dz[kVy] = push.force_y / p_.m + gravity_y_ - spin * com.x + turn * turn * com.y;
+  dz[kVx] = push.force_x / body_.mx + body_.gravity_x + spin * com.y + turn * turn * com.x;
+  dz[kVy] = push.force_y / body_.my + body_.gravity_y - spin * com.x + turn * turn * com.y;
   dz[Pitch() + 1] = spin;
   for (int i = 0; i < legs_; ++i) {
     dz[Rate(i)] = locked || leg_[i].is_held ? T(0.0) : T(push.on_motor[i] / hub_[i]);

@@ -113,6 +113,7 @@ std::optional<Outcome> Robot<T>::Happens(const GuardRef& guard, const T& t, T* z
 
 template <class T>
 ResetResult Robot<T>::Reset(Mode, int i, const T& t, T* z) {
+  AgeLegs(t);
   const GuardRef guard = guards_[i];
   std::array<T, kMaxLegs> told;
   for (int k = 0; k < legs_; ++k) told[k] = Torque(k, t, z);

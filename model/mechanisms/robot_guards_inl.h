@@ -154,6 +154,7 @@ typename Robot<T>::Seen Robot<T>::LookAt(Mode mode, const T& t, const T* z) cons
 
 template <class T>
 void Robot<T>::Guards(Mode mode, const T& t, const T* z, T* g) const {
+  AgeLegs(t);
   const Seen seen = LookAt(mode, t, z);
   for (int k = 0; k < guard_count_; ++k) g[k] = MarginOf(guards_[k], seen, t, z);
 }

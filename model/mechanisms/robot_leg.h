@@ -29,9 +29,15 @@ class RobotLeg {
       const T EI = robot.E_scale[i] * E * p.I;
       using std::pow;
       law_ = ClampedArc<T>(p.r, EI, tau, robot.friction, robot.clamp, robot.ground_compliance);
-      bending_stiffness_ = FirstBending().stiffness * EI / (p.r * p.r * p.r) *
-                           pow(length() / kPi, -LegBending::kByClamp);
+      made_bending_stiffness_ = FirstBending().stiffness * EI / (p.r * p.r * p.r) *
+                                pow(length() / kPi, -LegBending::kByClamp);
+      bending_stiffness_ = made_bending_stiffness_;
     }
+  }
+  /// From here on it is `share` times as stiff as it was made, in every way.
+  void SetStiffness(const T& share) const {
+    Ask([&](const auto& leg) { leg.SetStiffness(share); });
+    bending_stiffness_ = share * made_bending_stiffness_;
   }
 
   /// Whether it stands on its side, too, and rolls there.
@@ -111,7 +117,8 @@ class RobotLeg {
   }
 
   std::variant<ClampedArc<T>, ClampedRod<T>> law_;
-  T bending_stiffness_{0.0}, tau_{0.0};
+  T made_bending_stiffness_{0.0}, tau_{0.0};
+  mutable T bending_stiffness_{0.0};
 };
 
 }  // namespace hoplab

@@ -278,11 +278,12 @@ typename Robot<T>::LegLoad Robot<T>::LoadOf(int i, const Hip& hip, const LegIner
 
 template <class T>
 T Robot<T>::Energy(Mode, const T* z) const {
+  AgeLegs(T(0.0));
   const Frame frame(z[Pitch()] - p_.slope);
   const Vector2<T> com = frame.Turn(robot_.com_x, robot_.com_y);
   const T& turn = z[Pitch() + 1];
   const T centre[4] = {z[kX] + com.x, z[kY] + com.y, z[kVx] - turn * com.y, z[kVy] + turn * com.x};
-  T energy = Inertia<T>(p_).Energy(centre) + 0.5 * robot_.pitch_inertia * turn * turn;
+  T energy = body_.Energy(centre) + 0.5 * robot_.pitch_inertia * turn * turn;
   for (int i = 0; i < legs_; ++i) {
     const Leg& leg = leg_[i];
     if (IsDown(leg))

@@ -26,7 +26,8 @@ struct Robot<T>::Sides : AllMotions<T> {
 // Legs' own motions and motors are eliminated by values.
 template <class T>
 MotionEquations Robot<T>::EquationsOf(const Vector2<T>& com, const MovingLegs& legs) const {
-  MotionEquations equations(Value(p_.m), Value(com.x), Value(com.y), Value(robot_.pitch_inertia));
+  MotionEquations equations({Value(body_.mx), Value(body_.my)}, Value(com.x), Value(com.y),
+                            Value(robot_.pitch_inertia));
   for (int i = 0; i < legs_; ++i) {
     const LegInertia& leg = legs.inertia[i];
     const LegForm& form = leg.form[0];
@@ -52,7 +53,7 @@ template <class T>
 typename Robot<T>::Sides Robot<T>::Left(const Vector2<T>& com, const MovingLegs& legs,
                                         const Sides& sides, const AllMotions<double>& a) const {
   Sides left = sides;
-  const T fx = p_.m * (a.x - a.pitch * com.y), fy = p_.m * (a.y + a.pitch * com.x);
+  const T fx = body_.mx * (a.x - a.pitch * com.y), fy = body_.my * (a.y + a.pitch * com.x);
   left.x -= fx;
   left.y -= fy;
   left.pitch -= a.pitch * robot_.pitch_inertia + com.x * fy - com.y * fx;
@@ -183,10 +184,10 @@ void Robot<T>::AddFirstMass(const Frame& frame, const T* z, T* dz, T* holding) c
     sides.motor[i] = moment;
   }
   const Vector2<double> com = turned(robot_.com_x, robot_.com_y);
-  const double m = Value(p_.m), added = (sides.pitch + com.y * sides.x - com.x * sides.y) /
-                                        Value(robot_.pitch_inertia);
-  dz[kVx] += robot_.leg_mass * (sides.x / m + com.y * added);
-  dz[kVy] += robot_.leg_mass * (sides.y / m - com.x * added);
+  const double added =
+      (sides.pitch + com.y * sides.x - com.x * sides.y) / Value(robot_.pitch_inertia);
+  dz[kVx] += robot_.leg_mass * (sides.x / Value(body_.mx) + com.y * added);
+  dz[kVy] += robot_.leg_mass * (sides.y / Value(body_.my) - com.x * added);
   dz[Pitch() + 1] += robot_.leg_mass * added;
   if (robot_.control == MotorControl::kLocked) return;
   for (int i = 0; i < legs_; ++i) {
@@ -204,10 +205,9 @@ void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const
   const T turn2 = turn * turn;
   MovingLegs legs;
   Sides sides;
-  const T fx = push.force_x + p_.m * gravity_x_, fy = push.force_y + p_.m * gravity_y_;
-  sides.x = fx + p_.m * turn2 * com.x;
-  sides.y = fy + p_.m * turn2 * com.y;
-  sides.pitch = push.moment + com.x * fy - com.y * fx;
+  sides.x = push.force_x - body_.weight_along + body_.mx * turn2 * com.x;
+  sides.y = push.force_y - body_.weight_down + body_.my * turn2 * com.y;
+  sides.pitch = push.moment + com.x * sides.y - com.y * sides.x;
   for (int i = 0; i < legs_; ++i) {
     const Hip& hip = legs.hip[i] = HipOf(frame, i, z);
     const LegInertia& leg = legs.inertia[i] = InertiaOf(i, hip);

@@ -132,6 +132,7 @@ double Robot<T>::NextKnot(Mode mode) const {
 
 template <class T>
 std::optional<T> Robot<T>::PassKnot(Mode mode, double t, T* z) {
+  AgeLegs(T(t));
   const std::optional<InputKind> kind = inputs_.Due(mode == Mode::kFlight, t);
   if (!kind && robot_.control != MotorControl::kClock) return std::nullopt;
   int motor = kind ? MotorOf(*kind) : 0;

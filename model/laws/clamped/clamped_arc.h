@@ -28,13 +28,21 @@ class ClampedArc {
   ClampedArc(const T& r, const T& EI, const T& tau, const T& mu, const T& clamp = T(0.0),
              const T& compliance = T(0.0))
       : r_(r),
-        unit_(EI / (r * r)),
+        made_unit_(EI / (r * r)),
+        unit_(made_unit_),
         tau_(tau),
         mu_(mu),
         length_(std::numbers::pi - clamp / r),
+        compliance_(compliance),
         give_(compliance * unit_ / r),
         damped_(!IsZero(tau)),
         gives_(!IsZero(compliance)) {}
+
+  /// From here on it is `share` times as stiff as it was made.
+  void SetStiffness(const T& share) const {
+    unit_ = share * made_unit_;
+    if (gives_) give_ = compliance_ * unit_ / r_;
+  }
 
   /// Half of the unloaded leg [m].
   double size() const { return Value(r_); }
@@ -297,8 +305,10 @@ class ClampedArc {
     load.damped_moment = damping * r_ * out[kMoment];
   }
 
-  T r_{1.0}, unit_{1.0}, tau_{0.0}, mu_{0.0}, length_{std::numbers::pi};
-  T give_{0.0};  // how far the ground sinks, over r, under a unit of load
+  T r_{1.0}, made_unit_{1.0};
+  mutable T unit_{1.0};  // of load, E I/r² now [N]
+  T tau_{0.0}, mu_{0.0}, length_{std::numbers::pi}, compliance_{0.0};
+  mutable T give_{0.0};  // how far the ground sinks, over r, under a unit of load
   bool damped_ = false, gives_ = false;
   mutable clamped::Roots roots_;
 };

@@ -22,11 +22,19 @@ class ClampedRod {
   /// retardation time of the material [s], `mu` the friction under the foot.
   ClampedRod(const T& length, const T& along, const T& across, const T& tau, const T& mu)
       : length_(length),
+        made_along_(along),
+        made_across_(across),
         along_(along),
         across_(across),
         tau_(tau),
         mu_(mu),
         damped_(!IsZero(tau)) {}
+
+  /// From here on it is `share` times as stiff as it was made.
+  void SetStiffness(const T& share) const {
+    along_ = share * made_along_;
+    across_ = share * made_across_;
+  }
 
   /// Half of the unloaded leg [m], a size as the radius of an arc.
   double size() const { return 0.5 * Value(length_); }
@@ -190,7 +198,9 @@ class ClampedRod {
     load.damped_moment = -(pull * a_turn + bend * b_turn);
   }
 
-  T length_{1.0}, along_{1.0}, across_{1.0}, tau_{0.0}, mu_{0.0};
+  T length_{1.0}, made_along_{1.0}, made_across_{1.0};
+  mutable T along_{1.0}, across_{1.0};  // now
+  T tau_{0.0}, mu_{0.0};
   bool damped_ = false;
 };
 

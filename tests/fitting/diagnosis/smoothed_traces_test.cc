@@ -13,77 +13,17 @@
 #include "datasets/read_dataset.h"
 #include "datasets/smoothness.h"
 #include "fitting/diagnosis/diagnosis.h"
+#include "tests/support/butterworth.h"
 
 namespace hoplab {
 namespace {
 
-// A Butterworth filter of order 2, by the bilinear transform, run to and fro over a column that is
-// turned about its ends there: what tools for motion capture do.
-class Butterworth {
- public:
-  explicit Butterworth(double cut_off_times_step) {
-    const double k = std::tan(std::numbers::pi * cut_off_times_step);
-    const double norm = 1.0 / (1.0 + std::numbers::sqrt2 * k + k * k);
-    b_ = k * k * norm;
-    a1_ = 2.0 * (k * k - 1.0) * norm;
-    a2_ = (1.0 - std::numbers::sqrt2 * k + k * k) * norm;
-  }
-  std::vector<double> ToAndFro(const std::vector<double>& column) const {
-    const std::size_t n = column.size(), beyond = std::min<std::size_t>(n - 1, 200);
-    std::vector<double> y;
-    for (std::size_t i = beyond; i > 0; --i) y.push_back(2.0 * column.front() - column[i]);
-    y.insert(y.end(), column.begin(), column.end());
-    for (std::size_t i = 1; i <= beyond; ++i) y.push_back(2.0 * column.back() - column[n - 1 - i]);
-    for (int way = 0; way < 2; ++way) {
-      y = Once(y);
-      std::reverse(y.begin(), y.end());
-    }
-    return {y.begin() + static_cast<std::ptrdiff_t>(beyond),
-            y.begin() + static_cast<std::ptrdiff_t>(beyond + n)};
-  }
-
- private:
-  std::vector<double> Once(const std::vector<double>& x) const {
-    double x1 = x.front(), x2 = x1, y1 = x1, y2 = x1;
-    std::vector<double> y;
-    for (const double value : x) {
-      y.push_back(b_ * (value + 2.0 * x1 + x2) - a1_ * y1 - a2_ * y2);
-      x2 = x1;
-      x1 = value;
-      y2 = y1;
-      y1 = y.back();
-    }
-    return y;
-  }
-  double b_, a1_, a2_;
-};
+using testing::FilterTime;
+using testing::Smoothed;
+using testing::Thinned;
 
 Dataset Shipped(const std::string& name) {
   return ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/" + name);
-}
-
-// Every `nth` sample of a set.
-Dataset Thinned(Dataset dataset, std::size_t nth) {
-  const auto thin = [&](std::vector<double>& values) {
-    std::vector<double> kept;
-    for (std::size_t i = 0; i < values.size(); i += nth) kept.push_back(values[i]);
-    values = kept;
-  };
-  for (Trial& trial : dataset.trials) {
-    thin(trial.trace.time_s);
-    for (TraceColumn& column : trial.trace.columns) thin(column.values);
-  }
-  return dataset;
-}
-
-Dataset Smoothed(Dataset dataset, double cut_off_Hz) {
-  for (Trial& trial : dataset.trials) {
-    const double step = trial.trace.time_s[1] - trial.trace.time_s[0];
-    for (TraceColumn& column : trial.trace.columns)
-      if (column.name.starts_with("body_"))
-        column.values = Butterworth(cut_off_Hz * step).ToAndFro(column.values);
-  }
-  return dataset;
 }
 
 TEST(SmoothedTraces, AreKnownByTheirNoise) {
@@ -156,7 +96,7 @@ TEST(SmoothedTraces, OfARigAreDiagnosedThroughTheirFilter) {
     return d.naming.best.shared[place];
   };
   EXPECT_NEAR(value("E") / 21.99e9, 1.0, 0.01);
-  EXPECT_NEAR(value("sensor_low_pass.tau"), 1.0 / (2.0 * std::numbers::pi * 12.0), 3e-4);
+  EXPECT_NEAR(value("sensor_low_pass.tau"), FilterTime(12.0), 3e-4);
   EXPECT_NEAR(value("leg_material_damping.tau"), 400e-6, 30e-6);
   EXPECT_NEAR(value("leg_mass.m_leg"), 0.010, 0.004);
   EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& warning) {

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace hoplab {
+
+/// The coordinates of a trial as they were logged; `x` empty where there is none.
+struct PlaceTrace {
+  std::span<const double> times, x, y;
+  double gravity;  // [m/s^2]
+};
+
+/// Windows of kSamples, kApart_s apart, about the tops of flights: there a hopper's coordinates are
+/// parabolas, as far as may be from what a filter makes of a stance.
+struct FlightTops {
+  static constexpr int kSamples = 12;
+  struct Top {
+    std::size_t trial, first;  // row
+  };
+  std::size_t stride = 1;  // rows from sample to sample
+  double step = 0.0;       // from row to row, the median of the trials [s]
+  std::vector<Top> found;
+
+  double apart() const { return static_cast<double>(stride) * step; }
+  /// One window of a column of its trial.
+  Eigen::VectorXd Window(const Top& top, std::span<const double> column) const;
+};
+/// A body falls freely from the highest sample to 30 ms beyond both ends of a window.
+FlightTops FindFlightTops(std::span<const PlaceTrace> traces);
+
+/// Time constant of the filter that the coordinates went through before they were logged, M105, by
+/// their noise alone [s]; infinite where they went through none of up to 30 Hz. They did where the
+/// noise of all traces looks so (AreSmoothed), and that at the tops of six flights or more is alike
+/// in neighbours: elsewhere what looks slow may be the motion.
+double FilterTimeOf(std::span<const PlaceTrace> traces, const FlightTops& tops);
+
+}  // namespace hoplab

@@ -1,0 +1,149 @@
+// Noise of traces that were smoothed, and what a filter does near their ends.
+#include "fitting/filtered_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "datasets/read_dataset.h"
+#include "datasets/smoothness.h"
+#include "fitting/diagnosis/gate.h"
+#include "fitting/smoothed_ends.h"
+#include "tests/support/butterworth.h"
+#include "tests/support/diagnosed_hops.h"
+
+namespace hoplab {
+namespace {
+
+using namespace testing;
+
+// The integral of f over all numbers, f even and small beyond 40, by Simpson's rule.
+template <class F>
+double Integral(const F& f) {
+  constexpr int kParts = 40000;
+  const double h = 40.0 / kParts;
+  double sum = f(0.0) + f(40.0);
+  for (int i = 1; i < kParts; ++i) sum += (i % 2 ? 4.0 : 2.0) * f(h * i);
+  return 2.0 * sum * h / 3.0;
+}
+
+// M116: white noise whose spectrum M105 has cut twice, of a power of two.
+TEST(FilteredNoise, HasTheCorrelationOfItsSpectrum) {
+  const double tau = 0.012;
+  const auto spectrum = [](double x) { return 1.0 / std::pow(1.0 + std::pow(x, 4), 2); };
+  const double all = Integral(spectrum);
+  for (const double t : {0.0, 0.003, 0.01, 0.02, 0.05}) {
+    const double at = Integral([&](double x) { return std::cos(x * t / tau) * spectrum(x); }) / all;
+    EXPECT_NEAR(CorrelationThroughFilter(t, tau), at, 1e-9) << t;
+  }
+  const double time = Integral([&](double t) { return CorrelationThroughFilter(t * tau, tau); });
+  EXPECT_NEAR(std::pow(StrengthThroughFilter(tau, 0.002), 2), time * tau / 0.002, 1e-6);
+  EXPECT_EQ(StrengthThroughFilter(1e-4, 0.01), 1.0);
+}
+
+Dataset Hops(std::uint64_t seed, double rate_hz, double sigma_m) {
+  return DatasetOf({.train = 6, .hops = 3, .seed = seed, .sigma_m = sigma_m, .rate_hz = rate_hz});
+}
+
+// Of hops through a Butterworth filter: its time constant, the scatter that it leaves, and, as
+// white noise of the same strength, what there was before.
+TEST(FilteredNoise, IsFoundInHops) {
+  for (const auto& [rate, cut_off] : {std::pair{200.0, 15.0}, {400.0, 12.0}, {400.0, 20.0}}) {
+    const double tau = FilterTime(cut_off), white = 0.8e-3;
+    const double left = white / StrengthThroughFilter(tau, 1.0 / rate);
+    double sum = 0.0, worst = 0.0;
+    constexpr int kSeeds = 8;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      const FitProblem problem = MakeProblem(Smoothed(Hops(seed, rate, white), cut_off), {});
+      const std::optional<FilteredNoise> noise = FindFilteredNoise(problem);
+      ASSERT_TRUE(noise.has_value()) << rate << " Hz, " << cut_off << " Hz, seed " << seed;
+      EXPECT_NEAR(noise->tau / tau, 1.0, 0.25) << cut_off;
+      for (const std::size_t channel : {0, 1}) {
+        const double found = noise->sigma[channel] / left;
+        sum += found / (2.0 * kSeeds);
+        worst = std::max(worst, std::abs(std::log(found)));
+      }
+    }
+    std::printf("  %3.0f rows a second, %2.0f Hz: %.2f of the noise, worst %.2f times\n", rate,
+                cut_off, sum, std::exp(worst));
+    EXPECT_NEAR(sum, 1.0, 0.2);
+    EXPECT_LT(worst, std::log(1.7));
+  }
+}
+
+TEST(FilteredNoise, IsNoneOfNoiseThatIsWhite) {
+  EXPECT_FALSE(FindFilteredNoise(MakeProblem(Hops(1, 400.0, 1e-3), {})).has_value());
+  for (const char* name : {"rig-drops", "robot-drops"}) {
+    const Dataset rig = ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/" + name);
+    EXPECT_FALSE(FindFilteredNoise(MakeProblem(rig, {})).has_value()) << name;
+  }
+}
+
+// A diagnosis counts it as white noise of the strength it had; noise that is stated so is kept.
+TEST(FilteredNoise, CountsByWhatItWas) {
+  const double white = 0.8e-3, cut_off = 15.0;
+  Dataset hops = Smoothed(Hops(3, 400.0, white), cut_off);
+  FitProblem stated = MakeProblem(hops, {});
+  EXPECT_TRUE(CorrectNoise(stated).empty());
+  EXPECT_EQ(stated.channels[0].sigma, white);
+  for (ChannelSpec& channel : hops.channels) channel.sigma.reset();
+  FitProblem estimated = MakeProblem(hops, {});
+  const std::vector<std::string> notes = CorrectNoise(estimated);
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_NE(notes[0].find("went through a filter"), std::string::npos) << notes[0];
+  for (const ChannelProblem& channel : estimated.channels)
+    EXPECT_NEAR(channel.sigma / white, 1.0, 0.35);
+  const double square = std::pow(StrengthThroughFilter(FilterTime(cut_off), 1.0 / 400.0), -2);
+  for (const double found : NoiseSquares(estimated)) EXPECT_NEAR(found / square, 1.0, 0.25);
+}
+
+// ---- the ends ---------------------------------------------------------------------------------
+
+TEST(SmoothedEnds, ReachFiveTimeConstants) {
+  const Dataset hops = Smoothed(Hops(2, 400.0, 0.8e-3), 15.0);
+  const std::vector<TraceFault> ends = FindSmoothedEnds(hops);
+  EXPECT_EQ(ends.size(), 4 * hops.trials.size());  // two channels, two ends
+  for (const TraceFault& end : ends) {
+    const std::vector<double>& times = hops.trials[end.trial].trace.time_s;
+    const double reach = times[end.rows.back()] - times[end.rows.front()];
+    EXPECT_NEAR(reach / (5.0 * FilterTime(15.0)), 1.0, 0.2);
+    EXPECT_TRUE(end.rows.front() == 0 || end.rows.back() + 1 == times.size());
+  }
+  EXPECT_TRUE(FindSmoothedEnds(Hops(2, 400.0, 0.8e-3)).empty());
+}
+
+TEST(SmoothedEnds, LeaveThreeQuartersOfAShortTrial) {
+  Dataset hops = Smoothed(Hops(2, 400.0, 0.8e-3), 12.0);
+  Trace& trace = hops.trials[0].trace;
+  trace.time_s.resize(80);  // of 0.2 s
+  for (TraceColumn& column : trace.columns) column.values.resize(80);
+  int ends = 0;
+  for (const TraceFault& end : FindSmoothedEnds(hops)) {
+    if (end.trial != 0) continue;
+    ++ends;
+    EXPECT_LE(end.rows.size(), 10U);
+  }
+  EXPECT_EQ(ends, 4);
+}
+
+TEST(SmoothedEnds, AreMissing) {
+  const Dataset hops = Smoothed(Hops(2, 400.0, 0.8e-3), 15.0);
+  const std::vector<TraceFault> faults = FindTraceFaults(hops);
+  const Dataset kept = WithoutFaults(hops, faults);
+  const std::size_t rows = hops.trials[0].trace.time_s.size();
+  ASSERT_EQ(kept.trials[0].trace.time_s.size(), rows);
+  const std::vector<double>& y = *kept.trials[0].trace.Find(Channel::kBodyY);
+  EXPECT_TRUE(std::isnan(y.front()) && std::isnan(y.back()));
+  EXPECT_FALSE(std::isnan(y[rows / 2]));
+  const std::vector<std::string> sentences = FaultSentences(hops, faults, /*kept=*/false);
+  ASSERT_EQ(sentences.size(), 1U);
+  EXPECT_NE(sentences[0].find("a filter has none beyond them"), std::string::npos) << sentences[0];
+}
+
+}  // namespace
+}  // namespace hoplab
