@@ -84,7 +84,7 @@ double StepOf(std::span<const SampledColumn> columns) {
 
 double SmoothnessOfNoise(std::span<const SampledColumn> columns) {
   const double step = StepOf(columns);
-  if (step > kCoarsest_s) return kNaN;
+  if (!(step > 0.0 && step <= kCoarsest_s)) return kNaN;
   double smoothness = kNaN;
   for (std::size_t stride = 1; stride == 1 || static_cast<double>(stride) * step <= kApart_s;
        stride *= 2)
