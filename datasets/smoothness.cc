@@ -71,16 +71,40 @@ double ExpectedCorrelation(double apart) {
   return kProducts * covariance(1.0) / covariance(0.0);
 }
 
+double Middle(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Of the coarsest column.
 double StepOf(std::span<const SampledColumn> columns) {
   double step = 0.0;
-  for (const SampledColumn& c : columns)
-    if (c.times.size() > 1)
-      step = std::max(step,
-                      (c.times.back() - c.times.front()) / static_cast<double>(c.times.size() - 1));
+  for (const SampledColumn& c : columns) step = std::max(step, UsualStep(c.times));
   return step;
 }
 
+// Those of the usual step.
+std::vector<SampledColumn> OfOneStep(std::span<const SampledColumn> columns) {
+  constexpr double kOther = 0.1;
+  std::vector<double> steps;
+  for (const SampledColumn& c : columns) steps.push_back(UsualStep(c.times));
+  std::vector<SampledColumn> alike;
+  if (steps.empty()) return alike;
+  std::vector<double> all = steps;
+  const double usual = Middle(all);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (std::abs(steps[i] - usual) <= kOther * usual) alike.push_back(columns[i]);
+  return alike;
+}
+
 }  // namespace
+
+double UsualStep(std::span<const double> times) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  return steps.empty() ? 0.0 : Middle(steps);
+}
 
 double SmoothnessOfNoise(std::span<const SampledColumn> columns) {
   const double step = StepOf(columns);
@@ -107,7 +131,8 @@ double CorrelationThroughFilter(double apart, double tau) {
   return std::exp(-u) * (c + s + 2.0 / 3.0 * u * s);
 }
 
-double FilterTimeOf(std::span<const SampledColumn> columns) {
+double FilterTimeOf(std::span<const SampledColumn> all) {
+  const std::vector<SampledColumn> columns = OfOneStep(all);
   const double step = StepOf(columns);
   if (!(step > 0.0 && step <= kCoarsest_s)) return kNaN;
   for (std::size_t stride = ApartIn(columns); stride > 0; --stride) {
@@ -124,9 +149,11 @@ double FilterTimeOf(std::span<const SampledColumn> columns) {
   return kNaN;
 }
 
-std::size_t ApartIn(std::span<const SampledColumn> columns) {
-  const double step = StepOf(columns);
-  return step > 0.0 ? std::max<std::size_t>(static_cast<std::size_t>(kApart_s / step), 1) : 1;
+std::size_t RowsApart(double step) {
+  constexpr double kRounding = 1.0 + 1e-6;
+  return step > 0.0 && step < kApart_s ? static_cast<std::size_t>(kRounding * kApart_s / step) : 1;
 }
+
+std::size_t ApartIn(std::span<const SampledColumn> columns) { return RowsApart(StepOf(columns)); }
 
 }  // namespace hoplab

@@ -26,14 +26,19 @@ bool AreSmoothed(std::span<const double> smoothness);
 
 /// Correlation of noise that went through the filter of M105, M116; times in s.
 double CorrelationThroughFilter(double apart, double tau);
-/// Time constant of that filter [s], for which the correlation of third differences would be what
-/// it is where the motion is at its quietest (SmoothnessOfNoise), at the widest distance of samples
-/// at which it is positive. NaN where it is nowhere.
+/// Time constant of that filter [s]. The correlation of third differences where the motion is at
+/// its quietest (SmoothnessOfNoise) is a function of the samples' distance over it. It is read off
+/// at the widest distance at which the correlation is positive; NaN where it is nowhere. Of the
+/// columns whose rows are as far apart as most are.
 double FilterTimeOf(std::span<const SampledColumn> columns);
+
+/// From row to row, the median: gaps do not count [s]. 0 of less than two.
+double UsualStep(std::span<const double> times);
 
 /// Samples that are compared lie at most so far apart: a stance lasts longer [s].
 inline constexpr double kApart_s = 0.01;
-/// How many samples make that.
+/// How many rows make that, one at least, where so much lies from row to row [s].
+std::size_t RowsApart(double step);
 std::size_t ApartIn(std::span<const SampledColumn> columns);
 
 }  // namespace hoplab

@@ -15,12 +15,10 @@ constexpr std::size_t kBeyond = 3;                   // strides on either side o
 constexpr double kMostWhite = -0.4;                  // white noise has -0.61 +- 0.07
 constexpr double kLeastDrop = 0.7, kMostDrop = 1.3;  // of a free fall's
 
-double MedianStep(std::span<const PlaceTrace> traces) {
+double StepOfMost(std::span<const PlaceTrace> traces) {
   std::vector<double> steps;
   for (const PlaceTrace& trace : traces)
-    if (trace.times.size() > 1)
-      steps.push_back((trace.times.back() - trace.times.front()) /
-                      static_cast<double>(trace.times.size() - 1));
+    if (trace.times.size() > 1) steps.push_back(UsualStep(trace.times));
   if (steps.empty()) return 0.0;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
@@ -77,9 +75,9 @@ Eigen::VectorXd FlightTops::Window(const Top& top, std::span<const double> colum
 
 FlightTops FindFlightTops(std::span<const PlaceTrace> traces) {
   FlightTops tops;
-  tops.step = MedianStep(traces);
+  tops.step = StepOfMost(traces);
   if (!(tops.step > 0.0)) return tops;
-  tops.stride = std::max<std::size_t>(1, static_cast<std::size_t>(kApart_s / tops.step));
+  tops.stride = RowsApart(tops.step);
   const std::size_t length = (FlightTops::kSamples - 1 + 2 * kBeyond) * tops.stride;
   const Reach reach{length, length / 2};
   for (std::size_t i = 0; i < traces.size(); ++i) {
@@ -104,7 +102,7 @@ double FilterTimeOf(std::span<const PlaceTrace> traces, const FlightTops& tops) 
     if (columns.size() < traces.size()) continue;
     smoothness.push_back(SmoothnessOfNoise(columns));
     at_tops.push_back(CorrelationOf(tops, traces, coordinate));
-    // What a stance leaves in it looks slower than noise.
+    // Where the motion of a stance is left in it, noise looks slower than it is.
     tau = std::fmin(tau, FilterTimeOf(columns));
   }
   const double mean =

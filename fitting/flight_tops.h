@@ -13,8 +13,9 @@ struct PlaceTrace {
   double gravity;  // [m/s^2]
 };
 
-/// Windows of kSamples, kApart_s apart, about the tops of flights: there a hopper's coordinates are
-/// parabolas, as far as may be from what a filter makes of a stance.
+/// Windows of kSamples about the tops of flights, 10 ms (kApart_s) from sample to sample or the
+/// next less that rows allow. There a hopper's coordinates are parabolas, as far as may be from
+/// what a filter makes of a stance.
 struct FlightTops {
   static constexpr int kSamples = 12;
   struct Top {
@@ -28,13 +29,13 @@ struct FlightTops {
   /// One window of a column of its trial.
   Eigen::VectorXd Window(const Top& top, std::span<const double> column) const;
 };
-/// A body falls freely from the highest sample to 30 ms beyond both ends of a window.
+/// A body falls freely from the highest sample to three steps of a window beyond both its ends.
 FlightTops FindFlightTops(std::span<const PlaceTrace> traces);
 
-/// Time constant of the filter that the coordinates went through before they were logged, M105, by
-/// their noise alone [s]; infinite where they went through none of up to 30 Hz. They did where the
-/// noise of all traces looks so (AreSmoothed), and that at the tops of six flights or more is alike
-/// in neighbours: elsewhere what looks slow may be the motion.
+/// Time constant [s] of the filter (M105) that the coordinates went through before they were
+/// logged, by their noise alone; infinite where there was none of up to 30 Hz. There was one where
+/// the noise of all traces looks so (AreSmoothed), and where that at the tops of six flights or
+/// more is alike in neighbours. Without the tops, what looks slow may be the motion.
 double FilterTimeOf(std::span<const PlaceTrace> traces, const FlightTops& tops);
 
 }  // namespace hoplab

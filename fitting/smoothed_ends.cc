@@ -45,7 +45,7 @@ std::vector<TraceFault> FindSmoothedEnds(const Dataset& dataset) {
       if (!values || trace.time_s.empty()) continue;
       const double begin = trace.time_s.front(), end = trace.time_s.back();
       const double reach = std::min(kReach * tau, kMostShare * (end - begin));
-      TraceFault first{TraceFault::Kind::kSmoothedEnd, k, channel.id, {}, reach}, last = first;
+      TraceFault first{TraceFault::Kind::kSmoothedEnd, k, channel.id, {}}, last = first;
       for (std::size_t row = 0; row < values->size(); ++row) {
         if (std::isnan((*values)[row])) continue;
         if (trace.time_s[row] < begin + reach) first.rows.push_back(row);

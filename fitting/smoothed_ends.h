@@ -6,10 +6,10 @@
 
 namespace hoplab {
 
-/// The samples near the ends of traces that were smoothed (FilterTimeOf): a filter has none beyond
-/// an end and makes them up, so that the motion is bent there for some five of its time constants
-/// (of M105, as the noise tells it; at most an eighth of a trial). A fault a trial, channel and
-/// end.
+/// The samples near the ends of a hopper's or a ball's traces that were smoothed (FilterTimeOf). A
+/// filter has none beyond an end and makes them up, so the motion is bent there for some five of
+/// its time constants, as the noise tells them; at either end at most an eighth of a trial counts.
+/// A fault a trial, channel and end.
 std::vector<TraceFault> FindSmoothedEnds(const Dataset& dataset);
 
 }  // namespace hoplab

@@ -56,9 +56,8 @@ class Telling {
                "; what follows the top of its last flight, at " +
                Rounded(trial_.trace.time_s[first_.rows[0] - 1]) + " s," + NotCompared(" is");
       case TraceFault::Kind::kSmoothedEnd:
-        return "the traces were smoothed; " + std::to_string(count_) +
-               " samples near their ends, since a filter has none beyond them," +
-               NotCompared(" are");
+        return "the traces were smoothed, and a filter makes up what lies beyond their ends: " +
+               std::to_string(count_) + " samples near the ends" + NotCompared(" are");
       case TraceFault::Kind::kJump:
         break;
     }

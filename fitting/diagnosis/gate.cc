@@ -157,6 +157,9 @@ std::vector<std::string> CorrectNoise(FitProblem& problem) {
     if (!channel.sigma_estimated && is_filtered) {
       // What is stated is the sensor's, before the filter, unless that is too little.
       if (!(noise.sigma * noise.strength > kNoiseExcess * channel.sigma)) continue;
+      notes.push_back(name + Text(": before a filter the flights scattered by more than the stated "
+                                  "sigma %.3g; that is used",
+                                  channel.sigma));
       channel.sigma = noise.sigma;
       channel.sigma_estimated = true;
     } else if (!channel.sigma_estimated) {

@@ -8,7 +8,7 @@
 
 #include "model/effects/effect.h"
 #include "model/laws/arc_shapes.h"
-#include "model/laws/elastica/energy.h"
+#include "model/laws/beyond_m2b.h"
 #include "model/laws/sole.h"
 #include "model/leg_compliance.h"
 #include "model/parameters.h"
@@ -33,84 +33,8 @@ SecondOrderAcross<S> SecondOrderAcrossAt(const S& phi, const S& sin, const S& co
               q * cos * (0.375 * (K2 * K2) - 0.625 * K2 + 0.28125 * one) / S2};
 }
 
-// Derivatives of the elastica's energy that a scalar asks for: M65 has the first ones, and every
-// differentiation one more.
-template <class S>
-inline constexpr int kEnergyOrder = kJetWidth<S> == 0 ? 1 : 2;
-template <class T>
-inline constexpr int kEnergyOrder<Tangent<T>> = kEnergyOrder<T> + 1;
-// A search in values comes back before it ends, nearer each time: the force and the energy it is
-// told on its way may be off by what is squared at the next round.
-template <class S>
-inline constexpr bool kOfSearch = std::is_same_v<S, Tangent<double>>;
-// The energy at a load, from what is known of it at one near by.
-template <class S>
-auto EnergyNear(double phi, double f, double f_known, elastica::Derivatives<2> known) {
-  if constexpr (2 < kEnergyOrder<S>) {
-    return elastica::EnergyTo3(phi, f);
-  } else {
-    constexpr double kNear = kOfSearch<S> ? 1e-8 : 1e-11;
-    const double df = f - f_known;
-    if (!(std::abs(df) < kNear)) return elastica::EnergyTo2(phi, f);
-    known[0][0] += df * (known[0][1] + 0.5 * df * known[0][2]);
-    known[0][1] += df * known[0][2];
-    known[1][0] += df * known[1][1];
-    return known;
-  }
-}
-
-// The derivative [by x][by y] of a function of two variables, from all of them at their values.
-template <class D>
-double Lift2(double, double, const D& d, int i, int j) {
-  return d[i][j];
-}
-template <int N, class D>
-Jet<N> Lift2(const Jet<N>& x, const Jet<N>& y, const D& d, int i, int j) {
-  return Jet<N>(d[i][j], d[i + 1][j] * x.v + d[i][j + 1] * y.v);
-}
-template <class T, class D>
-Tangent<T> Lift2(const Tangent<T>& x, const Tangent<T>& y, const D& d, int i, int j) {
-  const T by_x = Lift2(x.value, y.value, d, i + 1, j), by_y = Lift2(x.value, y.value, d, i, j + 1);
-  return {Lift2(x.value, y.value, d, i, j), by_x * x.rate[0] + by_y * y.rate[0],
-          by_x * x.rate[1] + by_y * y.rate[1]};
-}
-
 inline bool IsElastic(Law law) {
   return law == Law::kConsistent || law == Law::kLargeDeflection || law == Law::kElastica;
-}
-
-// What the elastica has beyond M2b at an arc and a load f (M65), from its energy there.
-template <class S>
-struct BeyondM2b {
-  S chord;   // less chord, over r
-  S turn;    // of the tip
-  S energy;  // strain energy, over E I/r
-};
-template <class S, class Energy, class Bending, class Second>
-BeyondM2b<S> BeyondM2bAt(const S& phi, const S& f, const Energy& d, const Bending& bending,
-                         const Second& second) {
-  const auto G = [&](int i, int j) { return Lift2(phi, f, d, i, j); };
-  const auto first = [&](int k) { return Lift(phi, bending.data(), k); };
-  const auto next = [&](int k) { return Lift(phi, second.data(), k); };
-  const S f2 = f * f, G_f = G(0, 1);
-  return {f * (2.0 * G(0, 0) + f * G_f - 0.5 * first(0)) - f2 * next(0),
-          f * (G(1, 0) - 0.25 * first(1)) - (1.0 / 3.0) * (f2 * next(1)),
-          f2 * (G(0, 0) + f * G_f - 0.25 * first(0) - (2.0 / 3.0) * (f * next(0)))};
-}
-
-// Of values alone: the chord, and how chord and turn go with phi and f; the energy goes by f times
-// what the chord does.
-struct SlopesBeyondM2b {
-  double chord, chord_phi, chord_f, turn_f;
-};
-template <class Energy>
-SlopesBeyondM2b SlopesAt(double f, const Energy& G, const ArcShapes& shapes) {
-  const auto& first = shapes.bending;
-  const auto& next = shapes.second_order;
-  return {f * (2.0 * G[0][0] + f * G[0][1] - 0.5 * first[0] - f * next[0]),
-          f * (2.0 * G[1][0] + f * G[1][1] - 0.5 * first[1] - f * next[1]),
-          2.0 * G[0][0] + f * (4.0 * G[0][1] + f * G[0][2]) - 0.5 * first[0] - 2.0 * f * next[0],
-          G[1][0] + f * G[1][1] - 0.25 * first[1] - (2.0 / 3.0) * f * next[1]};
 }
 
 // What the state says to the leg, in a scalar that may be differentiated.

@@ -230,7 +230,13 @@ void Robot<T>::StartSearch(Mode mode, const double* z) {
 
 template <class T>
 std::optional<BallisticFlight<T>> Robot<T>::FreeFlight() const {
-  return BallisticFlight<T>{body_.gravity_x, body_.gravity_y, T(0.0)};
+  if (IsZero(p_.inertia_x) && IsZero(p_.inertia_y))
+    return BallisticFlight<T>{gravity_x_, gravity_y_, T(0.0)};
+  // No boom carries the legs.
+  const T legs = static_cast<double>(legs_) * robot_.leg_mass;
+  return BallisticFlight<T>{(body_.mx * body_.gravity_x + legs * gravity_x_) / (body_.mx + legs),
+                            (body_.my * body_.gravity_y + legs * gravity_y_) / (body_.my + legs),
+                            T(0.0)};
 }
 
 template <class T>

@@ -205,8 +205,8 @@ void Robot<T>::AccelerateWithLegMass(const Frame& frame, const Push& push, const
   const T turn2 = turn * turn;
   MovingLegs legs;
   Sides sides;
-  sides.x = push.force_x - body_.weight_along + body_.mx * turn2 * com.x;
-  sides.y = push.force_y - body_.weight_down + body_.my * turn2 * com.y;
+  sides.x = push.force_x + body_.mx * body_.gravity_x + body_.mx * turn2 * com.x;
+  sides.y = push.force_y + body_.my * body_.gravity_y + body_.my * turn2 * com.y;
   sides.pitch = push.moment + com.x * sides.y - com.y * sides.x;
   for (int i = 0; i < legs_; ++i) {
     const Hip& hip = legs.hip[i] = HipOf(frame, i, z);

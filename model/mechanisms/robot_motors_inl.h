@@ -174,7 +174,8 @@ void Robot<T>::MoveAlong(Mode mode, double t, const T& by, const T* z, T* to) co
 // motors would be as far from rest as the tolerance lets them, which is noise in differences of
 // runs.
 template <class T>
-double Robot<T>::LongestStep(Mode, const T&, const T*) const {
+double Robot<T>::LongestStep(Mode, const T& t, const T*) const {
+  AgeLegs(t);
   double swings = 0.0, settles = 0.0;  // the fastest [1/s]
   for (int i = 0; i < legs_; ++i) {
     if (!Bends(i)) continue;
@@ -211,6 +212,7 @@ typename Robot<T>::MotorSpeed Robot<T>::SpeedOf(int i) const {
 // further. A motor that lags swings where it would settle. A leg's own motion swings, too.
 template <class T>
 double Robot<T>::ErrorUnit(int i) const {
+  AgeLegs(T(0.0));
   for (int leg = 0; leg < legs_; ++leg) {
     const Leg& own = leg_[leg];
     if (follows_legs_ && i == OwnRate(leg))

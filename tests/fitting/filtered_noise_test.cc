@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/random.h"
 #include "datasets/read_dataset.h"
 #include "datasets/smoothness.h"
 #include "fitting/diagnosis/gate.h"
@@ -84,6 +85,36 @@ TEST(FilteredNoise, IsNoneOfNoiseThatIsWhite) {
   }
 }
 
+// Rows that are missing, here and there or in one place, change neither the filter nor its ends.
+TEST(FilteredNoise, IsFoundWhereRowsAreMissing) {
+  const double cut_off = 15.0, tau = FilterTime(cut_off);
+  const Dataset whole = Smoothed(Hops(4, 400.0, 0.8e-3), cut_off);
+  for (const bool one_gap : {false, true}) {
+    Dataset hops = whole;
+    RandomStream random(4, 9);
+    for (std::size_t k = 0; k < hops.trials.size(); ++k) {
+      Trace& trace = hops.trials[k].trace;
+      const auto goes = [&](std::size_t row) {
+        if (one_gap) return k == 2 && row > 150 && row < 250;
+        return random.Uniform(0.0, 1.0) < 0.005;
+      };
+      std::vector<std::size_t> rows;
+      for (std::size_t row = 0; row < trace.time_s.size(); ++row)
+        if (!goes(row)) rows.push_back(row);
+      const auto thin = [&](std::vector<double>& values) {
+        for (std::size_t i = 0; i < rows.size(); ++i) values[i] = values[rows[i]];
+        values.resize(rows.size());
+      };
+      thin(trace.time_s);
+      for (TraceColumn& column : trace.columns) thin(column.values);
+    }
+    const std::optional<FilteredNoise> noise = FindFilteredNoise(MakeProblem(hops, {}));
+    ASSERT_TRUE(noise.has_value()) << one_gap;
+    EXPECT_NEAR(noise->tau / tau, 1.0, 0.25) << one_gap;
+    EXPECT_NEAR(FindSmoothedEnds(hops).size(), FindSmoothedEnds(whole).size(), 0.5) << one_gap;
+  }
+}
+
 // A diagnosis counts it as white noise of the strength it had; noise that is stated so is kept.
 TEST(FilteredNoise, CountsByWhatItWas) {
   const double white = 0.8e-3, cut_off = 15.0;
@@ -142,7 +173,8 @@ TEST(SmoothedEnds, AreMissing) {
   EXPECT_FALSE(std::isnan(y[rows / 2]));
   const std::vector<std::string> sentences = FaultSentences(hops, faults, /*kept=*/false);
   ASSERT_EQ(sentences.size(), 1U);
-  EXPECT_NE(sentences[0].find("a filter has none beyond them"), std::string::npos) << sentences[0];
+  EXPECT_NE(sentences[0].find("a filter makes up what lies beyond their ends"), std::string::npos)
+      << sentences[0];
 }
 
 }  // namespace
