@@ -131,12 +131,12 @@ double CorrelationThroughFilter(double apart, double tau) {
   return std::exp(-u) * (c + s + 2.0 / 3.0 * u * s);
 }
 
-double FilterTimeOf(std::span<const SampledColumn> all) {
-  const std::vector<SampledColumn> columns = OfOneStep(all);
-  const double step = StepOf(columns);
+double FilterTimeOf(std::span<const SampledColumn> columns) {
+  const std::vector<SampledColumn> alike = OfOneStep(columns);
+  const double step = StepOf(alike);
   if (!(step > 0.0 && step <= kCoarsest_s)) return kNaN;
-  for (std::size_t stride = ApartIn(columns); stride > 0; --stride) {
-    const double correlation = CorrelationAt(columns, stride);
+  for (std::size_t stride = ApartIn(alike); stride > 0; --stride) {
+    const double correlation = CorrelationAt(alike, stride);
     if (!(correlation >= kNotWhite)) continue;
     // Of steps over the time constant: it falls from 0.6 to - 0.6 between these.
     double near = 0.3, far = 3.0;
