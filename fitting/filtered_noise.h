@@ -15,10 +15,9 @@ struct FilteredNoise {
   std::vector<double> sigma;  // of each of the problem's channels, as it was logged; NaN: not told
 };
 
-/// That of a hopper's or a ball's coordinates, if they were smoothed (SmoothedChannels), from
-/// parabolas through the tops of flights, which lie farthest from what a filter makes of a stance.
-/// Of the noise they leave a share that M116 tells. None where the noise there is not such
-/// (FilterTimeOf), and none of a robot, whose legs land one by one.
+/// That of a hopper's or a ball's coordinates, if they were smoothed (FilterTimeOf): from parabolas
+/// through the tops of flights, which lie farthest from what a filter makes of a stance. Of the
+/// noise they leave a share that M116 tells. None of a robot, whose legs land one by one.
 std::optional<FilteredNoise> FindFilteredNoise(const FitProblem& problem);
 
 /// M116; `step` from row to row [s].

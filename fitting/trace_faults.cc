@@ -10,6 +10,7 @@
 #include "base/nan.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "datasets/smoothness.h"
 #include "datasets/suspect_things.h"
 #include "fitting/falls.h"
 #include "fitting/smoothed_ends.h"
@@ -34,15 +35,6 @@ double BlowOf(const Trial& trial) {
   return trial.mechanism.type == MechanismKind::kBall ? 4.5 : 2.0;
 }
 
-// It may be sampled more coarsely than the trace has rows.
-double MedianStep(const std::vector<double>& times) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
-}
-
 Samples SamplesOf(const Trial& trial, const std::vector<double>& values) {
   Samples s;
   for (std::size_t row = 0; row < values.size(); ++row) {
@@ -51,7 +43,7 @@ Samples SamplesOf(const Trial& trial, const std::vector<double>& values) {
     s.y.push_back(values[row]);
     s.row.push_back(row);
   }
-  if (s.size() > 1) s.step = MedianStep(s.t);
+  s.step = UsualStep(s.t);  // it may be sampled more coarsely than the trace has rows
   return s;
 }
 
@@ -136,7 +128,7 @@ void FindIn(const Trial& trial, std::size_t place, const ChannelSpec& channel,
   Samples rest = s.Without(again);
   const double sigma = HighFrequencyNoise(rest.t, rest.y);
   if (!(sigma > 0.0)) return;
-  rest.step = MedianStep(rest.t);
+  rest.step = UsualStep(rest.t);
   const auto [low, high] = std::minmax_element(rest.y.begin(), rest.y.end());
   const double least = std::max(kRounding * (*high - *low), kStated * channel.sigma.value_or(0.0));
   const OffMotion off = FindOffMotion(rest, sigma, least, BlowOf(trial));

@@ -82,6 +82,29 @@ TEST(RobotBoom, SlowsAFallOfBodyAndLegs) {
   }
 }
 
+// So does what is told of rows after the end of a run, from where it broke off in the air.
+TEST(RobotBoom, SlowsTheFlightAfterARun) {
+  Parameters<double> p = RodParametersFor(2);
+  p.robot->control = MotorControl::kLocked;
+  p.robot->angle = {};
+  p.robot->leg_mass = 0.2;
+  p.fall_height = 1.9;
+  SimulationRequest q = Precisely(RobotDrop(p, {0.0, 2.0, 0.4, 0.0, 0.0, 0.0}, 1.0));
+  const std::array boom = {Boom(0.3, 0.5)};
+  const std::array times = {0.4};
+  const std::array channels = {Channel::kBodyX, Channel::kBodyY};
+  q.effects = boom;
+  q.row_times = times;
+  q.channels = channels;
+  q.fly_on = true;
+  const Trajectory run = Simulate(q);
+  ASSERT_NE(run.outcome, Outcome::kCompleted);
+  EXPECT_LT(run.end_time, 0.3);
+  const double falls = p.g * (p.m + 0.4) / (1.5 * p.m + 0.4);
+  EXPECT_NEAR(run.samples[0], 0.4 * 0.4, 1e-9);
+  EXPECT_NEAR(run.samples[1], 2.0 - 0.5 * falls * 0.4 * 0.4, 1e-9);
+}
+
 // Mass that differs along and up keeps the energy between events that take some.
 TEST(RobotBoom, KeepsTheEnergy) {
   Parameters<double> p = RobotParametersFor(2);
