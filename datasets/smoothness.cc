@@ -1,10 +1,8 @@
 #include "datasets/smoothness.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <vector>
 
 #include "base/nan.h"
@@ -57,20 +55,6 @@ double CorrelationAt(std::span<const SampledColumn> columns, std::size_t stride)
   return MedianOfQuietest(windows);
 }
 
-// The same of noise through a filter, `apart` in units of its time constant.
-double ExpectedCorrelation(double apart) {
-  constexpr std::array kOfThird = {-1.0, 6.0, -15.0, 20.0, -15.0, 6.0, -1.0};
-  constexpr double kProducts = (kWindow - 4.0) / (kWindow - 3.0);  // in a window, over its squares
-  const auto covariance = [&](double lag) {
-    double sum = 0.0;
-    for (std::size_t j = 0; j < kOfThird.size(); ++j)
-      sum +=
-          kOfThird[j] * CorrelationThroughFilter((static_cast<double>(j) - 3.0 + lag) * apart, 1.0);
-    return sum;
-  };
-  return kProducts * covariance(1.0) / covariance(0.0);
-}
-
 double Middle(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -82,20 +66,6 @@ double StepOf(std::span<const SampledColumn> columns) {
   double step = 0.0;
   for (const SampledColumn& c : columns) step = std::max(step, UsualStep(c.times));
   return step;
-}
-
-// Those of the usual step.
-std::vector<SampledColumn> OfOneStep(std::span<const SampledColumn> columns) {
-  constexpr double kOther = 0.1;
-  std::vector<double> steps;
-  for (const SampledColumn& c : columns) steps.push_back(UsualStep(c.times));
-  std::vector<SampledColumn> alike;
-  if (steps.empty()) return alike;
-  std::vector<double> all = steps;
-  const double usual = Middle(all);
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    if (std::abs(steps[i] - usual) <= kOther * usual) alike.push_back(columns[i]);
-  return alike;
 }
 
 }  // namespace
@@ -110,8 +80,7 @@ double SmoothnessOfNoise(std::span<const SampledColumn> columns) {
   const double step = StepOf(columns);
   if (!(step > 0.0 && step <= kCoarsest_s)) return kNaN;
   double smoothness = kNaN;
-  for (std::size_t stride = 1; stride == 1 || static_cast<double>(stride) * step <= kApart_s;
-       stride *= 2)
+  for (std::size_t stride = 1; stride <= RowsApart(step); stride *= 2)
     smoothness = std::fmax(smoothness, CorrelationAt(columns, stride));
   return smoothness;
 }
@@ -124,29 +93,6 @@ bool AreSmoothed(std::span<const double> smoothness) {
   if (smoothness.empty()) return false;
   const auto [least, most] = std::minmax_element(smoothness.begin(), smoothness.end());
   return *least >= kHardlyWhite && *most >= kNotWhite;  // not where one is NaN
-}
-
-double CorrelationThroughFilter(double apart, double tau) {
-  const double u = std::abs(apart) / (std::numbers::sqrt2 * tau), c = std::cos(u), s = std::sin(u);
-  return std::exp(-u) * (c + s + 2.0 / 3.0 * u * s);
-}
-
-double FilterTimeOf(std::span<const SampledColumn> columns) {
-  const std::vector<SampledColumn> alike = OfOneStep(columns);
-  const double step = StepOf(alike);
-  if (!(step > 0.0 && step <= kCoarsest_s)) return kNaN;
-  for (std::size_t stride = ApartIn(alike); stride > 0; --stride) {
-    const double correlation = CorrelationAt(alike, stride);
-    if (!(correlation >= kNotWhite)) continue;
-    // Of steps over the time constant: it falls from 0.6 to - 0.6 between these.
-    double near = 0.3, far = 3.0;
-    for (int halvings = 0; halvings < 40; ++halvings) {
-      const double middle = 0.5 * (near + far);
-      (ExpectedCorrelation(middle) > correlation ? near : far) = middle;
-    }
-    return static_cast<double>(stride) * step / near;
-  }
-  return kNaN;
 }
 
 std::size_t RowsApart(double step) {

@@ -24,14 +24,6 @@ bool IsSmoothed(std::span<const SampledColumn> columns);
 /// are those of the motion.
 bool AreSmoothed(std::span<const double> smoothness);
 
-/// Correlation of noise that went through the filter of M105, M116; times in s.
-double CorrelationThroughFilter(double apart, double tau);
-/// Time constant of that filter [s]. The correlation of third differences where the motion is at
-/// its quietest (SmoothnessOfNoise) is a function of the samples' distance over it. It is read off
-/// at the widest distance at which the correlation is positive; NaN where it is nowhere. Of the
-/// columns whose rows are as far apart as most are.
-double FilterTimeOf(std::span<const SampledColumn> columns);
-
 /// From row to row, the median: gaps do not count [s]. 0 of less than two.
 double UsualStep(std::span<const double> times);
 

@@ -172,6 +172,7 @@ class Inspector {
   }
 
   void InspectStart(const Trial& trial) {
+    if (trial.initial && trial.initial->mode != StartMode::kFlight) return;
     const double height_m = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
     const std::vector<double>* column = trial.trace.Find(Channel::kBodyY);
     const std::vector<double> heights = column == nullptr ? std::vector<double>{} : Finite(*column);

@@ -46,8 +46,8 @@ std::vector<std::string> DataWarnings(const Dataset& dataset, const FitProblem& 
   std::vector<std::string> warnings = SuspectThings(compared);
   for (const std::string& sentence : CopiedTrials(dataset)) warnings.push_back(sentence);
   if (!UnreadableTimes(dataset).empty()) return warnings;
-  for (const auto& sentences :
-       {TurnedAxes(problem), LegStarts(problem), MixedUpTrials(problem), SmoothedTraces(problem)})
+  for (const auto& sentences : {TurnedAxes(problem), LegStarts(problem), LegTurns(problem),
+                                MixedUpTrials(problem), SmoothedTraces(problem)})
     for (const std::string& sentence : sentences)
       warnings.push_back(dataset.origin.place + ": " + sentence + ".");
   return warnings;

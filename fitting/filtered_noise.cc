@@ -1,81 +1,83 @@
 #include "fitting/filtered_noise.h"
 
-#include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
-#include <numbers>
-#include <numeric>
+#include <utility>
 
 #include "base/nan.h"
-#include "datasets/smoothness.h"
+#include "datasets/mechanism_spec.h"
 #include "fitting/flight_tops.h"
-#include "fitting/left_by_parabola.h"
+#include "fitting/noise.h"
 #include "model/mechanism_traits.h"
 
 namespace hoplab {
 namespace {
 
-constexpr double kWidth = 8.0 * std::numbers::sqrt2 / 3.0;  // M116
-
-using ByTrial = std::vector<std::vector<double>>;
-
-// What parabolas leave of such noise: its mean square a degree of freedom that white noise would
-// have, and how many it has itself.
-struct Share {
-  double square, freedom;
-};
-Share LeftOfFiltered(double tau, double apart) {
-  constexpr int kSamples = FlightTops::kSamples;
-  Eigen::MatrixXd noise(kSamples, kSamples);
-  for (int i = 0; i < kSamples; ++i)
-    for (int j = 0; j < kSamples; ++j) noise(i, j) = CorrelationThroughFilter((i - j) * apart, tau);
-  const Eigen::MatrixXd parabola = LeftByParabola(kSamples), left = parabola * noise * parabola;
-  const double trace = left.trace();
-  return {trace / (kSamples - 3), trace * trace / left.squaredNorm()};
+NoiseShape ShapeOf(std::vector<PlaceTrace> traces) {
+  const FlightTops tops = FindFlightTops(traces);
+  return FindNoiseShape(traces, tops);
 }
 
-// By the mean of the windows' squares, those left out that the median shows to be no noise.
-double SigmaAt(const FlightTops& tops, const ByTrial& samples, const Share& share) {
-  const Eigen::MatrixXd parabola = LeftByParabola(FlightTops::kSamples);
-  std::vector<double> squares;
-  for (const FlightTops::Top& top : tops.found)
-    squares.push_back((parabola * tops.Window(top, samples[top.trial])).squaredNorm() /
-                      (FlightTops::kSamples - 3));
-  std::sort(squares.begin(), squares.end());
-  const boost::math::chi_squared chi2(share.freedom);
-  const double middle = squares[squares.size() / 2] / boost::math::quantile(chi2, 0.5);
-  const double most = middle * boost::math::quantile(chi2, 0.999);
-  const auto end = std::upper_bound(squares.begin(), squares.end(), most);
-  const double sum = std::accumulate(squares.begin(), end, 0.0);
-  return std::sqrt(sum / static_cast<double>(end - squares.begin()) / share.square);
+// Noise may be alike in neighbours as after a filter of first order without one.
+bool IsOfFilter(const NoiseShape& noise) {
+  return noise.filter != RecordFilter::kNone && noise.filter != RecordFilter::kFirstOrder;
+}
+
+// NaN where the filter's noise does not say it.
+double LoggedSigma(const NoiseShape& noise, Channel channel) {
+  const bool along = channel == Channel::kBodyX;
+  if (!IsOfFilter(noise) || !(along || channel == Channel::kBodyY)) return kNaN;
+  // Of a filter so slow flights are not long enough: what it makes of stances reaches their tops.
+  constexpr double kSlowest_s = 0.02;
+  if (noise.filter != RecordFilter::kMovingAverage && noise.time > kSlowest_s) return kNaN;
+  return noise.sigma[along ? 0 : 1];
 }
 
 }  // namespace
 
-double StrengthThroughFilter(double tau, double step) {
-  return std::sqrt(std::max(1.0, kWidth * tau / step));
-}
-
-std::optional<FilteredNoise> FindFilteredNoise(const FitProblem& problem) {
-  if (TraitsOf(problem.law).lands_leg_by_leg) return std::nullopt;
-  std::vector<ByTrial> samples(problem.channels.size());
+NoiseShape NoiseShapeOf(const FitProblem& problem) {
+  if (TraitsOf(problem.law).lands_leg_by_leg) return {};
   std::vector<PlaceTrace> traces;
   for (const TrialProblem& trial : problem.trials)
     traces.push_back({trial.row_times, {}, {}, trial.parameters.g});
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const Channel channel = problem.channels[c].channel;
     if (channel != Channel::kBodyX && channel != Channel::kBodyY) continue;
-    samples[c] = SamplesOf(problem, c);
+    std::vector<std::vector<double>> samples = SamplesOf(problem, c);
     for (std::size_t i = 0; i < traces.size(); ++i)
-      (channel == Channel::kBodyX ? traces[i].x : traces[i].y) = samples[c][i];
+      (channel == Channel::kBodyX ? traces[i].x : traces[i].y) = std::move(samples[i]);
   }
-  const FlightTops tops = FindFlightTops(traces);
-  FilteredNoise noise{.tau = FilterTimeOf(traces, tops)};
-  if (!std::isfinite(noise.tau)) return std::nullopt;
-  noise.strength = StrengthThroughFilter(noise.tau, tops.step);
-  const Share share = LeftOfFiltered(noise.tau, tops.apart());
-  for (const ByTrial& of_channel : samples)
-    noise.sigma.push_back(of_channel.empty() ? kNaN : SigmaAt(tops, of_channel, share));
+  return ShapeOf(std::move(traces));
+}
+
+NoiseShape NoiseShapeOf(const Dataset& dataset) {
+  std::vector<PlaceTrace> traces;
+  for (const Trial& trial : dataset.trials) {
+    if (trial.mechanism.type == MechanismKind::kRobot) return {};
+    const auto column = [&](Channel channel) {
+      const std::vector<double>* values = trial.trace.Find(channel);
+      return values ? *values : std::vector<double>();
+    };
+    traces.push_back({trial.trace.time_s, column(Channel::kBodyX), column(Channel::kBodyY),
+                      FreeFall(trial.mechanism)});
+  }
+  return ShapeOf(std::move(traces));
+}
+
+double NoiseInTraces(const Dataset& dataset, Channel channel, const NoiseShape& noise) {
+  const double logged = LoggedSigma(noise, channel);
+  if (!std::isnan(logged)) return logged;
+  std::vector<SampledColumn> columns;
+  for (const Trial& trial : dataset.trials)
+    if (const std::vector<double>* values = trial.trace.Find(channel))
+      columns.push_back({trial.trace.time_s, *values});
+  return EstimateNoise(columns);
+}
+
+std::optional<FilteredNoise> FindFilteredNoise(const FitProblem& problem) {
+  FilteredNoise noise{NoiseShapeOf(problem), {}};
+  if (!IsOfFilter(noise.shape)) return std::nullopt;
+  for (const ChannelProblem& channel : problem.channels)
+    noise.sigma.push_back(LoggedSigma(noise.shape, channel.channel));
   return noise;
 }
 

@@ -3,24 +3,29 @@
 #include <optional>
 #include <vector>
 
+#include "fitting/noise_shape.h"
 #include "fitting/problem.h"
 
 namespace hoplab {
 
-/// White noise that went through the filter of M105 before it was logged.
+/// How the noise of a hopper's or a ball's coordinates is alike in neighbouring samples
+/// (FindNoiseShape). White of a robot, whose legs land one by one.
+NoiseShape NoiseShapeOf(const FitProblem& problem);
+NoiseShape NoiseShapeOf(const Dataset& dataset);
+
+/// Standard deviation of a channel's noise as it was logged, from the traces alone: EstimateNoise,
+/// or, of a coordinate that went through a filter, which leaves neighbours alike, what its `noise`
+/// says.
+double NoiseInTraces(const Dataset& dataset, Channel channel, const NoiseShape& noise);
+
+/// White noise that went through a filter before it was logged.
 struct FilteredNoise {
-  double tau = 0.0;           // of the filter, as the noise tells it [s]
-  double strength = 1.0;      // M116: how many times as strong white noise does the same to a
-                              // slow motion
+  NoiseShape shape;
   std::vector<double> sigma;  // of each of the problem's channels, as it was logged; NaN: not told
+
+  bool Tells(std::size_t channel) const { return sigma[channel] == sigma[channel]; }
 };
-
-/// That of a hopper's or a ball's coordinates, if they were smoothed (FilterTimeOf): from parabolas
-/// through the tops of flights, which lie farthest from what a filter makes of a stance. Of the
-/// noise they leave a share that M116 tells. None of a robot, whose legs land one by one.
+/// None where the noise is white, or alike as noise often is without a filter (kFirstOrder).
 std::optional<FilteredNoise> FindFilteredNoise(const FitProblem& problem);
-
-/// M116; `step` from row to row [s].
-double StrengthThroughFilter(double tau, double step);
 
 }  // namespace hoplab

@@ -2,31 +2,58 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
+#include <span>
+#include <utility>
 
+#include "base/nan.h"
 #include "datasets/smoothness.h"
 
 namespace hoplab {
 namespace {
 
-constexpr std::size_t kFewestTops = 6;
 constexpr std::size_t kBeyond = 3;                   // strides on either side of a window
-constexpr double kMostWhite = -0.4;                  // white noise has -0.61 +- 0.07
 constexpr double kLeastDrop = 0.7, kMostDrop = 1.3;  // of a free fall's
 
-double StepOfMost(std::span<const PlaceTrace> traces) {
+// From row to row in the mean, gaps left out: stamps may be rounded.
+double MeanStep(const std::vector<double>& times) {
+  const double most = 1.5 * UsualStep(times);
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i] - times[i - 1] > most) continue;
+    sum += times[i] - times[i - 1];
+    ++count;
+  }
+  return sum / count;
+}
+
+double StepOfMost(const std::vector<PlaceTrace>& traces) {
   std::vector<double> steps;
   for (const PlaceTrace& trace : traces)
-    if (trace.times.size() > 1) steps.push_back(UsualStep(trace.times));
+    if (trace.times.size() > 1) steps.push_back(MeanStep(trace.times));
   if (steps.empty()) return 0.0;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   return *middle;
 }
 
-bool IsWhole(std::span<const double> values) {
-  return std::none_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
+// Rows that are not there become rows that say nothing.
+void FillGaps(PlaceTrace& trace, double step) {
+  constexpr double kGap = 1.5;
+  PlaceTrace even{.gravity = trace.gravity};
+  for (std::size_t row = 0; row < trace.times.size(); ++row) {
+    const double gap = row == 0 ? 0.0 : trace.times[row] - trace.times[row - 1];
+    const int missing = gap > kGap * step ? static_cast<int>(std::lround(gap / step)) - 1 : 0;
+    for (int k = 1; k <= missing; ++k) {
+      even.times.push_back(trace.times[row - 1] + gap * k / (missing + 1));
+      even.y.push_back(kNaN);
+      if (!trace.x.empty()) even.x.push_back(kNaN);
+    }
+    even.times.push_back(trace.times[row]);
+    even.y.push_back(trace.y[row]);
+    if (!trace.x.empty()) even.x.push_back(trace.x[row]);
+  }
+  trace = std::move(even);
 }
 
 // Rows from one end of what is looked at to the other, and their middle.
@@ -35,49 +62,29 @@ struct Reach {
 };
 
 bool IsTop(const PlaceTrace& trace, const FlightTops& tops, const Reach& reach, std::size_t first) {
-  const std::span<const double> heights = trace.y.subspan(first, reach.length + 1);
-  const double top = trace.y[first + reach.half];
-  if (!IsWhole(heights) || *std::max_element(heights.begin(), heights.end()) != top) return false;
-  if (!trace.x.empty() && !IsWhole(trace.x.subspan(first, reach.length + 1))) return false;
+  const std::span<const double> heights = std::span(trace.y).subspan(first, reach.length + 1);
+  const double top = heights[reach.half];
+  // Not where it, or an end, is missing.
+  if (std::isnan(top) ||
+      std::any_of(heights.begin(), heights.end(), [top](double y) { return y > top; }))
+    return false;
   const double time = trace.times[first + reach.length] - trace.times[first];
   if (std::abs(time - static_cast<double>(reach.length) * tops.step) > 0.5 * tops.step)
-    return false;  // a gap
+    return false;
   const double drop =
       (top - 0.5 * (heights.front() + heights.back())) / (0.125 * trace.gravity * time * time);
   return drop > kLeastDrop && drop < kMostDrop;
 }
 
-// Sum of the products of neighbouring third differences, over that of their squares.
-double CorrelationOf(const FlightTops& tops, std::span<const PlaceTrace> traces,
-                     std::span<const double> PlaceTrace::*column) {
-  double square = 0.0, product = 0.0;
-  for (const FlightTops::Top& top : tops.found) {
-    const Eigen::VectorXd y = tops.Window(top, traces[top.trial].*column);
-    double before = 0.0;
-    for (Eigen::Index i = 3; i < y.size(); ++i) {
-      const double third = y[i] - 3.0 * y[i - 1] + 3.0 * y[i - 2] - y[i - 3];
-      square += third * third;
-      product += third * before;
-      before = third;
-    }
-  }
-  return product / square;
-}
-
 }  // namespace
 
-Eigen::VectorXd FlightTops::Window(const Top& top, std::span<const double> column) const {
-  Eigen::VectorXd window(kSamples);
-  for (int k = 0; k < kSamples; ++k)
-    window[k] = column[top.first + static_cast<std::size_t>(k) * stride];
-  return window;
-}
-
-FlightTops FindFlightTops(std::span<const PlaceTrace> traces) {
+FlightTops FindFlightTops(std::vector<PlaceTrace>& traces) {
   FlightTops tops;
   tops.step = StepOfMost(traces);
   if (!(tops.step > 0.0)) return tops;
   tops.stride = RowsApart(tops.step);
+  for (PlaceTrace& trace : traces)
+    if (!trace.y.empty()) FillGaps(trace, tops.step);
   const std::size_t length = (FlightTops::kSamples - 1 + 2 * kBeyond) * tops.stride;
   const Reach reach{length, length / 2};
   for (std::size_t i = 0; i < traces.size(); ++i) {
@@ -88,26 +95,6 @@ FlightTops FindFlightTops(std::span<const PlaceTrace> traces) {
     }
   }
   return tops;
-}
-
-double FilterTimeOf(std::span<const PlaceTrace> traces, const FlightTops& tops) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  if (tops.found.size() < kFewestTops) return kNone;
-  std::vector<double> smoothness, at_tops;
-  double tau = kNone;
-  for (std::span<const double> PlaceTrace::*coordinate : {&PlaceTrace::x, &PlaceTrace::y}) {
-    std::vector<SampledColumn> columns;
-    for (const PlaceTrace& trace : traces)
-      if (!(trace.*coordinate).empty()) columns.push_back({trace.times, trace.*coordinate});
-    if (columns.size() < traces.size()) continue;
-    smoothness.push_back(SmoothnessOfNoise(columns));
-    at_tops.push_back(CorrelationOf(tops, traces, coordinate));
-    // Where the motion of a stance is left in it, noise looks slower than it is.
-    tau = std::fmin(tau, FilterTimeOf(columns));
-  }
-  const double mean =
-      std::accumulate(at_tops.begin(), at_tops.end(), 0.0) / static_cast<double>(at_tops.size());
-  return AreSmoothed(smoothness) && mean > kMostWhite ? tau : kNone;
 }
 
 }  // namespace hoplab

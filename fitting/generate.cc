@@ -217,7 +217,7 @@ Trajectory RunOf(const Recording& r, const GenerateTrial& plan, const StateSpec&
   request.touchdown_angles = plan.touchdown_angles_rad;
   request.inputs = r.inputs;
   request.horizon = HorizonOf(r.scenario);
-  if (PoseFilterOf(r.effects)) request.horizon += kFilterMargin;
+  if (!PoseFiltersOf(r.effects).empty()) request.horizon += kFilterMargin;
   request.max_hops = r.scenario.stop.hops.value_or(0);
   request.row_times = r.times;
   request.channels = r.wanted;
@@ -253,15 +253,16 @@ std::size_t RowsOf(const Recording& r, const GenerateTrial& plan, const StateSpe
 // One stream a trial and channel: leaving one out does not change the others.
 std::vector<TraceColumn> NoisyColumns(const Recording& r, const Trajectory& run, std::size_t rows,
                                       std::size_t trial) {
-  const std::optional<PoseFilter> filter = PoseFilterOf(r.effects);
+  const std::vector<PoseFilter> filters = PoseFiltersOf(r.effects);
   std::vector<TraceColumn> columns;
   for (std::size_t c = 0; c < r.channels.size(); ++c) {
     RandomStream random = r.Stream(trial, c);
     std::vector<double> values(rows, 0.0);
     if (!IsContact(r.channels[c].id))
       for (double& value : values) value = *r.channels[c].sigma * random.Normal();
-    if (filter && IsFiltered(r.channels[c].id))
-      values = ThroughFilter(*filter, std::span(r.times).first(rows), values);
+    for (const PoseFilter& filter : filters)
+      if (IsFiltered(r.channels[c].id))
+        values = ThroughFilter(filter, std::span(r.times).first(rows), values);
     for (std::size_t row = 0; row < rows; ++row)
       values[row] += run.samples[row * r.wanted.size() + c];
     columns.push_back({ChannelName(r.channels[c].id), std::move(values)});

@@ -161,15 +161,14 @@ std::optional<std::size_t> FindCatch(const Samples& s, double sigma, double grav
   return begin + (free - begin) / kKept;
 }
 
-std::optional<std::size_t> FindTopAfterStance(const Samples& heights, double lands_m, double doubt,
-                                              std::size_t fewest) {
-  constexpr double kBelow_m = 0.015, kBeginsBelow_m = 0.003;
+std::optional<std::size_t> FindTopAfterStance(const Samples& heights, bool said, double lands_m,
+                                              double doubt, std::size_t fewest) {
+  const double begins_below = said ? 0.003 + doubt : 0.0, deep = said ? 0.015 + doubt : 0.0;
   const std::vector<double>& y = heights.y;
-  if (y.empty() || !(y.front() < lands_m - kBeginsBelow_m - doubt)) return std::nullopt;
+  if (y.empty() || !(y.front() < lands_m - begins_below)) return std::nullopt;
   const auto up = std::find_if(y.begin(), y.end(), [&](double h) { return h > lands_m + doubt; });
   const auto down = std::find_if(up, y.end(), [&](double h) { return h < lands_m; });
-  if (up == y.end() || !(*std::min_element(y.begin(), up) < lands_m - kBelow_m - doubt))
-    return std::nullopt;
+  if (up == y.end() || !(*std::min_element(y.begin(), up) < lands_m - deep)) return std::nullopt;
   const auto top = std::max_element(up, down);
   if (static_cast<std::size_t>(y.end() - top) < fewest) return std::nullopt;
   return static_cast<std::size_t>(top - y.begin());

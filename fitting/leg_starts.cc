@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "base/text.h"
@@ -59,7 +60,54 @@ std::optional<Otherwise> BeginsOtherwise(const FitProblem& problem, const TrialP
   return std::nullopt;
 }
 
+// How many turns more than the simulation's the first samples of a leg's column say; absent where
+// they say another angle.
+std::optional<int> TurnsMore(const FitProblem& problem, const TrialProblem& whole,
+                             const Eigen::VectorXd& shared, std::size_t channel) {
+  constexpr double kTurn = 2.0 * std::numbers::pi, kNear = 1.0;  // rad
+  const TrialProblem trial = FirstPart(problem, whole, kFirst_s);
+  Trajectory simulated;
+  TrialEvaluator(problem, trial)
+      .Simulate({shared, trial.start, false}, problem.integrator, simulated);
+  std::vector<double> more;
+  for (std::size_t cell = channel; cell < trial.data.size(); cell += problem.channels.size())
+    if (const double off = trial.data[cell] - simulated.samples[cell]; std::isfinite(off))
+      more.push_back(off);
+  if (more.size() < kFewestRows) return std::nullopt;
+  const auto middle = more.begin() + static_cast<std::ptrdiff_t>(more.size() / 2);
+  std::nth_element(more.begin(), middle, more.end());
+  const double turns = std::round(*middle / kTurn);
+  if (std::abs(*middle - turns * kTurn) > kNear) return std::nullopt;
+  return static_cast<int>(turns);
+}
+
 }  // namespace
+
+std::vector<std::string> LegTurns(const FitProblem& problem) {
+  const std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);
+  std::vector<std::string> sentences;
+  if (trials.empty() || !trials.front().parameters.robot) return sentences;
+  const Eigen::VectorXd shared = InitialShared(problem);
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    if (!IsAngleOfLeg(problem.channels[c].channel)) continue;
+    std::optional<int> turns;
+    bool alike = true;
+    for (const TrialProblem& trial : trials) {
+      const std::optional<int> more = TurnsMore(problem, trial, shared, c);
+      alike = alike && more && *more != 0 && (!turns || *turns == *more);
+      turns = more;
+    }
+    if (!alike || !turns) continue;
+    sentences.push_back(
+        std::string(ChannelName(problem.channels[c].channel)) + " begins " +
+        std::to_string(std::abs(*turns)) + (std::abs(*turns) == 1 ? " turn " : " turns ") +
+        (*turns > 0 ? "above" : "below") +
+        " its motor's angle in every train trial, as an encoder does that counts "
+        "since it was switched on; take " +
+        FormatDouble(std::round(*turns * 2e6 * std::numbers::pi) / 1e6) + " rad from that column");
+  }
+  return sentences;
+}
 
 std::vector<std::string> LegStarts(const FitProblem& problem) {
   const std::vector<TrialProblem> trials = TrialsOf(problem, TrialRole::kTrain);

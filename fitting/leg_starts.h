@@ -13,4 +13,8 @@ namespace hoplab {
 /// another than stated may begin on the other of its two pieces, where no derivative sees this one.
 std::vector<std::string> LegStarts(const FitProblem& problem);
 
+/// A sentence for each column of a robot's leg angles that begins some whole turns off its motor's
+/// angle, in every train trial as many.
+std::vector<std::string> LegTurns(const FitProblem& problem);
+
 }  // namespace hoplab

@@ -100,15 +100,33 @@ bool IsWindowLong(std::span<const SampledColumn> columns) {
   return *middle * (kNoiseWindow - 1) > kLongWindow;
 }
 
-}  // namespace
+// The smallest step from one sample to another: what it is written in, or an encoder counts.
+double DigitOf(std::span<const SampledColumn> columns) {
+  double digit = std::numeric_limits<double>::infinity();
+  for (const SampledColumn& column : columns)
+    for (std::size_t i = 1; i < column.values.size(); ++i) {
+      const double step = std::abs(column.values[i] - column.values[i - 1]);
+      if (step > 0.0) digit = std::min(digit, step);
+    }
+  return digit;
+}
 
-double EstimateNoise(std::span<const SampledColumn> columns) {
+double ByParabolas(std::span<const SampledColumn> columns) {
   std::size_t apart = IsSmoothed(columns) ? ApartIn(columns) : 1;
   double noise = NoiseOf(columns, apart, kNoiseWindow);
   for (; std::isnan(noise) && apart > 1; noise = NoiseOf(columns, apart, kNoiseWindow)) apart /= 2;
   if (apart > 1 || !IsWindowLong(columns)) return noise;
   const double brief = NoiseOf(columns, 1, kShortWindow);
   return std::isnan(noise) || brief < kClearlyLess * noise ? brief : noise;
+}
+
+}  // namespace
+
+double EstimateNoise(std::span<const SampledColumn> columns) {
+  const double noise = ByParabolas(columns), digit = DigitOf(columns);
+  // What rests within one digit is known no better than that.
+  constexpr double kOfDigit = 0.288675;  // 1/sqrt(12)
+  return std::isfinite(digit) && noise < kOfDigit * digit ? kOfDigit * digit : noise;
 }
 
 }  // namespace hoplab

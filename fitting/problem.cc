@@ -9,8 +9,8 @@
 #include "base/nan.h"
 #include "base/text.h"
 #include "fitting/driven_trial.h"
+#include "fitting/filtered_noise.h"
 #include "fitting/model_of_spec.h"
-#include "fitting/noise.h"
 #include "fitting/robot_problem.h"
 #include "fitting/shared_parameters.h"
 #include "fitting/trial_noise.h"
@@ -78,6 +78,7 @@ class Builder {
   }
 
   void AddChannels() {
+    std::optional<NoiseShape> noise;
     for (const ChannelSpec& spec : dataset_.channels) {
       if (spec.id == Channel::kContact) {
         problem_.uses_contact = true;
@@ -95,12 +96,8 @@ class Builder {
       ChannelProblem c{spec.id, spec.sigma.value_or(kNaN), !spec.sigma};
       c.clock = ClockOf(spec);
       if (!spec.sigma) {
-        std::vector<SampledColumn> columns;
-        for (const Trial& trial : dataset_.trials) {
-          if (const std::vector<double>* values = trial.trace.Find(spec.id))
-            columns.push_back({trial.trace.time_s, *values});
-        }
-        c.sigma = EstimateNoise(columns);
+        if (!noise) noise = NoiseShapeOf(dataset_);
+        c.sigma = NoiseInTraces(dataset_, spec.id, *noise);
         if (!(c.sigma > 0.0)) {
           throw InputError(
               {spec.origin.place, std::string(ChannelName(spec.id)) + ": {sigma: estimate}",

@@ -4,36 +4,75 @@
 
 #include "base/text.h"
 #include "datasets/smoothness.h"
+#include "fitting/filtered_noise.h"
 #include "model/pose_filter.h"
 
 namespace hoplab {
+namespace {
 
-std::vector<Channel> SmoothedChannels(const FitProblem& problem) {
-  // A pitch may be known so well that its differences are those of the motion.
-  std::vector<Channel> smoothed;
+// Noise may be alike in neighbours as after a filter of first order without one.
+bool IsSurelyOfFilter(RecordFilter filter) { return filter != RecordFilter::kFirstOrder; }
+
+bool NeighboursAreAlike(const FitProblem& problem) {
   std::vector<double> smoothness;
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    if (!IsFiltered(problem.channels[c].channel)) continue;
-    smoothed.push_back(problem.channels[c].channel);
-    if (smoothed.back() == Channel::kBodyPitch) continue;
+    const Channel channel = problem.channels[c].channel;
+    // A pitch may be known so well that its differences are those of the motion.
+    if (!IsFiltered(channel) || channel == Channel::kBodyPitch) continue;
     const std::vector<std::vector<double>> samples = SamplesOf(problem, c);
     std::vector<SampledColumn> columns;
     for (std::size_t i = 0; i < samples.size(); ++i)
       columns.push_back({problem.trials[i].row_times, samples[i]});
     smoothness.push_back(SmoothnessOfNoise(columns));
   }
-  return AreSmoothed(smoothness) ? smoothed : std::vector<Channel>();
+  return AreSmoothed(smoothness);
+}
+
+struct Told {
+  const char *sees, *effect;
+};
+Told ToldOf(RecordFilter filter) {
+  switch (filter) {
+    case RecordFilter::kOnePass:
+      return {
+          "neighbouring samples have the same noise, as a filter leaves it that runs as the "
+          "samples come in, and lags",
+          "sensor_causal_low_pass"};
+    case RecordFilter::kMovingAverage:
+      return {"each sample shares its noise with those beside it, as a moving average leaves it",
+              "sensor_moving_average"};
+    default:
+      return {"neighbouring samples have the same noise, as a filter leaves it", "sensor_low_pass"};
+  }
+}
+
+}  // namespace
+
+std::vector<RecordFilter> FiltersSeen(const FitProblem& problem) {
+  const NoiseShape noise = NoiseShapeOf(problem);
+  if (noise.filter != RecordFilter::kNone) return {noise.filter};
+  if (NeighboursAreAlike(problem)) return {RecordFilter::kTwoPass};
+  return {};
+}
+
+std::vector<Channel> SmoothedChannels(const FitProblem& problem) {
+  std::vector<Channel> smoothed;
+  const std::vector<RecordFilter> seen = FiltersSeen(problem);
+  if (seen.empty() || !IsSurelyOfFilter(seen.front())) return smoothed;
+  for (const ChannelProblem& channel : problem.channels)
+    if (IsFiltered(channel.channel)) smoothed.push_back(channel.channel);
+  return smoothed;
 }
 
 std::vector<std::string> SmoothedTraces(const FitProblem& problem) {
   std::vector<std::string> names;
   for (const Channel c : SmoothedChannels(problem)) names.push_back(ChannelName(c));
   if (names.empty()) return {};
-  return {
-      Join(names) +
-      ": neighbouring samples have the same noise, as a filter leaves it. What it took from the "
-      "motion, a simulation must lack, too: export the traces as they were recorded, or fit the "
-      "filter (--with sensor_low_pass; diagnose tries it)"};
+  const Told told = ToldOf(FiltersSeen(problem).front());
+  return {Join(names) + ": " + told.sees +
+          ". What it took from the motion, a simulation must lack, too: export the traces as they "
+          "were recorded, or fit the filter (--with " +
+          told.effect + "; diagnose tries it)"};
 }
 
 }  // namespace hoplab

@@ -25,6 +25,12 @@ constexpr double kLeastNoise_m = 1e-5;
 constexpr double kMoved_m = 0.003;     // below it a hand has held still
 constexpr std::size_t kLeftOver = 10;  // samples: fewer before a catch are no hop
 
+// A ball may be thrown from the ground.
+bool IsSaidToFly(const Trial& trial, double lands_m) {
+  return trial.mechanism.type == MechanismKind::kBall ||
+         (trial.initial && trial.initial->y_m >= lands_m);
+}
+
 // Bodies are slow. A hopper's leg is swung ahead at once, and a motor turns as quickly as noise.
 bool IsOfBody(Channel c) {
   return c == Channel::kBodyX || c == Channel::kBodyY || c == Channel::kBodyPitch;
@@ -88,6 +94,7 @@ void FindEnds(const Trial& trial, std::size_t place, const ChannelSpec& channel,
   const double sigma = std::max({noise, channel.sigma.value_or(0.0), kLeastNoise_m});
   const double g = FreeFall(trial.mechanism);
   const bool in_flight = !trial.initial || trial.initial->mode == StartMode::kFlight;
+  const double lands = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
   std::size_t begins = 0;
   if (const auto release = in_flight ? FindRelease(s, sigma, g) : std::nullopt) {
     begins = release->first;
@@ -98,8 +105,7 @@ void FindEnds(const Trial& trial, std::size_t place, const ChannelSpec& channel,
   }
   if (const auto top =
           begins == 0 && in_flight && trial.mechanism.type != MechanismKind::kRobot
-              ? FindTopAfterStance(s, TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad),
-                                   3.0 * sigma, kLeftOver)
+              ? FindTopAfterStance(s, IsSaidToFly(trial, lands), lands, 3.0 * sigma, kLeftOver)
               : std::nullopt) {
     begins = *top;
     TraceFault stance{TraceFault::Kind::kBeforeFlight, place, Channel::kBodyY, {}, 0.0};

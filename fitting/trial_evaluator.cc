@@ -19,7 +19,7 @@ constexpr double kContactMargin = 0.11;  // s
 constexpr double kReadingMargin = 0.01;  // s
 
 // A filter looks at what comes after the last row.
-bool FiltersPose(const EffectSetting& s) { return s.effect->hooks0.change_filter_time != nullptr; }
+bool FiltersPose(const EffectSetting& s) { return s.effect->info.filter != RecordFilter::kNone; }
 
 // The latest a row stamped `last` may be read, whatever values within their bounds the effects that
 // shift time (a delay, a clock) come to have.

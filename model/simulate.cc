@@ -33,9 +33,9 @@ void SimulateRows(const SimulationRequest& request, Trajectory& out) {
 }  // namespace
 
 void Simulate(const SimulationRequest& request, Trajectory& out) {
-  const std::optional<PoseFilter> filter = PoseFilterOf(request);
-  if (!filter) return SimulateRows(request, out);
-  const FilterRows rows(request, *filter);
+  const std::vector<PoseFilter> filters = PoseFiltersOf(request);
+  if (filters.empty()) return SimulateRows(request, out);
+  const FilterRows rows(request, filters);
   SimulationRequest wide = request;
   wide.row_times = rows.times();
   SimulateRows(wide, out);

@@ -14,6 +14,8 @@
 namespace hoplab {
 namespace {
 
+constexpr double kFarOff = 10.0;  // chi2 a sample: three times the noise
+
 double Chi2PerSample(const FittedModel& model) {
   long samples = 0;
   for (const TrialProblem& t : TrialsOf(model.problem, TrialRole::kTrain))
@@ -34,13 +36,17 @@ std::string WholeTrialsSentence(const CarriedOn& carried) {
     errors.push_back(WithoutUnit(name) + " " +
                      ErrorText(carried.errors.test.rmse[c], ChannelUnit(*ChannelFromName(name))));
   }
+  const double chi2 = Chi2PerSample(carried.model);
+  const char* how = chi2 < kFarOff
+                        ? "follows them to their end"
+                        : "runs to their end, but so far from them that its values say little";
   return fmt::format(
-      "with it the simulation follows them to their end: {}{}; test error {}; chi2 {:.3g} a sample",
+      "with it the simulation {}: {}{}; test error {}; chi2 {:.3g} a sample", how,
       ValuesText(problem, carried.model.shared, carried.uncertainty),
       problem.noise.IsWhite()
           ? ""
           : " (a smooth error is left, so the intervals hold those of the first parts, too)",
-      Join(errors), Chi2PerSample(carried.model));
+      Join(errors), chi2);
 }
 
 Json WholeTrialsRecord(const Diagnosis& diagnosis) {

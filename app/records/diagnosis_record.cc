@@ -174,6 +174,16 @@ void AddVerdict(const Diagnosis& d, const std::string& failure, Json& record) {
   record["group"] = NamesOf(d, has_cause ? GroupOfCause(d) : std::vector<int>());
 }
 
+Json OddChannelRecord(const std::optional<OddChannel>& odd) {
+  if (!odd) return nullptr;
+  Json record = {{"channel", std::string(NameOf(odd->channel))}, {"left_out", !odd->offset_s}};
+  record["offset_s"] = odd->offset_s ? Json(*odd->offset_s) : Json(nullptr);
+  record["ci95"] = odd->offset_ci95
+                       ? Json::array({odd->offset_ci95->first, odd->offset_ci95->second})
+                       : Json(nullptr);
+  return record;
+}
+
 // The model before, what no cause explains, and the causes found.
 void AddModels(const DiagnosisRun& run, Json& record) {
   const Diagnosis& d = run.diagnosis;
@@ -188,6 +198,7 @@ void AddModels(const DiagnosisRun& run, Json& record) {
       d.verdict == Verdict::kAdequate ? Json(nullptr) : NumberOrNull(d.UnlistedProbability());
   record["left"] = LeftRecord(d.naming.best.problem);
   record["left_share"] = NumberOrNull(d.left.share);
+  record["odd_channel"] = OddChannelRecord(d.odd_channel);
   record["posterior"] = PosteriorRecord(d);
   record["discrepancy"] = {{"before", LeftRecord(d.null.problem)},
                            {"probability", NumberOrNull(d.left.probability)}};

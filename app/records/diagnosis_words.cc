@@ -212,10 +212,22 @@ std::string RemainderSentence(const Diagnosis& d) {
   return text;
 }
 
+// Nothing is missing but in one channel.
+std::string OddChannelSentence(const OddChannel& odd, const std::string& chance) {
+  const std::string name = WithoutUnit(std::string(NameOf(odd.channel)));
+  if (!odd.offset_s)
+    return fmt::format("{} disagrees with the other channels, in which nothing is missing ({}).",
+                       name, chance);
+  return fmt::format("Nothing is missing but that {} is {} {} ({}).", name,
+                     SizeText(std::abs(*odd.offset_s), "s"), *odd.offset_s < 0.0 ? "late" : "early",
+                     chance);
+}
+
 std::string VerdictSentence(const Diagnosis& d) {
   if (!d.refusal.empty() || d.interrupted) return "";
   switch (d.verdict) {
     case Verdict::kAdequate:
+      if (d.odd_channel) return OddChannelSentence(*d.odd_channel, ChanceText(d.detection.p_value));
       if (d.detection.p_value <= kDetectionLevel)
         return fmt::format("Nothing in the catalogue is needed: {} ({}).", d.reason,
                            ChanceText(d.detection.p_value));

@@ -201,6 +201,27 @@ std::string FormulaLine(const Diagnosis& d, bool formula_sought, bool colours) {
                   colours);
 }
 
+// What a search that was stopped has of each cause alone.
+std::string BestAlone(const Diagnosis& d, bool colours) {
+  constexpr std::size_t kMost = 3;
+  std::vector<const CandidateResult*> found;
+  for (const CandidateResult& c : d.naming.candidates)
+    if (c.alone.ok() && c.gain > 0.0) found.push_back(&c);
+  if (found.empty()) return "";
+  std::sort(found.begin(), found.end(),
+            [](const CandidateResult* a, const CandidateResult* b) { return a->gain > b->gain; });
+  found.resize(std::min(found.size(), kMost));
+  std::vector<std::string> words;
+  for (const CandidateResult* c : found) {
+    const std::size_t first = d.null.problem.shared.size();
+    words.push_back(fmt::format("{} {} ({:.0f} nats)", CauseText(c->candidate),
+                                SizeText(c->alone.shared[static_cast<Eigen::Index>(first)],
+                                         c->alone.problem.shared[first].unit),
+                                c->gain));
+  }
+  return Labelled("so far", "what each explains alone, not yet weighed: " + Join(words), colours);
+}
+
 std::string NoVerdict(const Diagnosis& d, const std::string& failure, bool colours) {
   std::string text = "\n" + Labelled("no verdict", failure, colours);
   for (const GateCheck& c : d.gate.checks) {
@@ -209,7 +230,7 @@ std::string NoVerdict(const Diagnosis& d, const std::string& failure, bool colou
     text += Labelled(!c.passed ? "failed" : (in_doubt ? "in doubt" : "passed"),
                      c.name + ": " + c.text, colours);
   }
-  return text;
+  return d.interrupted ? text + BestAlone(d, colours) : text;
 }
 
 }  // namespace

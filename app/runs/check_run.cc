@@ -1,22 +1,18 @@
 #include "app/runs/check_run.h"
 
-#include "fitting/noise.h"
+#include "fitting/filtered_noise.h"
 
 namespace hoplab {
 namespace {
 
 std::vector<ChannelNoise> NoiseOf(const Dataset& dataset) {
+  const NoiseShape shape = NoiseShapeOf(dataset);
   std::vector<ChannelNoise> noise;
   for (const ChannelSpec& spec : dataset.channels) {
     if (IsContact(spec.id)) continue;
-    std::vector<SampledColumn> columns;
-    for (const Trial& trial : dataset.trials) {
-      if (const std::vector<double>* values = trial.trace.Find(spec.id))
-        columns.push_back({trial.trace.time_s, *values});
-    }
     ChannelNoise entry{ChannelName(spec.id), ChannelUnit(spec.id)};
     if (spec.sigma) entry.stated = *spec.sigma;
-    entry.in_traces = EstimateNoise(columns);
+    entry.in_traces = NoiseInTraces(dataset, spec.id, shape);
     noise.push_back(entry);
   }
   return noise;

@@ -97,6 +97,16 @@ std::string Candidate::Name() const {
   return only_recording.empty() ? name : name + " in " + only_recording;
 }
 
+namespace {
+
+// It is tried only where the noise tells of it: it rounds corners, and so could stand in for much.
+bool IsUnseenFilter(const Effect& effect, const std::vector<RecordFilter>& seen) {
+  const RecordFilter filter = effect.info.filter;
+  return filter != RecordFilter::kNone && std::find(seen.begin(), seen.end(), filter) == seen.end();
+}
+
+}  // namespace
+
 std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOptions& options) {
   std::vector<const Effect*> without, only;
   for (const std::string& name : options.without)
@@ -108,7 +118,7 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
   const auto holds = [](const std::vector<const Effect*>& list, const Effect* effect) {
     return std::find(list.begin(), list.end(), effect) != list.end();
   };
-  const bool smoothed = !SmoothedChannels(problem).empty();
+  const std::vector<RecordFilter> filters = FiltersSeen(problem);
   std::vector<Candidate> candidates;
   std::vector<const Effect*> tried(AllEffects().begin(), AllEffects().end());
   const auto add = [&](const Effect* effect) {
@@ -121,9 +131,8 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
                    problem.robot_legs()) ||
         IsFitted(problem, *effect) || Simulates(problem, *effect))
       continue;
-    if (only.empty() &&
-        (HasNothingOf(problem, *effect) || IsOfAllLegs(problem, *effect) ||
-         IsDelayOfAll(problem, *effect) || (effect->hooks0.change_filter_time && !smoothed)))
+    if (only.empty() && (HasNothingOf(problem, *effect) || IsOfAllLegs(problem, *effect) ||
+                         IsDelayOfAll(problem, *effect) || IsUnseenFilter(*effect, filters)))
       continue;
     if (holds(without, effect) || (!only.empty() && !holds(only, effect))) continue;
     if (!problem.known.RulesOut(*effect)) candidates.push_back({effect, "", problem.known});

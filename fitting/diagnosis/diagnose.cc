@@ -12,6 +12,7 @@
 #include "fitting/diagnosis/carry_on.h"
 #include "fitting/diagnosis/diagnosis.h"
 #include "fitting/diagnosis/null_fit.h"
+#include "fitting/diagnosis/odd_channel.h"
 #include "fitting/diagnosis/verdict.h"
 #include "fitting/followed_part.h"
 #include "model/mechanism_traits.h"
@@ -187,6 +188,16 @@ class StageByStage {
   std::optional<DatasetFit> whole_null_;
 };
 
+Diagnosis DiagnoseAtOnce(const Dataset& dataset, const DiagnosisOptions& options) {
+  FitProblem problem = MakeProblem(dataset, WithLegsAlike(options.problem));
+  const std::vector<std::string> notes = CorrectNoise(problem);
+  Diagnosis d = WithStepsThatServe(problem, options, [&] {
+    return DiagnoseFitted(FitPlain(problem, options, options.span), options);
+  });
+  d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
+  return d;
+}
+
 }  // namespace
 
 Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
@@ -202,20 +213,22 @@ Diagnosis Diagnose(const Dataset& dataset, const DiagnosisOptions& options) {
     d.warnings = std::move(warnings);
     return d;
   }
-  const std::vector<std::string> notes = CorrectNoise(problem);
-  const bool by_stages =
-      TraitsOf(problem.law).lands_leg_by_leg && options.span == Segmentation::kAuto;
-  d = by_stages ? StageByStage(std::move(problem), options).Run()
-                : WithStepsThatServe(problem, options, [&] {
-                    return DiagnoseFitted(FitPlain(problem, options, options.span), options);
-                  });
+  const bool by_legs = TraitsOf(problem.law).lands_leg_by_leg;
+  if (by_legs && options.span == Segmentation::kAuto) {
+    const std::vector<std::string> notes = CorrectNoise(problem);
+    d = StageByStage(std::move(problem), options).Run();
+    d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
+  } else if (!by_legs && HasOtherSensors(dataset)) {
+    d = DiagnoseWithOddChannel(dataset, options, DiagnoseAtOnce);
+  } else {
+    d = DiagnoseAtOnce(dataset, options);
+  }
   if (d.extension && d.extension->IsBeyondPhysics()) BelieveLessAtBound(d.extension->causes);
   TellBesides(d, options);
   if (d.refusal.empty() &&
       d.problem.integrator.relative_tolerance < options.problem.integrator.relative_tolerance)
     d.notes.emplace_back(
         "simulated with finer steps than usual, since an event is met almost without crossing it");
-  d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
   d.warnings = std::move(warnings);
   return d;
 }

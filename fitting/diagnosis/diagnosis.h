@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fitting/diagnosis/free_forces.h"
@@ -178,6 +179,15 @@ struct CarriedOn {
   HeldOutErrors errors;  // of a minimum
 };
 
+/// A channel that disagrees with the others, in which nothing is missing.
+struct OddChannel {
+  Channel channel = Channel::kBodyX;
+  /// What it stamps t was read at t + offset, and then it agrees [s]; absent: it does not, and was
+  /// left out.
+  std::optional<double> offset_s = std::nullopt;
+  std::optional<std::pair<double, double>> offset_ci95 = std::nullopt;
+};
+
 /// A diagnosis from the gate to the proposed experiment. What was not reached is empty.
 struct Diagnosis {
   FitProblem problem;  // the null problem; trials are hops if `by_hop`
@@ -210,6 +220,7 @@ struct Diagnosis {
   std::optional<SeparatingExperiment> experiment;
   std::optional<CarriedOn> carried_on;    // where causes were named by first parts of the trials
   std::optional<FreeForces> free_forces;  // where the catalogue does not explain the misfit
+  std::optional<OddChannel> odd_channel;
   Verdict verdict = Verdict::kAdequate;
   std::string reason;  // why the verdict is what it is
 

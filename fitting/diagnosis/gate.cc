@@ -81,13 +81,20 @@ struct FlightNoise {
   double sigma = std::numeric_limits<double>::quiet_NaN(), strength = 1.0;
   std::string why = {};
 };
+std::string WhyAlike(const NoiseShape& shape) {
+  if (shape.filter == RecordFilter::kMovingAverage)
+    return Text("went through a moving average over %.3g ms", 1e3 * shape.time);
+  return Text(shape.filter == RecordFilter::kOnePass
+                  ? "went through a filter that lags (time constant %.3g ms)"
+                  : "went through a filter (time constant %.3g ms)",
+              1e3 * shape.time);
+}
 FlightNoise NoiseInFlight(const FitProblem& problem, std::size_t channel,
                           const std::optional<FilteredNoise>& filtered) {
   FlightNoise noise;
   if (problem.channels[channel].channel > Channel::kBodyVy) return noise;
-  if (filtered && !std::isnan(filtered->sigma[channel]))
-    return {filtered->sigma[channel], filtered->strength,
-            Text("went through a filter (time constant %.3g ms)", 1e3 * filtered->tau)};
+  if (filtered && filtered->Tells(channel))
+    return {filtered->sigma[channel], filtered->shape.strength, WhyAlike(filtered->shape)};
   const double correlation = CorrelationOf(problem, channel);
   noise.sigma =
       EstimateNoise(ColumnsOf(problem, SamplesOf(problem, channel))) / SeenByParabolas(correlation);
@@ -152,7 +159,7 @@ std::vector<std::string> CorrectNoise(FitProblem& problem) {
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     ChannelProblem& channel = problem.channels[c];
     const FlightNoise noise = NoiseInFlight(problem, c, filtered);
-    const bool is_filtered = filtered && !std::isnan(filtered->sigma[c]);
+    const bool is_filtered = filtered && filtered->Tells(c);
     const std::string name(NameOf(channel.channel));
     if (!channel.sigma_estimated && is_filtered) {
       // What is stated is the sensor's, before the filter, unless that is too little.

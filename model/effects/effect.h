@@ -18,6 +18,15 @@ std::string_view NameOf(EffectKind kind);
 /// A part that not every machine has; `kTwoAxes`: both coordinates are measured, and move.
 enum class MachinePart { kNone, kGuideOfBall, kClock, kTorqueLimit, kTwoAxes };
 
+/// A filter that a logged pose went through (M105, M117).
+enum class RecordFilter {
+  kNone,
+  kTwoPass,        // Butterworth of order 2, run to and fro: no lag
+  kOnePass,        // Butterworth of order 2, run forward as the samples come in
+  kFirstOrder,     // exponential smoothing, an RC circuit
+  kMovingAverage,  // about each sample
+};
+
 /// One parameter of an effect. At `null` the effect changes nothing, bit for bit.
 struct EffectParameter {
   std::string_view name;
@@ -64,6 +73,8 @@ struct EffectInfo {
   MachinePart about = MachinePart::kNone;
   /// The inputs whose scale it stands for under another name.
   InputSet scales = 0;
+  /// It filters the logged pose; its first parameter is the filter's time [s].
+  RecordFilter filter = RecordFilter::kNone;
 };
 
 /// Motion of the body at one instant, for forces on it. Frame W.
@@ -163,8 +174,6 @@ struct EffectHooks {
   void (*change_observation_time)(const T* p, T& t) = nullptr;
   /// Changes the time at which the pose of a row stamped `t` was read (IsPose), before that.
   void (*change_pose_time)(const T* p, T& t) = nullptr;
-  /// Changes the time constant of the filter that the logged pose went through [s] (M105).
-  void (*change_filter_time)(const T* p, T& tau) = nullptr;
   /// Changes what the sensors report.
   void (*change_observation)(const T* p, Observation<T>& seen) = nullptr;
 };
@@ -270,8 +279,6 @@ constexpr EffectHooks<T> HooksOf() {
     hooks.change_observation_time = &Physics::template ChangeObservationTime<T>;
   if constexpr (requires(const T* p, T& t) { Physics::ChangePoseTime(p, t); })
     hooks.change_pose_time = &Physics::template ChangePoseTime<T>;
-  if constexpr (requires(const T* p, T& tau) { Physics::ChangeFilterTime(p, tau); })
-    hooks.change_filter_time = &Physics::template ChangeFilterTime<T>;
   if constexpr (requires(const T* p, Observation<T>& o) { Physics::ChangeObservation(p, o); })
     hooks.change_observation = &Physics::template ChangeObservation<T>;
   return hooks;

@@ -17,12 +17,8 @@ struct SensorLowPass {
       .dissipative = false,
       .has_threshold = true,
       .parameters = kParameters,
-      .for_robot = true};
-
-  template <class T>
-  static void ChangeFilterTime(const T* p, T& tau) {
-    tau += p[0];
-  }
+      .for_robot = true,
+      .filter = RecordFilter::kTwoPass};
 };
 
 }  // namespace

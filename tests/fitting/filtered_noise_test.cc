@@ -7,12 +7,15 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <optional>
+#include <ostream>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/random.h"
 #include "datasets/read_dataset.h"
-#include "datasets/smoothness.h"
 #include "fitting/diagnosis/gate.h"
 #include "fitting/smoothed_ends.h"
 #include "tests/support/butterworth.h"
@@ -33,49 +36,103 @@ double Integral(const F& f) {
   return 2.0 * sum * h / 3.0;
 }
 
-// M116: white noise whose spectrum M105 has cut twice, of a power of two.
-TEST(FilteredNoise, HasTheCorrelationOfItsSpectrum) {
-  const double tau = 0.012;
-  const auto spectrum = [](double x) { return 1.0 / std::pow(1.0 + std::pow(x, 4), 2); };
-  const double all = Integral(spectrum);
-  for (const double t : {0.0, 0.003, 0.01, 0.02, 0.05}) {
-    const double at = Integral([&](double x) { return std::cos(x * t / tau) * spectrum(x); }) / all;
-    EXPECT_NEAR(CorrelationThroughFilter(t, tau), at, 1e-9) << t;
-  }
-  const double time = Integral([&](double t) { return CorrelationThroughFilter(t * tau, tau); });
-  EXPECT_NEAR(std::pow(StrengthThroughFilter(tau, 0.002), 2), time * tau / 0.002, 1e-6);
-  EXPECT_EQ(StrengthThroughFilter(1e-4, 0.01), 1.0);
+// M118: white noise whose spectrum a filter has cut: of many samples in one of the filter's times,
+// that of M105 and M117, of a power of two.
+TEST(NoiseShape, HasTheCorrelationOfTheFiltersSpectrum) {
+  const double time = 0.012, step = time / 40.0;
+  const auto two = [](double x) { return 1.0 / std::pow(1.0 + std::pow(x, 4), 2); };
+  const auto one = [](double x) { return 1.0 / (1.0 + std::pow(x, 4)); };
+  const auto compare = [&](RecordFilter filter, const auto& spectrum) {
+    const FilteredWhite noise = FilterWhite(filter, time, step, 200);
+    const double all = Integral(spectrum);
+    for (const std::size_t lag : {0, 10, 40, 80, 160}) {
+      const double t = static_cast<double>(lag) * step / time;
+      const double at = Integral([&](double x) { return std::cos(x * t) * spectrum(x); }) / all;
+      EXPECT_NEAR(noise.correlation[lag], at, 2e-3) << lag;
+    }
+    // Its density at frequency 0 over the mean of all that rows so far apart see.
+    EXPECT_NEAR(noise.strength * noise.strength, 2.0 * std::numbers::pi * time / (step * all),
+                2e-3 * noise.strength * noise.strength);
+  };
+  compare(RecordFilter::kTwoPass, two);
+  compare(RecordFilter::kOnePass, one);
+}
+
+TEST(NoiseShape, OfAMeanAndOfExponentialSmoothingInClosedForm) {
+  const FilteredWhite mean = FilterWhite(RecordFilter::kMovingAverage, 0.014, 0.002, 10);
+  for (std::size_t lag = 0; lag < 10; ++lag)
+    EXPECT_NEAR(mean.correlation[lag], std::max(0.0, 1.0 - static_cast<double>(lag) / 7.0), 1e-12);
+  EXPECT_NEAR(mean.strength, std::sqrt(7.0), 1e-12);
+  const double alike = 0.6;
+  const FilteredWhite first =
+      FilterWhite(RecordFilter::kFirstOrder, -0.002 / std::log(alike), 0.002, 4);
+  EXPECT_NEAR(first.correlation[3], alike * alike * alike, 1e-12);
+  EXPECT_NEAR(first.strength, std::sqrt((1.0 + alike) / (1.0 - alike)), 1e-12);
 }
 
 Dataset Hops(std::uint64_t seed, double rate_hz, double sigma_m) {
   return DatasetOf({.train = 6, .hops = 3, .seed = seed, .sigma_m = sigma_m, .rate_hz = rate_hz});
 }
 
-// Of hops through a Butterworth filter: its time constant, the scatter that it leaves, and, as
-// white noise of the same strength, what there was before.
-TEST(FilteredNoise, IsFoundInHops) {
-  for (const auto& [rate, cut_off] : {std::pair{200.0, 15.0}, {400.0, 12.0}, {400.0, 20.0}}) {
-    const double tau = FilterTime(cut_off), white = 0.8e-3;
-    const double left = white / StrengthThroughFilter(tau, 1.0 / rate);
-    double sum = 0.0, worst = 0.0;
-    constexpr int kSeeds = 8;
-    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-      const FitProblem problem = MakeProblem(Smoothed(Hops(seed, rate, white), cut_off), {});
-      const std::optional<FilteredNoise> noise = FindFilteredNoise(problem);
-      ASSERT_TRUE(noise.has_value()) << rate << " Hz, " << cut_off << " Hz, seed " << seed;
-      EXPECT_NEAR(noise->tau / tau, 1.0, 0.25) << cut_off;
-      for (const std::size_t channel : {0, 1}) {
-        const double found = noise->sigma[channel] / left;
-        sum += found / (2.0 * kSeeds);
-        worst = std::max(worst, std::abs(std::log(found)));
-      }
-    }
-    std::printf("  %3.0f rows a second, %2.0f Hz: %.2f of the noise, worst %.2f times\n", rate,
-                cut_off, sum, std::exp(worst));
-    EXPECT_NEAR(sum, 1.0, 0.2);
-    EXPECT_LT(worst, std::log(1.7));
-  }
+// Which filter hops went through, by its noise alone: its time, and as white noise of the same
+// strength what there was before.
+struct Through {
+  const char* name;
+  double rate;
+  RecordFilter filter;
+  double time, time_within, mean_within;
+  Dataset (*make)(const Dataset&);
+};
+template <int kHertz>
+Dataset ToAndFro(const Dataset& d) {
+  return Smoothed(d, kHertz);
 }
+template <int kHertz>
+Dataset Forward(const Dataset& d) {
+  return SmoothedLate(d, kHertz);
+}
+Dataset MeanOfSeven(const Dataset& d) { return Averaged(d, 7); }
+class FilteredNoiseOf : public ::testing::TestWithParam<Through> {};
+void PrintTo(const Through& c, std::ostream* out) { *out << c.name; }
+
+TEST_P(FilteredNoiseOf, IsFoundInHops) {
+  const Through& through = GetParam();
+  const double white = 0.8e-3;
+  double sum = 0.0, worst = 0.0;
+  constexpr int kSeeds = 6;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const FitProblem problem = MakeProblem(through.make(Hops(seed, through.rate, white)), {});
+    const std::optional<FilteredNoise> noise = FindFilteredNoise(problem);
+    ASSERT_TRUE(noise.has_value()) << "seed " << seed;
+    EXPECT_EQ(noise->shape.filter, through.filter) << "seed " << seed;
+    EXPECT_NEAR(noise->shape.time / through.time, 1.0, through.time_within) << "seed " << seed;
+    for (const std::size_t channel : {0, 1}) {
+      const double found = noise->sigma[channel] * noise->shape.strength / white;
+      sum += found / (2.0 * kSeeds);
+      worst = std::max(worst, std::abs(std::log(found)));
+    }
+  }
+  std::printf("  %3.0f rows a second: %.2f of the noise, worst %.2f times\n", through.rate, sum,
+              std::exp(worst));
+  EXPECT_NEAR(sum, 1.0, through.mean_within);
+  EXPECT_LT(worst, std::log(1.7));
+}
+INSTANTIATE_TEST_SUITE_P(, FilteredNoiseOf,
+                         ::testing::Values(Through{"ToAndFro15", 200.0, RecordFilter::kTwoPass,
+                                                   FilterTime(15.0), 0.25, 0.2, &ToAndFro<15>},
+                                           Through{"ToAndFro12", 400.0, RecordFilter::kTwoPass,
+                                                   FilterTime(12.0), 0.25, 0.2, &ToAndFro<12>},
+                                           Through{"ToAndFro20", 400.0, RecordFilter::kTwoPass,
+                                                   FilterTime(20.0), 0.25, 0.25, &ToAndFro<20>},
+                                           Through{"Forward30", 200.0, RecordFilter::kOnePass,
+                                                   FilterTime(30.0), 0.25, 0.2, &Forward<30>},
+                                           // What a stance leaves lasts longer.
+                                           Through{"Forward15", 400.0, RecordFilter::kOnePass,
+                                                   FilterTime(15.0), 0.35, 0.3, &Forward<15>},
+                                           Through{"MeanOfSeven", 200.0,
+                                                   RecordFilter::kMovingAverage, 7.0 / 200.0, 0.01,
+                                                   0.2, &MeanOfSeven}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST(FilteredNoise, IsNoneOfNoiseThatIsWhite) {
   EXPECT_FALSE(FindFilteredNoise(MakeProblem(Hops(1, 400.0, 1e-3), {})).has_value());
@@ -96,7 +153,7 @@ TEST(FilteredNoise, IsFoundWhereRowsAreMissing) {
       Trace& trace = hops.trials[k].trace;
       const auto goes = [&](std::size_t row) {
         if (one_gap) return k == 2 && row > 150 && row < 250;
-        return random.Uniform(0.0, 1.0) < 0.005;
+        return random.Uniform(0.0, 1.0) < 0.03;
       };
       std::vector<std::size_t> rows;
       for (std::size_t row = 0; row < trace.time_s.size(); ++row)
@@ -110,7 +167,7 @@ TEST(FilteredNoise, IsFoundWhereRowsAreMissing) {
     }
     const std::optional<FilteredNoise> noise = FindFilteredNoise(MakeProblem(hops, {}));
     ASSERT_TRUE(noise.has_value()) << one_gap;
-    EXPECT_NEAR(noise->tau / tau, 1.0, 0.25) << one_gap;
+    EXPECT_NEAR(noise->shape.time / tau, 1.0, 0.25) << one_gap;
     EXPECT_NEAR(FindSmoothedEnds(hops).size(), FindSmoothedEnds(whole).size(), 0.5) << one_gap;
   }
 }
@@ -129,7 +186,9 @@ TEST(FilteredNoise, CountsByWhatItWas) {
   EXPECT_NE(notes[0].find("went through a filter"), std::string::npos) << notes[0];
   for (const ChannelProblem& channel : estimated.channels)
     EXPECT_NEAR(channel.sigma / white, 1.0, 0.35);
-  const double square = std::pow(StrengthThroughFilter(FilterTime(cut_off), 1.0 / 400.0), -2);
+  const FilteredWhite filtered =
+      FilterWhite(RecordFilter::kTwoPass, FilterTime(cut_off), 1.0 / 400.0, 1);
+  const double square = std::pow(filtered.strength, -2);
   for (const double found : NoiseSquares(estimated)) EXPECT_NEAR(found / square, 1.0, 0.25);
 }
 

@@ -126,6 +126,18 @@ TEST(EstimateNoise, NeedsEnoughWindows) {
   EXPECT_TRUE(std::isnan(EstimateNoise({&column, 1})));
 }
 
+// A motor that rests shows one count of its encoder, or two.
+TEST(EstimateNoise, IsNoLessThanADigits) {
+  constexpr double kCount = 0.003;
+  std::vector<double> times, angles;
+  for (int i = 0; i < 400; ++i) {
+    times.push_back(0.002 * i);
+    angles.push_back(0.3 + (i < 350 ? 0.0 : kCount * ((i - 350) / 10)));
+  }
+  const SampledColumn column{times, angles};
+  EXPECT_NEAR(EstimateNoise({&column, 1}), kCount / std::sqrt(12.0), 1e-6);
+}
+
 TEST(EstimateNoise, StancesInTheWindowsOfALowRateDoNotRaiseIt) {
   Scenario s = HopScenario(2);
   s.dataset->sample_rate_hz = 100.0;  // every third window of twelve rows meets a stance

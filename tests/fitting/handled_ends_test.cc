@@ -259,6 +259,28 @@ TEST(RecordFromAStance, BeginsAtTheTopOfItsFirstFlight) {
   EXPECT_EQ(MakeProblem(late, keep).trials[0].row_times.size(), late.trials[0].trace.time_s.size());
 }
 
+// From late in a stance on, where the body is a little below its landing height: that is no flight
+// if no start in flight is stated.
+TEST(RecordFromAStance, IsSeenLateInItWhereNoFlightIsStated) {
+  const Dataset plain = ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/rig-drops");
+  Dataset late = plain;
+  Trial& trial = late.trials[0];
+  const double lands = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad);
+  const std::vector<double>& y = *trial.trace.Find(Channel::kBodyY);
+  auto row = std::min_element(y.begin(), y.begin() + 150) - y.begin();
+  while (y[static_cast<std::size_t>(row)] < lands - 0.006) ++row;
+  for (TraceColumn& column : trial.trace.columns)
+    column.values.erase(column.values.begin(), column.values.begin() + row);
+  trial.trace.time_s.erase(trial.trace.time_s.begin(), trial.trace.time_s.begin() + row);
+  EXPECT_TRUE(MakeProblem(late, {}).trace_faults.empty());  // it is said to begin in flight
+  trial.initial.reset();
+  trial.initial_sigma.reset();
+  const FitProblem problem = MakeProblem(late, {});
+  ASSERT_EQ(problem.trace_faults.size(), 1U);
+  EXPECT_EQ(problem.trace_faults[0].kind, TraceFault::Kind::kBeforeFlight);
+  EXPECT_NEAR(problem.trials[0].start[3], 0.0, 0.15);
+}
+
 TEST(FindTopAfterStance, SaysNothingOfFlightsAndOfWhatNeverFlies) {
   Samples s;
   for (int i = 0; i < 100; ++i) {
@@ -266,11 +288,11 @@ TEST(FindTopAfterStance, SaysNothingOfFlightsAndOfWhatNeverFlies) {
     s.y.push_back(0.15 + 0.02 * std::sin(0.1 * i));
     s.row.push_back(static_cast<std::size_t>(i));
   }
-  EXPECT_FALSE(FindTopAfterStance(s, 0.18, 0.001, 10));  // stays on the ground
+  EXPECT_FALSE(FindTopAfterStance(s, true, 0.18, 0.001, 10));  // stays on the ground
   // 10 mm below: where it lands is not known so well.
-  EXPECT_FALSE(FindTopAfterStance(s, 0.16, 0.001, 10));
-  EXPECT_FALSE(FindTopAfterStance(s, 0.168, 0.001, 95));  // too little is left
-  const auto top = FindTopAfterStance(s, 0.168, 0.001, 10);
+  EXPECT_FALSE(FindTopAfterStance(s, true, 0.16, 0.001, 10));
+  EXPECT_FALSE(FindTopAfterStance(s, true, 0.168, 0.001, 95));  // too little is left
+  const auto top = FindTopAfterStance(s, true, 0.168, 0.001, 10);
   ASSERT_TRUE(top);
   EXPECT_EQ(*top, 16U);
 }
@@ -282,10 +304,11 @@ TEST(FindTopAfterStance, SeesAStanceByItsDepthWhereTheRecordBeginsAtItsStart) {
     s.y.push_back(0.15 - 0.02 * std::sin(0.1 * i));  // 5 mm below, 25 mm later
     s.row.push_back(static_cast<std::size_t>(i));
   }
-  const auto top = FindTopAfterStance(s, 0.155, 0.001, 10);
+  const auto top = FindTopAfterStance(s, true, 0.155, 0.001, 10);
   ASSERT_TRUE(top);
   EXPECT_EQ(*top, 47U);
-  EXPECT_FALSE(FindTopAfterStance(s, 0.152, 0.001, 10));  // 2 mm: it may be landing
+  EXPECT_FALSE(FindTopAfterStance(s, true, 0.152, 0.001, 10));  // 2 mm: it may be landing
+  EXPECT_TRUE(FindTopAfterStance(s, false, 0.152, 0.001, 10));  // no start in flight is stated
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numbers>
+
 #include "datasets/read_dataset.h"
 #include "fitting/check.h"
 
@@ -30,6 +33,27 @@ TEST(LegStarts, AClockThatIsStatedOnItsOtherPieceIsTold) {
   const std::vector<std::string> warnings = DataWarnings(walk, MakeProblem(walk, {}));
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find(said[0]), std::string::npos);
+}
+
+// An encoder that counts turns since it was switched on.
+TEST(LegTurns, ColumnsThatAreWholeTurnsOffAreTold) {
+  for (const char* name : {"robot-walk", "robot-drops"}) {
+    Dataset robot = ReadDataset(std::string(HOPLAB_SOURCE_DIR) + "/datasets/" + name);
+    EXPECT_TRUE(LegTurns(MakeProblem(robot, {})).empty()) << name;
+    for (Trial& trial : robot.trials)
+      for (TraceColumn& column : trial.trace.columns)
+        if (column.name == ChannelName(Channel::kLegAngle2))
+          for (double& value : column.values) value -= 4.0 * std::numbers::pi;
+    const FitProblem problem = MakeProblem(robot, {});
+    const std::vector<std::string> said = LegTurns(problem);
+    ASSERT_EQ(said.size(), 1U) << name;
+    EXPECT_EQ(said[0].find("leg_angle_2_rad begins 2 turns below its motor's angle"), 0U);
+    EXPECT_NE(said[0].find("take -12.566371 rad from that column"), std::string::npos) << said[0];
+    const std::vector<std::string> warnings = DataWarnings(robot, problem);
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+      return warning.find(said[0]) != std::string::npos;
+    }));
+  }
 }
 
 TEST(LegStarts, NothingIsSaidOfTheSamePieceNorWithoutAClockNorOfSomeTrials) {

@@ -15,11 +15,12 @@ using namespace testing;
 
 constexpr std::array kPlaceAndRates = {Channel::kBodyX, Channel::kBodyY, Channel::kBodyVy};
 
-std::array<EffectSetting, 1> LowPass(double tau) {
-  std::array effects = {EffectSetting::Null(*FindEffect("sensor_low_pass"))};
-  effects[0].values[0] = tau;
+std::array<EffectSetting, 1> FilterOf(const char* name, double time) {
+  std::array effects = {EffectSetting::Null(*FindEffect(name))};
+  effects[0].values[0] = time;
   return effects;
 }
+std::array<EffectSetting, 1> LowPass(double tau) { return FilterOf("sensor_low_pass", tau); }
 
 // A ball that falls, bounces once and rises, in rows of `step` seconds.
 struct OneBounce {
@@ -103,6 +104,94 @@ TEST(PoseFilter, ItsDerivativeByTauIsThatOfTheClosedForm) {
     largest = std::max(largest, std::abs(expected));
   }
   EXPECT_GT(largest, 1.0);
+}
+
+// M117 of a bounce: what filters make of a parabola and of its corner, in closed form. A corner of
+// which the rate jumps by J from t = 0 on comes out as J R(t).
+struct LateFilter {
+  const char* name;
+  double time;
+  double lag, curve;  // of y'(t) and of y''(t), what is added
+  double (*ramp)(double t, double time);
+};
+double RampOfOnePass(double t, double time) {
+  const double v = t / (std::sqrt(2.0) * time);
+  return t > 0.0 ? t - std::sqrt(2.0) * time * (1.0 - std::exp(-v) * std::cos(v)) : 0.0;
+}
+double RampOfFirstOrder(double t, double time) {
+  return t > 0.0 ? t - time * (1.0 - std::exp(-t / time)) : 0.0;
+}
+double RampOfAverage(double t, double width) {
+  if (std::abs(t) >= 0.5 * width) return std::max(t, 0.0);
+  return (t + 0.5 * width) * (t + 0.5 * width) / (2.0 * width);
+}
+constexpr LateFilter kLate[] = {
+    {"sensor_causal_low_pass", 0.008, -0.008 * 1.4142135623730951, 0.008 * 0.008, &RampOfOnePass},
+    {"sensor_exponential_filter", 0.008, -0.008, 0.008 * 0.008, &RampOfFirstOrder},
+    {"sensor_moving_average", 0.03, 0.0, 0.03 * 0.03 / 24.0, &RampOfAverage},
+};
+
+TEST(PoseFilter, OtherShapesOfABounceInClosedForm) {
+  for (const LateFilter& filter : kLate) {
+    OneBounce bounce(0.0002);
+    const Trajectory sharp = Simulate(bounce.q);
+    const Event& hit = sharp.events.front();
+    const double jump = hit.vy_after - hit.vy, vx_jump = hit.vx_after - hit.vx;
+    const auto effects = FilterOf(filter.name, filter.time);
+    const std::array directions = {SensitivityDirection::EffectParameter(0, 0)};
+    bounce.q.effects = effects;
+    bounce.q.directions = directions;
+    const Trajectory run = Simulate(bounce.q);
+    ASSERT_EQ(vx_jump, 0.0);
+    const double h = 1e-6, g = bounce.q.parameters.g;
+    // The path before the bounce, which the filter sees go on, and the corner's part.
+    const auto expected = [&](double t, double time) {
+      const double part = time / filter.time, lag = part * filter.lag,
+                   curve = part * part * filter.curve;
+      const double y = 0.5 - 0.5 * g * t * t + lag * -g * t + curve * -g;
+      return y + jump * filter.ramp(t - hit.time, time);
+    };
+    double most = 0.0;
+    for (std::size_t row = 0; row < bounce.rows.size(); ++row) {
+      const double t = bounce.rows[row];
+      EXPECT_NEAR(run.samples[3 * row + 1], expected(t, filter.time), 3e-6) << filter.name << t;
+      EXPECT_NEAR(run.samples[3 * row], 0.6 * (t + filter.lag), 1e-6) << filter.name << t;
+      const double slope = (expected(t, filter.time + h) - expected(t, filter.time - h)) / (2 * h);
+      EXPECT_NEAR(run.sensitivities[3 * row + 1], slope, 3e-3) << filter.name << t;
+      most = std::max(most, std::abs(slope));
+    }
+    EXPECT_GT(most, 0.4) << filter.name;
+  }
+}
+
+// Two in turn: filters may change places.
+TEST(PoseFilter, TwoActInTurn) {
+  OneBounce bounce(0.001);
+  std::array effects = {EffectSetting::Null(*FindEffect("sensor_low_pass")),
+                        EffectSetting::Null(*FindEffect("sensor_exponential_filter"))};
+  effects[0].values[0] = 0.006;
+  effects[1].values[0] = 0.004;
+  const std::array directions = {SensitivityDirection::EffectParameter(0, 0),
+                                 SensitivityDirection::EffectParameter(1, 0)};
+  bounce.q.effects = effects;
+  bounce.q.directions = directions;
+  const Trajectory run = Simulate(bounce.q);
+  std::swap(effects[0], effects[1]);
+  const Trajectory turned = Simulate(bounce.q);
+  const std::array<EffectSetting, 1> one = {effects[0]};
+  bounce.q.effects = one;
+  bounce.q.directions = {};
+  const Trajectory alone = Simulate(bounce.q);
+  double apart = 0.0, moved = 0.0;
+  for (std::size_t row = 40; row + 40 < bounce.rows.size(); ++row) {
+    const std::size_t cell = 3 * row + 1;
+    apart = std::max(apart, std::abs(run.samples[cell] - turned.samples[cell]));
+    moved = std::max(moved, std::abs(run.samples[cell] - alone.samples[cell]));
+    for (const std::size_t k : {0, 1})
+      EXPECT_NEAR(run.sensitivities[2 * cell + k], turned.sensitivities[2 * cell + 1 - k], 2e-3);
+  }
+  EXPECT_LT(apart, 1e-6);
+  EXPECT_GT(moved, 1e-3);
 }
 
 // A channel with a clock of its own is read beyond the end of the run: rows that one of the

@@ -20,6 +20,8 @@ class Butterworth {
     a1_ = 2.0 * (k * k - 1.0) * norm;
     a2_ = (1.0 - std::numbers::sqrt2 * k + k * k) * norm;
   }
+  /// Forward alone, as the samples come in: what comes out is late.
+  std::vector<double> Forward(const std::vector<double>& column) const { return Once(column); }
   std::vector<double> ToAndFro(const std::vector<double>& column) const {
     const std::size_t n = column.size(), beyond = std::min<std::size_t>(n - 1, 200);
     std::vector<double> y;
@@ -50,15 +52,39 @@ class Butterworth {
   double b_, a1_, a2_;
 };
 
-/// The columns of a body's place and pitch through it, each trial by itself.
-inline Dataset Smoothed(Dataset dataset, double cut_off_Hz) {
+/// The columns of a body's place and pitch through `filter`(column, step), each trial by itself.
+template <class Filter>
+Dataset Filtered(Dataset dataset, const Filter& filter) {
   for (Trial& trial : dataset.trials) {
     const double step = trial.trace.time_s[1] - trial.trace.time_s[0];
     for (TraceColumn& column : trial.trace.columns)
-      if (column.name.starts_with("body_"))
-        column.values = Butterworth(cut_off_Hz * step).ToAndFro(column.values);
+      if (column.name.starts_with("body_")) column.values = filter(column.values, step);
   }
   return dataset;
+}
+inline Dataset Smoothed(const Dataset& dataset, double cut_off_Hz) {
+  return Filtered(dataset, [cut_off_Hz](const std::vector<double>& column, double step) {
+    return Butterworth(cut_off_Hz * step).ToAndFro(column);
+  });
+}
+/// As they are logged by a filter that runs with the machine.
+inline Dataset SmoothedLate(const Dataset& dataset, double cut_off_Hz) {
+  return Filtered(dataset, [cut_off_Hz](const std::vector<double>& column, double step) {
+    return Butterworth(cut_off_Hz * step).Forward(column);
+  });
+}
+/// Each sample the mean of `samples`, an odd number, about it; of fewer at the ends.
+inline Dataset Averaged(const Dataset& dataset, std::size_t samples) {
+  return Filtered(dataset, [samples](const std::vector<double>& column, double) {
+    std::vector<double> means;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      const std::size_t reach = std::min({samples / 2, i, column.size() - 1 - i});
+      double sum = 0.0;
+      for (std::size_t k = i - reach; k <= i + reach; ++k) sum += column[k];
+      means.push_back(sum / static_cast<double>(2 * reach + 1));
+    }
+    return means;
+  });
 }
 /// Its time constant (M105) [s].
 inline double FilterTime(double cut_off_Hz) { return 0.5 / (std::numbers::pi * cut_off_Hz); }
