@@ -163,7 +163,7 @@ std::optional<std::size_t> FindCatch(const Samples& s, double sigma, double grav
 
 std::optional<std::size_t> FindTopAfterStance(const Samples& heights, bool said, double lands_m,
                                               double doubt, std::size_t fewest) {
-  const double begins_below = said ? 0.003 + doubt : 0.0, deep = said ? 0.015 + doubt : 0.0;
+  const double begins_below = doubt + (said ? 0.003 : 0.001), deep = said ? 0.015 + doubt : 0.0;
   const std::vector<double>& y = heights.y;
   if (y.empty() || !(y.front() < lands_m - begins_below)) return std::nullopt;
   const auto up = std::find_if(y.begin(), y.end(), [&](double h) { return h > lands_m + doubt; });

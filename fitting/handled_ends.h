@@ -28,8 +28,8 @@ std::optional<std::size_t> FindCatch(const Samples& heights, double sigma, doubl
 
 /// The sample at the top of the first flight of a record that begins in a stance. Where it is said
 /// to begin in flight (`said`), its first sample lies 3 mm and `doubt` below `lands_m`, where the
-/// leg lands, and it or a later one 15 mm; else its first sample lies below that at all. It rises
-/// above that later, and what is left from there on is no less than `fewest` samples.
+/// leg lands, and it or a later one 15 mm; else its first sample lies 1 mm and `doubt` below. It
+/// rises above that later, and what is left from there on is no less than `fewest` samples.
 std::optional<std::size_t> FindTopAfterStance(const Samples& heights, bool said, double lands_m,
                                               double doubt, std::size_t fewest);
 

@@ -308,7 +308,8 @@ TEST(FindTopAfterStance, SeesAStanceByItsDepthWhereTheRecordBeginsAtItsStart) {
   ASSERT_TRUE(top);
   EXPECT_EQ(*top, 47U);
   EXPECT_FALSE(FindTopAfterStance(s, true, 0.152, 0.001, 10));  // 2 mm: it may be landing
-  EXPECT_TRUE(FindTopAfterStance(s, false, 0.152, 0.001, 10));  // no start in flight is stated
+  EXPECT_FALSE(FindTopAfterStance(s, false, 0.1515, 0.001, 10));
+  EXPECT_TRUE(FindTopAfterStance(s, false, 0.1525, 0.001, 10));  // no start in flight is stated
 }
 
 }  // namespace
