@@ -39,11 +39,12 @@ double StepOfMost(const std::vector<PlaceTrace>& traces) {
 
 // Rows that are not there become rows that say nothing.
 void FillGaps(PlaceTrace& trace, double step) {
-  constexpr double kGap = 1.5;
+  constexpr double kGap = 1.5, kLongest_s = 0.1;  // a longer one is in no window
   PlaceTrace even{.gravity = trace.gravity};
   for (std::size_t row = 0; row < trace.times.size(); ++row) {
     const double gap = row == 0 ? 0.0 : trace.times[row] - trace.times[row - 1];
-    const int missing = gap > kGap * step ? static_cast<int>(std::lround(gap / step)) - 1 : 0;
+    const bool is_filled = gap > kGap * step && gap < kLongest_s;
+    const int missing = is_filled ? static_cast<int>(std::lround(gap / step)) - 1 : 0;
     for (int k = 1; k <= missing; ++k) {
       even.times.push_back(trace.times[row - 1] + gap * k / (missing + 1));
       even.y.push_back(kNaN);

@@ -100,15 +100,21 @@ bool IsWindowLong(std::span<const SampledColumn> columns) {
   return *middle * (kNoiseWindow - 1) > kLongWindow;
 }
 
-// The smallest step from one sample to another: what it is written in, or an encoder counts.
+// What the values are written in, or an encoder counts: the smallest step from one to the next,
+// where many rest. 0: few do, and the motion hides it.
 double DigitOf(std::span<const SampledColumn> columns) {
+  constexpr double kManyRest = 0.2;
   double digit = std::numeric_limits<double>::infinity();
+  long rests = 0, steps = 0;
   for (const SampledColumn& column : columns)
     for (std::size_t i = 1; i < column.values.size(); ++i) {
       const double step = std::abs(column.values[i] - column.values[i - 1]);
+      steps += !std::isnan(step);
+      rests += step == 0.0;
       if (step > 0.0) digit = std::min(digit, step);
     }
-  return digit;
+  const bool many = static_cast<double>(rests) > kManyRest * static_cast<double>(steps);
+  return many && std::isfinite(digit) ? digit : 0.0;
 }
 
 double ByParabolas(std::span<const SampledColumn> columns) {
@@ -125,8 +131,8 @@ double ByParabolas(std::span<const SampledColumn> columns) {
 double EstimateNoise(std::span<const SampledColumn> columns) {
   const double noise = ByParabolas(columns), digit = DigitOf(columns);
   // What rests within one digit is known no better than that.
-  constexpr double kOfDigit = 0.288675;  // 1/sqrt(12)
-  return std::isfinite(digit) && noise < kOfDigit * digit ? kOfDigit * digit : noise;
+  constexpr double kOfDigit = 0.288675;                        // 1/sqrt(12)
+  return noise < kOfDigit * digit ? kOfDigit * digit : noise;  // NaN stays
 }
 
 }  // namespace hoplab

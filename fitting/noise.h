@@ -17,8 +17,8 @@ inline constexpr int kNoiseWindow = 12;
 /// out but those kApart_s from another.
 /// At a low rate, where such a window is longer than a flight, shorter ones are looked at, too, and
 /// count where they give less than half.
-/// No less than the digit's, the smallest step from one sample to the next over sqrt(12): a motor
-/// that rests shows one count of its encoder.
+/// Where many samples rest, no less than the digit's, the smallest step over sqrt(12): a motor that
+/// rests shows one count of its encoder.
 /// NaN when there are fewer than 3 windows of 8 samples.
 double EstimateNoise(std::span<const SampledColumn> columns);
 

@@ -124,6 +124,9 @@ LeftAtTops::Coordinate LookAt(std::span<const PlaceTrace> traces, const FlightTo
   std::vector<double> sorted = squares;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
+  // A coordinate that does not move has no noise.
+  constexpr double kNothing = 1e-12;  // m
+  if (!(*middle > kNothing * kNothing)) return seen;
   seen.square = MatrixXd::Zero(left.beside.cols(), left.beside.cols());
   for (std::size_t i = 0; i < windows.size(); ++i) {
     if (squares[i] > kLoudest * *middle) continue;

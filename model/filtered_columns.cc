@@ -138,17 +138,70 @@ void AddOneSide(const Rows& rows, const Decay& decay, bool forward, FilteredColu
   }
 }
 
-FilteredColumns Decaying(const Rows& rows, const Decay& decay) {
+// What a filter that looks back has of the past: the integrals of exp(-turn u) and u exp(-turn u)
+// times the path, straight from row to row.
+class Past {
+ public:
+  Past(const Decay& decay, Index columns)
+      : decay_(decay),
+        sum_(Eigen::ArrayXcd::Zero(columns)),
+        moment_(Eigen::ArrayXcd::Zero(columns)) {}
+  // On to the next row, `step` later.
+  template <class Values>
+  void GoOn(double step, const Values& from, const Values& to) {
+    const double h = step / decay_.unit;
+    const Complex z = decay_.turn * h, shrinks = std::exp(-z);
+    const Complex whole = (1.0 - shrinks) / z, first = (1.0 - shrinks * (1.0 + z)) / (z * z),
+                  second = (2.0 - shrinks * (z * z + 2.0 * z + 2.0)) / (z * z * z);
+    moment_ = shrinks * (moment_ + h * sum_) + step * h * (second * from + (first - second) * to);
+    sum_ = shrinks * sum_ + step * (first * from + (whole - first) * to);
+  }
+  Eigen::ArrayXd Weights() const { return decay_.Weights(sum_); }
+  Eigen::ArrayXd Slopes() const { return decay_.Slopes(moment_); }
+
+ private:
+  const Decay& decay_;
+  Eigen::ArrayXcd sum_, moment_;
+};
+
+FilteredColumns LookingBack(const Rows& rows, const Decay& decay) {
+  const Index columns = rows.values.rows();
+  FilteredColumns out{ArrayXXd(columns, rows.count()), ArrayXXd(columns, rows.count())};
+  Past past(decay, columns);
+  const Path path(rows, true);
+  const auto before = [&](int steps) {
+    Eigen::ArrayXd value = Eigen::ArrayXd::Zero(columns);
+    path.At(rows.time(0) - steps * rows.step,
+            [&](double weight, Index row) { value += weight * rows.values.col(row); });
+    return value;
+  };
+  // Without a past it was what the first row is.
+  Eigen::ArrayXd last = rows.values.col(0);
+  const int far = static_cast<int>(std::ceil(kDecayed * decay.unit / rows.step));
+  if (rows.goes_on) last = before(far);
+  for (int k = far; k > 0; --k) {
+    const Eigen::ArrayXd next = rows.goes_on && k > 1 ? before(k - 1) : rows.values.col(0);
+    past.GoOn(rows.step, last, next);
+    last = next;
+  }
+  for (Index row = 0; row < rows.count(); ++row) {
+    const Eigen::ArrayXd next = rows.values.col(row);
+    if (row > 0) past.GoOn(rows.Before(row), last, next);
+    last = next;
+    out.sums.col(row) = past.Weights();
+    out.slopes.col(row) = past.Slopes();
+  }
+  return out;
+}
+
+FilteredColumns ToAndFro(const Rows& rows, const Decay& decay) {
   const Index columns = rows.values.rows();
   FilteredColumns out{ArrayXXd::Zero(columns, rows.count()), ArrayXXd::Zero(columns, rows.count())};
   AddOneSide(rows, decay, true, out);
-  const bool both = decay.shape == RecordFilter::kTwoPass;
-  if (both) AddOneSide(rows, decay, false, out);
-  // The row itself counts once in all, and on one side alone with what lies there.
-  const Eigen::ArrayXd one = decay.Weights(Eigen::ArrayXcd::Ones(1));
+  AddOneSide(rows, decay, false, out);
+  // The row itself counts once in all.
   for (Index row = 0; row < rows.count(); ++row)
-    out.sums.col(row) -=
-        one[0] * (rows.After(row) + (both ? rows.Before(row) : 0.0)) * rows.values.col(row);
+    out.sums.col(row) -= (rows.Before(row) + rows.After(row)) * rows.values.col(row);
   return out;
 }
 
@@ -243,7 +296,8 @@ FilteredColumns ThroughFilter(RecordFilter shape, double time, double step,
   HOPLAB_CHECK(static_cast<Index>(times.size()) == values.cols() && shape != RecordFilter::kNone);
   const Rows rows{times, values, step, goes_on};
   if (shape == RecordFilter::kMovingAverage) return Averaged(rows, time);
-  return Decaying(rows, Decay(shape, time));
+  const Decay decay(shape, time);
+  return shape == RecordFilter::kTwoPass ? ToAndFro(rows, decay) : LookingBack(rows, decay);
 }
 
 double ReachOf(RecordFilter shape, double time) {

@@ -25,6 +25,7 @@ double GridStep(std::span<const double> rows) {
 
 std::vector<double> ThroughFilter(const PoseFilter& filter, std::span<const double> times,
                                   std::span<const double> values) {
+  if (times.empty()) return {};
   Eigen::ArrayXXd columns = Eigen::ArrayXXd::Ones(2, static_cast<Index>(times.size()));
   std::copy(values.begin(), values.end(), columns.row(1).begin());
   const FilteredColumns out =

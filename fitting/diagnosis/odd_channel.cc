@@ -16,7 +16,9 @@ bool IsOfPose(Channel c) { return c <= Channel::kBodyVy || c == Channel::kBodyPi
 bool IsOther(const ChannelSpec& c) { return !IsOfPose(c.id) && !IsContact(c.id); }
 
 Dataset WithClockOf(Dataset dataset, std::size_t channel) {
-  const std::string name = std::string(NameOf(dataset.channels[channel].id)) + "_clock";
+  std::string name = std::string(NameOf(dataset.channels[channel].id)) + "_clock";
+  for (const ClockSpec& other : dataset.clocks)
+    if (other.name == name) name += "_2";
   dataset.channels[channel].clock = name;
   dataset.clocks.push_back({name, 0.0, kClockSigma});
   return dataset;
@@ -63,6 +65,7 @@ Diagnosis DiagnoseWithOddChannel(const Dataset& dataset, const DiagnosisOptions&
   for (std::size_t c = 0; c < dataset.channels.size(); ++c) {
     const ChannelSpec& channel = dataset.channels[c];
     if (!IsOther(channel) || !channel.clock.empty()) continue;
+    if (options.fit.IsStopped()) break;
     stage(channel.id, "'s clock is right");
     Diagnosis d = diagnose(WithClockOf(dataset, c), look);
     if (!IsAdequate(d)) continue;
@@ -74,6 +77,7 @@ Diagnosis DiagnoseWithOddChannel(const Dataset& dataset, const DiagnosisOptions&
   for (std::size_t c = 0; c < dataset.channels.size(); ++c) {
     const ChannelSpec& channel = dataset.channels[c];
     if (!IsOther(channel)) continue;
+    if (options.fit.IsStopped()) break;
     stage(channel.id, " is right");
     Diagnosis without = diagnose(WithoutChannel(dataset, c), look);
     if (!IsAdequate(without)) continue;
@@ -89,6 +93,10 @@ Diagnosis DiagnoseWithOddChannel(const Dataset& dataset, const DiagnosisOptions&
                             " was left out: neither another clock nor any one cause makes it agree "
                             "with the others; its gain, its zero or a filter may be wrong");
     return without;
+  }
+  if (options.fit.IsStopped()) {
+    seen.interrupted = true;
+    return seen;
   }
   return diagnose(dataset, options);
 }

@@ -172,6 +172,19 @@ TEST(FilteredNoise, IsFoundWhereRowsAreMissing) {
   }
 }
 
+// A recorder that was left on for a day between two hops.
+TEST(FlightTops, ALongGapIsNotFilled) {
+  PlaceTrace trace{.gravity = 9.81};
+  for (int i = 0; i < 400; ++i) {
+    trace.times.push_back(0.005 * i + (i < 200 ? 0.0 : 86400.0) + (i < 100 ? 0.0 : 0.005));
+    trace.y.push_back(0.2 + 0.01 * i);
+  }
+  std::vector<PlaceTrace> traces = {trace};
+  FindFlightTops(traces);
+  EXPECT_EQ(traces[0].y.size(), 401U);  // the row that is missing
+  EXPECT_EQ(traces[0].times.size(), traces[0].y.size());
+}
+
 // A diagnosis counts it as white noise of the strength it had; noise that is stated so is kept.
 TEST(FilteredNoise, CountsByWhatItWas) {
   const double white = 0.8e-3, cut_off = 15.0;

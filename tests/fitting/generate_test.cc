@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/nan.h"
+#include "base/random.h"
 #include "fitting/noise.h"
 #include "tests/support/hop_scenarios.h"
 #include "tests/support/input_error_of.h"
@@ -136,6 +137,11 @@ TEST(EstimateNoise, IsNoLessThanADigits) {
   }
   const SampledColumn column{times, angles};
   EXPECT_NEAR(EstimateNoise({&column, 1}), kCount / std::sqrt(12.0), 1e-6);
+  // What moves on by more than its noise from sample to sample has no such digit.
+  RandomStream random(3, 1);
+  for (int i = 0; i < 400; ++i)
+    angles[static_cast<std::size_t>(i)] = 0.01 * i + 1e-4 * random.Normal();
+  EXPECT_NEAR(EstimateNoise({&column, 1}), 1e-4, 2e-5);
 }
 
 TEST(EstimateNoise, StancesInTheWindowsOfALowRateDoNotRaiseIt) {

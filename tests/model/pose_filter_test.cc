@@ -164,6 +164,26 @@ TEST(PoseFilter, OtherShapesOfABounceInClosedForm) {
   }
 }
 
+// However short their times against the rows' distance, what is late is late by the right time.
+TEST(PoseFilter, AShortLagIsRight) {
+  for (const double share : {0.1, 0.3, 0.7, 1.5}) {
+    OneBounce bounce(0.004);
+    const double time = share * 0.004, vx = 0.6;
+    for (const LateFilter& filter : {kLate[0], kLate[1]}) {
+      const auto effects = FilterOf(filter.name, time);
+      const std::array directions = {SensitivityDirection::EffectParameter(0, 0)};
+      bounce.q.effects = effects;
+      bounce.q.directions = directions;
+      const Trajectory run = Simulate(bounce.q);
+      const double lag = filter.lag / filter.time;
+      for (std::size_t row = 0; row < bounce.rows.size(); ++row) {
+        EXPECT_NEAR(run.samples[3 * row], vx * (bounce.rows[row] + lag * time), 1e-9) << share;
+        EXPECT_NEAR(run.sensitivities[3 * row], vx * lag, 1e-6) << share;
+      }
+    }
+  }
+}
+
 // Two in turn: filters may change places.
 TEST(PoseFilter, TwoActInTurn) {
   OneBounce bounce(0.001);
