@@ -209,14 +209,15 @@ FilteredColumns ToAndFro(const Rows& rows, const Decay& decay) {
 class Integral {
  public:
   Integral(const Rows& rows, double reach) {
-    const int beyond = static_cast<int>(std::ceil(reach / rows.step)) + 2;
+    const auto beyond = static_cast<Index>(std::ceil(reach / rows.step)) + 2;
     const Index n = rows.count(), all = n + 2 * beyond;
     times_.resize(static_cast<std::size_t>(all));
     values_ = ArrayXXd::Zero(rows.values.rows(), all);
-    for (int k = 1; k <= beyond; ++k) {
+    for (Index k = 1; k <= beyond; ++k) {
+      const double away = static_cast<double>(k) * rows.step;
       for (const bool first : {true, false}) {
         const Index to = first ? beyond - k : beyond + n - 1 + k;
-        const double t = first ? rows.time(0) - k * rows.step : rows.time(n - 1) + k * rows.step;
+        const double t = first ? rows.time(0) - away : rows.time(n - 1) + away;
         times_[static_cast<std::size_t>(to)] = t;
         if (!rows.goes_on) continue;
         Path(rows, first).At(t, [&](double weight, Index row) {
