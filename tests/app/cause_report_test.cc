@@ -153,5 +153,34 @@ TEST(DiagnosisReport, AFitThatIsNoMinimumHasNotPassed) {
   EXPECT_EQ(label_of("fit"), "passed  ");
 }
 
+// What is there when a search is stopped: the causes that explain most alone, three at most.
+TEST(DiagnosisReport, ASearchThatIsStoppedTellsWhatItHas) {
+  DiagnosisRun run;
+  Diagnosis& d = run.diagnosis;
+  d.interrupted = true;
+  const auto report = [&] { return DiagnosisReport(Dataset(), run, true, false); };
+  EXPECT_EQ(report().find("so far"), std::string::npos);
+  const auto add = [&](const char* effect, double value, double gain, bool came_to_rest) {
+    CandidateResult c;
+    c.candidate = {FindEffect(effect), ""};
+    c.gain = gain;
+    c.alone.shared = Eigen::VectorXd::Constant(1, value);
+    c.alone.problem.shared.push_back({.name = effect, .unit = "s"});
+    c.alone.status = came_to_rest ? SolveStatus::kConverged : SolveStatus::kFailed;
+    c.alone.complete = came_to_rest;
+    d.naming.candidates.push_back(c);
+  };
+  add("sensor_delay", 0.004, 12.0, true);
+  add("torque_lag", 0.002, 200.0, true);
+  add("air_drag", 0.001, 900.0, false);
+  add("wind", 0.001, -1.0, true);
+  const std::string text = Unbroken(report());
+  EXPECT_NE(text.find("torque_lag 2.0 ms (200 nats), sensor_delay 4.0 ms (12 nats)"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("air_drag"), std::string::npos);
+  EXPECT_EQ(text.find("wind"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hoplab

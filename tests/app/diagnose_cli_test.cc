@@ -63,6 +63,7 @@ TEST_F(DiagnoseCli, SaysWhyACauseWithAThresholdWasNotTried) {
   const auto diagnosis = nlohmann::json::parse(ReadText(temp_.path() / "run/run.json"));
   EXPECT_EQ(diagnosis.at("refits"), 0);
   EXPECT_EQ(diagnosis.at("left_share"), 1.0);
+  EXPECT_TRUE(diagnosis.at("odd_channel").is_null());
 }
 
 // What changes nothing while it is small has no slope to follow: it is sought from several sizes.

@@ -52,6 +52,21 @@ class VerdictSentenceTest : public ::testing::Test {
   Diagnosis d_;
 };
 
+TEST_F(VerdictSentenceTest, TellsAChannelThatIsLateOrLeftOut) {
+  d_.extension.reset();
+  d_.detection.p_value = 0.4;
+  d_.verdict = Verdict::kAdequate;
+  d_.odd_channel = OddChannel{Channel::kLegAngle};
+  EXPECT_EQ(VerdictSentence(d_),
+            "leg_angle disagrees with the other channels, in which nothing is missing (p = 0.40).");
+  d_.odd_channel->offset_s = -8e-3;
+  EXPECT_EQ(VerdictSentence(d_),
+            "Nothing is missing but that leg_angle is 8.0 ms late (p = 0.40).");
+  d_.odd_channel->offset_s = 8e-3;
+  EXPECT_EQ(VerdictSentence(d_),
+            "Nothing is missing but that leg_angle is 8.0 ms early (p = 0.40).");
+}
+
 TEST_F(VerdictSentenceTest, NamesTheCauseAndWhatItTakesTheErrorTo) {
   Accept({Add("air_drag")});
   d_.verdict = Verdict::kNamed;
