@@ -17,15 +17,10 @@ NoiseShape ShapeOf(std::vector<PlaceTrace> traces) {
   return FindNoiseShape(traces, tops);
 }
 
-// Noise may be alike in neighbours as after a filter of first order without one.
-bool IsOfFilter(const NoiseShape& noise) {
-  return noise.filter != RecordFilter::kNone && noise.filter != RecordFilter::kFirstOrder;
-}
-
 // NaN where the filter's noise does not say it.
 double LoggedSigma(const NoiseShape& noise, Channel channel) {
   const bool along = channel == Channel::kBodyX;
-  if (!IsOfFilter(noise) || !(along || channel == Channel::kBodyY)) return kNaN;
+  if (!IsSurelyOfFilter(noise.filter) || !(along || channel == Channel::kBodyY)) return kNaN;
   // Of a filter so slow flights are not long enough: what it makes of stances reaches their tops.
   constexpr double kSlowest_s = 0.02;
   if (noise.filter != RecordFilter::kMovingAverage && noise.time > kSlowest_s) return kNaN;
@@ -75,7 +70,7 @@ double NoiseInTraces(const Dataset& dataset, Channel channel, const NoiseShape& 
 
 std::optional<FilteredNoise> FindFilteredNoise(const FitProblem& problem) {
   FilteredNoise noise{NoiseShapeOf(problem), {}};
-  if (!IsOfFilter(noise.shape)) return std::nullopt;
+  if (!IsSurelyOfFilter(noise.shape.filter)) return std::nullopt;
   for (const ChannelProblem& channel : problem.channels)
     noise.sigma.push_back(LoggedSigma(noise.shape, channel.channel));
   return noise;

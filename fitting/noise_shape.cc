@@ -249,7 +249,7 @@ class TimeSearch {
 
 // A filter lets no noise of the sensor through as it was: what is white comes of rounding. Else it
 // is white noise beside a motion that is no parabola.
-bool IsOfFilter(const NoiseShape& noise, const LeftAtTops& left) {
+bool HasNoWhiteNoise(const NoiseShape& noise, const LeftAtTops& left) {
   const double most = noise.filter == RecordFilter::kMovingAverage ? kMostWhiteOfMean : kMostWhite;
   for (std::size_t k = 0; k < left.of.size(); ++k) {
     if (left.of[k].windows == 0) continue;
@@ -324,7 +324,7 @@ NoiseShape FindNoiseShape(std::span<const PlaceTrace> traces, const FlightTops& 
     if (found.better_by > std::max(best.better_by, without_filter + kSurelyBetter)) best = found;
   }
   best.better_by -= plain.log;
-  const bool as_is = best.filter == RecordFilter::kFirstOrder || IsOfFilter(best, left);
+  const bool as_is = best.filter == RecordFilter::kFirstOrder || HasNoWhiteNoise(best, left);
   return as_is && best.strength > kLeastStrength ? best : white;
 }
 

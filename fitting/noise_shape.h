@@ -18,6 +18,11 @@ struct NoiseShape {
   std::vector<double> sigma = {};  // of x and of y as they were logged [m]; NaN: not told
 };
 
+/// Noise may be alike in neighbours as after a filter of first order without one.
+inline bool IsSurelyOfFilter(RecordFilter filter) {
+  return filter != RecordFilter::kNone && filter != RecordFilter::kFirstOrder;
+}
+
 /// The filter whose noise is likeliest, M118, from what parabolas leave at the tops of six flights
 /// or more. White where no filter is likelier by kSurelyBetter.
 NoiseShape FindNoiseShape(std::span<const PlaceTrace> traces, const FlightTops& tops);

@@ -10,9 +10,6 @@
 namespace hoplab {
 namespace {
 
-// Noise may be alike in neighbours as after a filter of first order without one.
-bool IsSurelyOfFilter(RecordFilter filter) { return filter != RecordFilter::kFirstOrder; }
-
 bool NeighboursAreAlike(const FitProblem& problem) {
   std::vector<double> smoothness;
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
@@ -46,6 +43,15 @@ Told ToldOf(RecordFilter filter) {
   }
 }
 
+std::vector<Channel> ChannelsThrough(const std::vector<RecordFilter>& seen,
+                                     const FitProblem& problem) {
+  std::vector<Channel> channels;
+  if (seen.empty() || !IsSurelyOfFilter(seen.front())) return channels;
+  for (const ChannelProblem& channel : problem.channels)
+    if (IsFiltered(channel.channel)) channels.push_back(channel.channel);
+  return channels;
+}
+
 }  // namespace
 
 std::vector<RecordFilter> FiltersSeen(const FitProblem& problem) {
@@ -56,19 +62,15 @@ std::vector<RecordFilter> FiltersSeen(const FitProblem& problem) {
 }
 
 std::vector<Channel> SmoothedChannels(const FitProblem& problem) {
-  std::vector<Channel> smoothed;
-  const std::vector<RecordFilter> seen = FiltersSeen(problem);
-  if (seen.empty() || !IsSurelyOfFilter(seen.front())) return smoothed;
-  for (const ChannelProblem& channel : problem.channels)
-    if (IsFiltered(channel.channel)) smoothed.push_back(channel.channel);
-  return smoothed;
+  return ChannelsThrough(FiltersSeen(problem), problem);
 }
 
 std::vector<std::string> SmoothedTraces(const FitProblem& problem) {
+  const std::vector<RecordFilter> seen = FiltersSeen(problem);
   std::vector<std::string> names;
-  for (const Channel c : SmoothedChannels(problem)) names.push_back(ChannelName(c));
+  for (const Channel c : ChannelsThrough(seen, problem)) names.push_back(ChannelName(c));
   if (names.empty()) return {};
-  const Told told = ToldOf(FiltersSeen(problem).front());
+  const Told told = ToldOf(seen.front());
   return {Join(names) + ": " + told.sees +
           ". What it took from the motion, a simulation must lack, too: export the traces as they "
           "were recorded, or fit the filter (--with " +
