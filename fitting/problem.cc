@@ -45,6 +45,10 @@ class Builder {
     }
     ChooseModuli(options_, problem_);
     AddSharedParameters(dataset_, options_, problem_);
+    if (const std::vector<std::string> stand = AddStandingFeet(problem_); !stand.empty())
+      problem_.notes.push_back(
+          "begins with a foot on the ground: " + Join(stand) +
+          "; where the foot stands is fitted (foot_ahead_1, ...), near straight below the leg");
     return std::move(problem_);
   }
 

@@ -1,11 +1,22 @@
 #include "fitting/robot_problem.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "fitting/driven_trial.h"
 #include "fitting/trial_start.h"
+#include "model/simulate.h"
 
 namespace hoplab {
 namespace {
+
+// How far the foot of a loaded leg leans, in halves of a leg: the deflection of legs that walk is
+// 4 to 12 % of their height.
+constexpr double kLean = 0.1;
+// How far a loaded motor is off its reference [rad].
+constexpr double kTurned = 0.1;
+constexpr double kNoTime_s = 1e-9;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Sizes of a change of pitch and its rate that matter where no prior tells one: [rad], [rad/s].
 constexpr double kPitchScale = 0.05, kPitchRateScale = 0.5;
@@ -25,6 +36,30 @@ void AddStart(const char* name, int place, double scale, double value,
   t.start.conservativeResize(place + 1);
   t.start[place] = value;
   t.own.push_back(own);
+}
+
+// The feet that the ground carries where the trial begins, at the nominal values.
+std::vector<bool> StandingFeet(const FitProblem& problem, const TrialProblem& trial) {
+  TrialRequest nominal;
+  FillTrialRequest(problem, trial, InitialShared(problem), trial.start, nominal);
+  nominal.request.integrator = problem.integrator;
+  nominal.request.horizon = kNoTime_s;
+  std::vector<bool> stands;
+  for (const Foot& foot : Simulate(nominal.request).final_feet)
+    stands.push_back(foot.stance != Foot::Stance::kFlight);
+  return stands;
+}
+
+// The leg's foot or motor at the start, M119; `place` among those after the pitch and its rate.
+void AddLean(const char* name, int leg, int place, double size, bool free, TrialProblem& t) {
+  const int own = t.own_count();
+  t.start.conservativeResize(own + 1);
+  t.start[own] = 0.0;
+  t.own.push_back({.name = name + std::to_string(leg + 1),
+                   .direction = SensitivityDirection::InitialState(6 + place),
+                   .scale = size,
+                   .prior_sigma = free ? size : kInfinity,
+                   .free = free});
 }
 
 }  // namespace
@@ -71,6 +106,27 @@ void AddPitch(const Trial& trial, TrialProblem& t) {
   AddStart("pitch0", 4, kPitchScale, state.pitch_rad.value_or(0.0), known.pitch_rad, t);
   AddStart("pitch_rate0", 5, kPitchRateScale, state.pitch_rate_rad_per_s.value_or(0.0),
            known.pitch_rate_rad_per_s, t);
+}
+
+std::vector<std::string> AddStandingFeet(FitProblem& problem) {
+  std::vector<std::string> files;
+  if (problem.robot_legs().count == 0) return files;
+  for (TrialProblem& t : problem.trials) {
+    const std::vector<bool> stands = StandingFeet(problem, t);
+    if (std::find(stands.begin(), stands.end(), true) == stands.end()) continue;
+    files.push_back(t.file);
+    const int legs = static_cast<int>(stands.size());
+    const double lean =
+        kLean * (problem.robot_legs().straight ? 0.5 * t.parameters.l0 : t.parameters.r);
+    for (int leg = 0; leg < legs; ++leg)
+      AddLean("foot_ahead_", leg, leg, lean, stands[static_cast<std::size_t>(leg)], t);
+    const bool turns = t.parameters.robot->control != MotorControl::kLocked &&
+                       !t.parameters.robot->starts_at_angles;
+    for (int leg = 0; leg < legs; ++leg)
+      AddLean("motor_ahead_", leg, legs + leg, kTurned, turns && stands[static_cast<std::size_t>(leg)],
+              t);
+  }
+  return files;
 }
 
 }  // namespace hoplab

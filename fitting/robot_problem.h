@@ -24,4 +24,8 @@ std::vector<std::string> FreeNames(const FitProblem& problem);
 /// Appends pitch and pitch rate at the first row to a trial's own values.
 void AddPitch(const Trial& trial, TrialProblem& t);
 
+/// Where a trial begins with feet on the ground at the nominal values, appends how far each of them
+/// is ahead (M119) to its own values: no start tells how far a leg leans. The trials, by file.
+std::vector<std::string> AddStandingFeet(FitProblem& problem);
+
 }  // namespace hoplab

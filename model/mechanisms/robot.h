@@ -252,6 +252,7 @@ class Robot final : public HybridSystem<T> {
   bool foot_has_inertia_;     // and feet that may slide
   bool creeps_;               // feet that hold do, under a force along (M29)
   bool drifts_;               // the stiffness of all legs, with time
+  mutable std::array<T, kMaxLegs> ahead_{};  // how far a foot stands ahead at the start, M119 [m]
   double size_;               // of the legs, half of one unloaded [m]
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;

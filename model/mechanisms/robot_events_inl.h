@@ -46,6 +46,7 @@ void Robot<T>::BeginOnFoot(int i, T* z) {
   const double depth = Value(Reach(hip.angle)) - Value(z[kY] + hip.y);
   if (!(depth > kAtZero * size_) || depth > robot_detail::kDeepest * size_) return;
   Land(i, T(0.0), z, /*comes_down=*/false);
+  z[Contact(i)] += ahead_[i];
   leg.slides = 0.0;
   const double mu = Value(robot_.friction);
   ClampedLoad<T> load = leg.law.At(FootOf(leg), PlaceOf(leg, i, hip, z), false);

@@ -88,10 +88,13 @@ T Robot<T>::ToldRate(int leg, const T* z, const T* dz) const {
 // fast as its hip.
 template <class T>
 void Robot<T>::CompleteStart(T* z, int given) const {
-  const bool own = given > 6, clock = robot_.control == MotorControl::kClock;
+  const bool leans = given == Contact(0);  // M119
+  const bool own = given > 6 && !leans, clock = robot_.control == MotorControl::kClock;
   const bool recorded = robot_.control == MotorControl::kRecorded;
   for (int i = 0; i < legs_; ++i) {
     const Leg& leg = leg_[i];
+    ahead_[i] = leans ? z[Angle(i)] : T(0.0);
+    const T turned = leans ? z[Rate(i)] : T(0.0);
     if (!own) {
       z[Angle(i)] = robot_.angle[i];
       z[Rate(i)] = recorded ? robot_.rate[i] : T(0.0);
@@ -105,6 +108,7 @@ void Robot<T>::CompleteStart(T* z, int given) const {
         z[Rate(i)] = to.rate;
       }
       z[Angle(i)] += robot_.leg_zero[i];
+      z[Angle(i)] += turned;
     }
     if (leg.geared() && given <= Twist(leg)) z[RotorRate(leg)] = z[Rate(i)];
   }

@@ -104,12 +104,14 @@ double Norm(const std::vector<double>& v, std::size_t begin, std::size_t end) {
 }  // namespace
 
 std::string NameOf(const SimulationRequest& q, const SensitivityDirection& d) {
-  static constexpr const char* kStates[] = {"x", "y", "vx", "vy", "state 4", "state 5"};
+  static constexpr const char* kStates[] = {"x", "y", "vx", "vy"};
   switch (d.of) {
     case Of::kParameter:
       return std::string(InfoOf(d.parameter).name);
     case Of::kInitialState:
-      return std::string(kStates[d.index]) + "(0)";
+      return (d.index < static_cast<int>(std::size(kStates)) ? std::string(kStates[d.index])
+                                                              : "state " + std::to_string(d.index)) +
+             "(0)";
     case Of::kEffect:
       return std::string(q.effects[d.index].effect->info.name) + "." +
              std::string(q.effects[d.index].effect->info.parameters[d.component].name);
