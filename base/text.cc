@@ -119,6 +119,11 @@ std::string Join(const std::vector<std::string>& words, std::string_view separat
   return out;
 }
 
+std::string Listed(const std::vector<std::string>& words) {
+  if (words.size() < 2) return Join(words);
+  return Join({words.begin(), words.end() - 1}) + " and " + words.back();
+}
+
 std::size_t EditDistance(std::string_view a, std::string_view b) {
   // Three rows of the usual table: the swap of neighbours looks two rows back.
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);

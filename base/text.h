@@ -28,6 +28,8 @@ std::string Printable(std::string_view text, std::size_t max_length = 60);
 
 /// "a, b, c".
 std::string Join(const std::vector<std::string>& words, std::string_view separator = ", ");
+/// "a, b and c".
+std::string Listed(const std::vector<std::string>& words);
 
 /// The number of insertions, deletions, replacements and swaps of neighbours that turn `a` into
 /// `b`; letters of other case cost nothing.

@@ -191,6 +191,10 @@ class Builder {
 
 }  // namespace
 
+bool Holds(const Recordings& of, const std::string& recording) {
+  return of.empty() || std::find(of.begin(), of.end(), recording) != of.end();
+}
+
 LegMass FitProblem::leg_mass() const {
   const bool any = std::any_of(trials.begin(), trials.end(),
                                [](const TrialProblem& t) { return t.parameters.m_toe > 0.0; });

@@ -15,6 +15,11 @@
 
 namespace hoplab {
 
+/// Recordings, by their files; none stands for all.
+using Recordings = std::vector<std::string>;
+/// Whether what acts in `of` acts in this one.
+bool Holds(const Recordings& of, const std::string& recording);
+
 /// A physical quantity all trials share and the fit may move: a parameter of the mechanism or one
 /// of an effect. Values in its own unit; the optimiser works with value/scale.
 struct SharedParameter {
@@ -24,9 +29,9 @@ struct SharedParameter {
   double lower, upper;  // physical bounds, closed
   double initial;       // nominal value
   double scale;         // one typical size of it, > 0
-  /// The one recording (TrialProblem::recording) in which it acts; empty: in all. Elsewhere an
-  /// effect's parameter stays at its null.
-  std::string only_recording = {};
+  /// The recordings (TrialProblem::recording) in which it acts; empty: all. Elsewhere an effect's
+  /// parameter stays at its null.
+  Recordings only_recordings = {};
   /// Small sizes change nothing (EffectInfo::has_threshold).
   bool has_threshold = false;
   /// It stays where it is; only deviations of it are fitted (fitting/deviation.h).

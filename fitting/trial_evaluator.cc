@@ -96,8 +96,7 @@ SensitivityDirection DirectionIn(const TrialProblem& trial, const SharedParamete
 }  // namespace
 
 bool ActsIn(const SharedParameter& parameter, const TrialProblem& trial) {
-  if (!parameter.only_recording.empty() && parameter.only_recording != trial.recording)
-    return false;
+  if (!Holds(parameter.only_recordings, trial.recording)) return false;
   return parameter.direction.of != SensitivityDirection::Of::kInput ||
          InputPlace(trial, parameter.direction) >= 0;
 }

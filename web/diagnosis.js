@@ -3,14 +3,17 @@
 const statusKinds = {supported: 'one', indistinguishable: 'three', excluded: 'two', not_needed: 'two', not_tested: 'soft'};
 const statusSymbols = {supported: 'circle', indistinguishable: 'diamond', excluded: 'x-thin-open', not_needed: 'line-ew-open', not_tested: 'circle-open'};
 
-const causeText = (c) => (c.each_trial ? `${c.effect} of each trial's own size` : c.only_in_trial ? `${c.effect} (${c.only_in_trial} only)` : c.effect);
+// A run of an older program knows one trial or all.
+const trialsOf = (c) => c.only_in_trials ?? (c.only_in_trial ? [c.only_in_trial] : []);
+const whereText = (c) => (trialsOf(c).length ? `${c.effect} (${trialsOf(c).join(', ')} only)` : c.effect);
+const causeText = (c) => (c.each_trial ? `${c.effect} of each trial's own size` : whereText(c));
 
 // Sizes of a candidate's parameters, from the table of candidates: [{parameter, unit, typical, ...}].
 function sizesOf(candidate) {
   const t = table('candidates');
   if (!t) return [];
-  return t.where({effect: candidate.effect}).filter((row) => t.column('only_in_trial')[row] === (candidate.only_in_trial ?? '')
-    || (!candidate.only_in_trial && !t.values('only_in_trial').some((v) => typeof v === 'string' && v))).map((row) => Object.fromEntries(t.names.map((name) => [name, t.column(name)[row]])));
+  return t.where({effect: candidate.effect}).filter((row) => t.column('only_in_trial')[row] === trialsOf(candidate).join('+')
+    || (!trialsOf(candidate).length && !t.values('only_in_trial').some((v) => typeof v === 'string' && v))).map((row) => Object.fromEntries(t.names.map((name) => [name, t.column(name)[row]])));
 }
 
 function sizeText(candidate) {
@@ -226,7 +229,7 @@ function groupPart() {
   const search = run.experiment_search;
   if (!groups.length && !search) return undefined;
   return section('What cannot be told apart',
-    ...groups.map((group) => dataTable(['cause', 'behind the best by [nats]', 'with'], group.map((m) => [m.only_in_trial ? `${m.effect} (${m.only_in_trial} only)` : m.effect,
+    ...groups.map((group) => dataTable(['cause', 'behind the best by [nats]', 'with'], group.map((m) => [whereText(m),
       significant(m.nats_behind, 3), list(m.with).join(', ')]), 'lrl', 'Causes that do equally well')),
     el('h3', {}, 'The trial to record next'),
     proposed ? paragraph(`${proposed.description.replace(/^./, (c) => c.toUpperCase())}: expected to set the best apart from ${proposed.closest_rival} by ${significant(proposed.expected_nats, 3)} nats.`)

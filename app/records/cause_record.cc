@@ -99,7 +99,8 @@ Json GroupsRecord(const Diagnosis& d) {
       const bool fitted = m < d.naming.rivals.size() && k < d.naming.rivals[m].size();
       members.push_back(
           {{"effect", c.effect->info.name},
-           {"only_in_trial", TextOrNull(c.only_recording)},
+           {"only_in_trial", OneTrial(c)},
+           {"only_in_trials", c.only_recordings},
            {"nats_behind",
             NumberOrNull(std::log(d.naming.group_weights[m][0] / d.naming.group_weights[m][k]))},
            {"with", fitted ? MembersRecord(d.naming.rivals[m][k].members) : Json(nullptr)}});
@@ -118,7 +119,8 @@ Json CausesRecord(const Diagnosis& d) {
       if (c.main != main) continue;
       const auto member = static_cast<int>(d.naming.MemberOf(c.candidate));
       out.push_back({{"name", c.cause.effect->info.name},
-                     {"only_in_trial", TextOrNull(c.cause.only_recording)},
+                     {"only_in_trial", OneTrial(c.cause)},
+                     {"only_in_trials", c.cause.only_recordings},
                      {"each_trial", c.cause.each_trial},
                      {"parameters", SizesOfCause(c.cause, best.ValuesOf(member))},
                      {"probability", NumberOrNull(c.probability)},
@@ -141,7 +143,8 @@ Json SetAsideRecord(const Diagnosis& d) {
   Json out = Json::array();
   for (const SetAside& s : d.set_aside)
     out.push_back({{"name", s.cause.effect->info.name},
-                   {"only_in_trial", TextOrNull(s.cause.only_recording)},
+                   {"only_in_trial", OneTrial(s.cause)},
+                   {"only_in_trials", s.cause.only_recordings},
                    {"parameters", SizesOfCause(s.cause, s.values)},
                    {"probability", NumberOrNull(s.probability)},
                    {"share", NumberOrNull(s.share)},

@@ -170,7 +170,8 @@ void AddVerdict(const Diagnosis& d, const std::string& failure, Json& record) {
   record["sentence"] = failure.empty() ? TextOrNull(VerdictSentence(d)) : Json(nullptr);
   record["reason"] = TextOrNull(d.reason);
   record["cause"] = caused_by ? Json(caused_by->effect->info.name) : Json(nullptr);
-  record["only_in_trial"] = caused_by ? TextOrNull(caused_by->only_recording) : Json(nullptr);
+  record["only_in_trial"] = caused_by ? OneTrial(*caused_by) : Json(nullptr);
+  record["only_in_trials"] = caused_by ? Json(caused_by->only_recordings) : Json::array();
   record["group"] = NamesOf(d, has_cause ? GroupOfCause(d) : std::vector<int>());
 }
 

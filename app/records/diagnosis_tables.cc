@@ -32,7 +32,7 @@ std::string Candidates(const Diagnosis& d) {
       const EffectParameter& p = c.candidate.Parameter(k);
       const auto at = [k](const Eigen::VectorXd& v) { return k < v.size() ? v[k] : kNaN; };
       csv.Cell(c.candidate.effect->info.name)
-          .Cell(c.candidate.only_recording)
+          .Cell(Join(c.candidate.only_recordings, "+"))
           .Cell(NameOf(c.status))
           .Cell(seen ? c.score.score : kNaN)
           .Cell(seen ? c.score.p_value : kNaN)
@@ -129,7 +129,7 @@ std::string EvidenceTable(const FittedModel& null, std::span<const Candidate> me
         const RowLabel& label = at.labels[static_cast<std::size_t>(row)];
         const TrialProblem& trial = train[static_cast<std::size_t>(label.trial)];
         if (label.of == RowLabel::Of::kPrior) continue;
-        if (!member.only_recording.empty() && member.only_recording != trial.recording) continue;
+        if (!Holds(member.only_recordings, trial.recording)) continue;
         running = evidence[row] + (label.trial == running_trial ? running : 0.0);
         running_trial = label.trial;
         csv.Cell(names[m])

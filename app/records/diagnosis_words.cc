@@ -22,13 +22,6 @@ constexpr int kMostWords = 30;               // of a first sentence
 constexpr std::size_t kMostNamed = 3;        // in it, fewer where it gets too long
 constexpr double kSmoothMatters = 0.01;      // of the misfit, left as a smooth error
 
-// "a", "a and b", "a, b and c".
-std::string Listed(const std::vector<std::string>& words) {
-  if (words.size() < 2) return Join(words);
-  const std::vector<std::string> first(words.begin(), words.end() - 1);
-  return Join(first) + " and " + words.back();
-}
-
 // The first few, and how many more.
 std::string FirstOf(std::vector<std::string> words, std::size_t most) {
   if (words.size() <= most) return Listed(words);
@@ -278,8 +271,12 @@ std::string PlaceText(const FitProblem& problem, const MisfitCell& cell) {
 std::string CauseText(const Candidate& candidate) {
   const std::string name(candidate.effect->info.name);
   if (candidate.each_trial) return name + " of each trial's own size";
-  return candidate.only_recording.empty() ? name
-                                          : name + " in " + Printable(candidate.only_recording);
+  if (candidate.in_all()) return name;
+  if (candidate.only_recordings.size() > kMostNamed)
+    return name + fmt::format(" in {} trials", candidate.only_recordings.size());
+  std::vector<std::string> files;
+  for (const std::string& file : candidate.only_recordings) files.push_back(Printable(file));
+  return name + " in " + Listed(files);
 }
 
 std::string ValuesText(const FitProblem& problem, const Eigen::VectorXd& shared,

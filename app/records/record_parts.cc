@@ -256,4 +256,9 @@ Json OptionsRecord(const FitProblem& problem, const FitConfiguration& configurat
 
 Json TextOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
+Json OneTrial(const Candidate& cause) {
+  const Recordings& files = cause.only_recordings;
+  return files.size() == 1 ? Json(files.front()) : Json(nullptr);
+}
+
 }  // namespace hoplab

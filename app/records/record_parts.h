@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/records/run_record.h"
+#include "fitting/diagnosis/candidate.h"
 #include "fitting/fit_dataset.h"
 #include "fitting/gradient_certificate.h"
 #include "fitting/trial_errors.h"
@@ -80,5 +81,7 @@ Json LeftRecord(const FitProblem& problem);
 
 /// The text; null where there is none.
 Json TextOrNull(const std::string& text);
+/// The file of the one trial that a cause acts in; null where that is not one.
+Json OneTrial(const Candidate& cause);
 
 }  // namespace hoplab

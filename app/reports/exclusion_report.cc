@@ -53,7 +53,7 @@ std::string ExclusionLines(const Diagnosis& d, bool colours) {
   std::vector<const CandidateResult*> excluded;
   std::vector<std::string> unneeded, unseen, untried, unsought;
   for (const CandidateResult& c : d.naming.candidates) {
-    if (!c.candidate.only_recording.empty()) continue;  // the same effect, more narrowly
+    if (!c.candidate.in_all()) continue;  // the same effect, more narrowly
     if (c.status == CandidateStatus::kExcluded || c.status == CandidateStatus::kNotNeeded) {
       if (IsSetAside(d, c.candidate)) continue;
       if (BoundText(c).empty())

@@ -4,6 +4,7 @@
 
 #include "app/reports/headline_parts.h"
 #include "app/terminal/quantity.h"
+#include "base/text.h"
 
 namespace hoplab {
 namespace {

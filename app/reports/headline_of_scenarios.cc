@@ -6,6 +6,7 @@
 #include "app/records/sweep_record.h"
 #include "app/reports/headline_parts.h"
 #include "app/terminal/quantity.h"
+#include "base/text.h"
 
 namespace hoplab {
 namespace {

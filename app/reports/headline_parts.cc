@@ -31,11 +31,6 @@ HeadlineFigure CountFigure(const std::string& label, const std::string& value,
   return {label, value, "", "", pointer};
 }
 
-std::string Listed(const std::vector<std::string>& words) {
-  if (words.size() < 2) return Join(words);
-  return Join({words.begin(), words.end() - 1}) + " and " + words.back();
-}
-
 std::string WorstChannel(const Json& record, const std::string& errors) {
   std::string worst;
   double most = -1.0;

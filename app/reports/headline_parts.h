@@ -20,8 +20,6 @@ HeadlineFigure Figure(const Json& record, const std::string& label, const std::s
                       const std::string& unit, int digits = 4);
 HeadlineFigure CountFigure(const std::string& label, const std::string& value,
                            const std::string& pointer);
-/// "a", "a and b", "a, b and c".
-std::string Listed(const std::vector<std::string>& words);
 /// The channel that is furthest off, in units of its noise; empty if no error was computed.
 std::string WorstChannel(const Json& record, const std::string& errors);
 /// The error of the channel that is furthest off, here or in `worst_in`.

@@ -99,7 +99,7 @@ class Run {
         throw InputError({"--cause", name,
                           again ? "is given twice" : "is part of the model already (--with)",
                           "Name each cause once."});
-      causes.push_back({&effect, "", problem.known});
+      causes.push_back({&effect, {}, problem.known});
     }
     if (causes.size() > kMostRivals)
       throw InputError({"--cause", std::to_string(causes.size()) + " causes",

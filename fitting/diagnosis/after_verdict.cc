@@ -71,11 +71,11 @@ void NoteMass(Diagnosis& d) {
   const auto force = std::find_if(shared.begin(), shared.end(), GoesWithMass);
   if (d.problem.trials.empty() || force == shared.end()) return;
   const Effect* scale = FindEffect("body_mass_scale");
-  const bool unseen = std::any_of(
-      d.naming.candidates.begin(), d.naming.candidates.end(), [&](const CandidateResult& c) {
-        return c.candidate.effect == scale && c.candidate.only_recording.empty() &&
-               c.status == CandidateStatus::kNotTested && !IsWeighed(c);
-      });
+  const bool unseen = std::any_of(d.naming.candidates.begin(), d.naming.candidates.end(),
+                                  [&](const CandidateResult& c) {
+                                    return c.candidate.effect == scale && c.candidate.in_all() &&
+                                           c.status == CandidateStatus::kNotTested && !IsWeighed(c);
+                                  });
   if (!unseen) return;
   const std::string& first = force->name;
   char text[200];
@@ -93,9 +93,8 @@ void NoteTilt(Diagnosis& d) {
   const FittedModel& model = d.naming.best;
   const Parameters<double>& p = d.problem.trials.front().parameters;
   for (const CauseReport* c : d.extension->ToldCauses()) {
-    const auto at = std::find_if(model.members.begin(), model.members.end(), [&](const auto& m) {
-      return m.effect == c->cause.effect && m.only_recording == c->cause.only_recording;
-    });
+    const auto at = std::find_if(model.members.begin(), model.members.end(),
+                                 [&](const auto& m) { return m == c->cause; });
     if (c->cause.effect != FindEffect("constant_force") || at == model.members.end()) continue;
     if (c->cause.each_trial) continue;  // no tilt is another one in each trial
     const double force = model.ValuesOf(static_cast<int>(at - model.members.begin()))[0];

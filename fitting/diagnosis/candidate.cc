@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/input_error.h"
+#include "base/text.h"
 #include "fitting/model_of_spec.h"
 #include "fitting/smoothed_traces.h"
 
@@ -94,7 +95,7 @@ bool IsOfAllLegs(const FitProblem& problem, const Effect& effect) {
 std::string Candidate::Name() const {
   const std::string name(effect->info.name);
   if (each_trial) return name + " of each trial's own size";
-  return only_recording.empty() ? name : name + " in " + only_recording;
+  return in_all() ? name : name + " in " + Listed(only_recordings);
 }
 
 namespace {
@@ -135,7 +136,7 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
                          IsDelayOfAll(problem, *effect) || IsUnseenFilter(*effect, filters)))
       continue;
     if (holds(without, effect) || (!only.empty() && !holds(only, effect))) continue;
-    if (!problem.known.RulesOut(*effect)) candidates.push_back({effect, "", problem.known});
+    if (!problem.known.RulesOut(*effect)) candidates.push_back({effect, {}, problem.known});
   }
   return candidates;
 }
@@ -145,14 +146,14 @@ FitProblem Extend(const FitProblem& problem, std::span<const Candidate> candidat
   for (const Candidate& c : candidates) {
     const int index = static_cast<int>(extended.effects.size());
     extended.effects.push_back(EffectSetting::Null(*c.effect));
-    const std::string suffix = c.only_recording.empty() ? "" : "@" + c.only_recording;
+    const std::string suffix = c.in_all() ? "" : "@" + Join(c.only_recordings, "+");
     for (int i = 0; i < c.parameter_count(); ++i) {
       const EffectParameter& p = c.Parameter(i);
       const int place = c.parameters[static_cast<std::size_t>(i)].place;
       extended.shared.push_back(
           {std::string(c.effect->info.name) + "." + std::string(p.name) + suffix,
            std::string(p.unit), SensitivityDirection::EffectParameter(index, place), p.lower,
-           p.upper, p.null, std::abs(p.typical), c.only_recording, c.effect->info.has_threshold,
+           p.upper, p.null, std::abs(p.typical), c.only_recordings, c.effect->info.has_threshold,
            c.mean_held});
     }
   }

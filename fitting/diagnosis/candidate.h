@@ -9,10 +9,10 @@
 namespace hoplab {
 
 /// One explanation of a misfit: an effect of the catalogue that the simulation lacks, in every
-/// trial or in one only.
+/// trial or in some only.
 struct Candidate {
   const Effect* effect = nullptr;
-  std::string only_recording = {};             // file of the one trial it acts in; empty: all
+  Recordings only_recordings = {};             // that it acts in; empty: all
   std::vector<OpenParameter> parameters = {};  // that may be off their null, with their bounds
   /// Of another size in each trial: the model's trials have deviations of its first parameter
   /// (fitting/deviation.h). Extend does not add them.
@@ -22,16 +22,17 @@ struct Candidate {
   bool mean_held = false;
 
   Candidate() = default;
-  Candidate(const Effect* of, std::string recording = {}, const KnownCauses& known = {})
-      : effect(of), only_recording(std::move(recording)), parameters(known.OpenParameters(*of)) {}
+  Candidate(const Effect* of, Recordings recordings = {}, const KnownCauses& known = {})
+      : effect(of), only_recordings(std::move(recordings)), parameters(known.OpenParameters(*of)) {}
   bool operator==(const Candidate& other) const {
-    return effect == other.effect && only_recording == other.only_recording;
+    return effect == other.effect && only_recordings == other.only_recordings;
   }
+  bool in_all() const { return only_recordings.empty(); }
   int parameter_count() const { return static_cast<int>(parameters.size()); }
   const EffectParameter& Parameter(int i) const {
     return parameters[static_cast<std::size_t>(i)].info;
   }
-  /// "air_drag", "air_drag in train-2.csv" or "air_drag of each trial's own size".
+  /// "air_drag", "air_drag in train-2.csv and train-3.csv" or "air_drag of each trial's own size".
   std::string Name() const;
 };
 

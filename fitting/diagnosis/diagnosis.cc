@@ -159,7 +159,7 @@ class Pipeline {
     bool at_bound = !AtWall(best.problem, best.shared).empty();
     for (int i = 0; i < static_cast<int>(best.members.size()); ++i) {
       at_bound |= best.AtPhysicalBound(i);
-      in_one_trial += !best.members[static_cast<std::size_t>(i)].only_recording.empty();
+      in_one_trial += best.members[static_cast<std::size_t>(i)].only_recordings.size() == 1;
     }
     return LeavesMore(best) || at_bound || in_one_trial > 1;
   }

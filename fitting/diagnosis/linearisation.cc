@@ -187,4 +187,20 @@ Linearisation Assemble(const std::vector<LinearisedTrial>& trials, int fitted, i
   return out;
 }
 
+Eigen::MatrixXd CutToTrials(const Linearisation& at, int column, const std::vector<int>& group_of,
+                            int groups, Eigen::VectorXd* squares) {
+  // Free of the initial states alone it may be cut to one trial; then the shared values are taken
+  // out. (Cut after that, it would keep what the other trials' share of them left in this one.)
+  const Eigen::VectorXd whole =
+      at.columns.col(column) + at.fitted_basis * at.along_fitted.col(column);
+  Eigen::MatrixXd cut = Eigen::MatrixXd::Zero(at.rows(), groups);
+  for (int row = 0; row < at.rows(); ++row) {
+    const auto trial = static_cast<std::size_t>(at.labels[static_cast<std::size_t>(row)].trial);
+    cut(row, group_of[trial]) = whole[row];
+  }
+  if (squares) *squares = cut.colwise().squaredNorm();
+  cut -= at.fitted_basis * (at.fitted_basis.transpose() * cut);
+  return cut;
+}
+
 }  // namespace hoplab

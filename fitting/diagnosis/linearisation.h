@@ -82,6 +82,13 @@ Linearisation Linearise(const FitProblem& problem, int first_tested,
                         const std::vector<TrialProblem>& trials, const Eigen::VectorXd& shared,
                         const std::vector<OwnValues>& initial_states, int jobs);
 
+/// A tested column cut to each of `groups` groups of trials, what the fitted values take of it
+/// projected out again: what they stand for in all trials (a modulus, for how stiff the leg is) is
+/// seen in some. `group_of`: the group of each trial. `squares`, where it is asked for: the squared
+/// lengths before that projection.
+Eigen::MatrixXd CutToTrials(const Linearisation& at, int column, const std::vector<int>& group_of,
+                            int groups, Eigen::VectorXd* squares = nullptr);
+
 /// Part of a column's length (squared) that the projection must leave for it to be told from the
 /// fitted values: sensitivities are good to about 1e-7 of their column.
 inline constexpr double kInseparable = 1e-10;

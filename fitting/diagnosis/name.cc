@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "fitting/diagnosis/candidate_status.h"
-#include "fitting/diagnosis/in_one_trial.h"
+#include "fitting/diagnosis/in_some_trials.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/pairs.h"
 #include "fitting/diagnosis/pool.h"
@@ -61,7 +61,7 @@ class Search {
       return std::move(naming_);
     }
     const CandidateSet begun = Begun();
-    CandidateSet current = BesideInOneTrial(Grown(begun.empty() ? OneByOne() : begun));
+    CandidateSet current = BesideInSomeTrials(Grown(begun.empty() ? OneByOne() : begun));
     if (LeavesMuch(current)) {
       const CandidateSet exchanged = Exchanged(current);
       if (exchanged != current) current = Grown(exchanged);
@@ -118,14 +118,14 @@ class Search {
     return Tidy(set);
   }
 
-  // What acts in one trial shows once the set explains what acts in all. It is looked for where one
-  // such cause promises most of what is left.
-  CandidateSet BesideInOneTrial(const CandidateSet& set) {
-    if (set.empty() || !options_.in_one_trial || !MisfitIsSeen(set) || Stopped()) return set;
+  // What acts in some trials shows once the set explains what acts in all. It is looked for where
+  // one such cause promises most of what is left.
+  CandidateSet BesideInSomeTrials(const CandidateSet& set) {
+    if (set.empty() || !options_.in_some_trials || !MisfitIsSeen(set) || Stopped()) return set;
     const std::vector<int> places = PlacesBeside(naming_, set, given_);
     const Linearisation at =
         LineariseAt(refits_.White(set), CandidatesAt(naming_, places), train_, options_.jobs);
-    if (!AddInOneTrial(naming_, at, places, train_, StandsOut() * Left(set))) return set;
+    if (!AddInSomeTrials(naming_, at, places, train_, StandsOut() * Left(set))) return set;
     rankings_.Clear();
     return Grown(set);
   }

@@ -20,8 +20,8 @@ using CandidateSet = std::vector<int>;
 
 struct NamingOptions {
   int max_effects = 5;
-  bool in_one_trial = true;  // a cause may act in one trial only
-  int picked_from = 0;       // how many the candidates were picked out of; 0: they are all
+  bool in_some_trials = true;  // a cause may act in some trials only
+  int picked_from = 0;         // how many the candidates were picked out of; 0: they are all
   /// Nats by which each is less likely beforehand than the others; empty: all are alike.
   std::vector<double> prices = {};
   /// Models of these trials whose causes the search begins with, instead of one by one: one, and
@@ -74,9 +74,9 @@ struct WiderGroup {
 
 /// The search for the effects a model lacks.
 struct Naming {
-  std::vector<CandidateResult> candidates;  // the given ones, then those of single trials
+  std::vector<CandidateResult> candidates;  // the given ones, then those of some trials only
   double log_odds = 0.0;                    // prior, against one cause: one is expected in all
-  double local_log_odds = 0.0;              // against one in one trial only
+  int recordings = 0;                       // in which one may act alone
   FittedModel best;                         // without members if none pays
   CandidateSet best_set;
   double worth = 0.0;  // logarithm of its posterior weight, of all models' common constant [nats]
@@ -97,6 +97,8 @@ struct Naming {
   int refits = 0;
   bool interrupted = false;
 
+  /// Prior, against a cause: of one in some trials only their picking is paid for.
+  double LogOdds(const Candidate& candidate) const;
   /// The group of a member of `best`, by its place in `candidates`.
   const std::vector<int>& GroupOf(int candidate) const { return groups[MemberOf(candidate)]; }
   /// Its place among the members of `best`.

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <boost/math/special_functions/binomial.hpp>
+#include <cmath>
 
 #include "fitting/diagnosis/name.h"
 
@@ -18,6 +20,15 @@ std::string_view NameOf(CandidateStatus status) {
       return "not_tested";
   }
   return "";
+}
+
+double Naming::LogOdds(const Candidate& candidate) const {
+  const auto some = static_cast<unsigned>(candidate.only_recordings.size());
+  if (some == 0) return log_odds;
+  const auto all = static_cast<unsigned>(std::max(recordings, 1));
+  // How many, and which.
+  const double picking = std::log(boost::math::binomial_coefficient<double>(all, some));
+  return log_odds + picking + (some > 1 ? std::log(static_cast<double>(all)) : 0.0);
 }
 
 std::size_t Naming::MemberOf(int candidate) const {

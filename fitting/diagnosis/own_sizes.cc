@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "base/text.h"
@@ -25,18 +26,6 @@ constexpr double kAlike = 0.01;
 // rows are many, sizes that are all but equal differ for certain, too.
 constexpr double kLeastDifferent = 0.1;
 
-// The candidate's column cut to each trial in turn, what the fitted values take of it projected
-// out.
-Eigen::MatrixXd CutToTrials(const Linearisation& at, int column, std::size_t trials) {
-  const Eigen::VectorXd whole =
-      at.columns.col(column) + at.fitted_basis * at.along_fitted.col(column);
-  Eigen::MatrixXd cut = Eigen::MatrixXd::Zero(at.rows(), static_cast<Eigen::Index>(trials));
-  for (int row = 0; row < at.rows(); ++row)
-    cut(row, at.labels[static_cast<std::size_t>(row)].trial) = whole[row];
-  cut -= at.fitted_basis * (at.fitted_basis.transpose() * cut);
-  return cut;
-}
-
 // Sizes that the cause can have, but for a tenth of the largest: no drag pushes.
 bool InRoom(const Hypothesis& h, const Eigen::VectorXd& sizes) {
   const double doubt = 0.1 * sizes.cwiseAbs().maxCoeff();
@@ -54,7 +43,7 @@ double HowUnusual(const OwnSizes& own) {
 std::optional<std::size_t> LargestInAllTrials(const Naming& naming) {
   std::optional<std::size_t> largest;
   for (std::size_t i = 0; i < naming.best.members.size(); ++i)
-    if (naming.best.members[i].only_recording.empty() &&
+    if (naming.best.members[i].in_all() &&
         !(largest && naming.without[*largest].cost >= naming.without[i].cost))
       largest = i;
   return largest;
@@ -69,6 +58,8 @@ std::vector<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Cand
   if (!(misfit > 0.0) || n < 2 || n > kMostOwnTrials || at.trials_left_out > 0) return {};
   // Squares that further sizes must gain, over what any cause gains with one.
   const double price = std::log(static_cast<double>(at.samples)) * static_cast<double>(n - 1);
+  std::vector<int> each(n);
+  std::iota(each.begin(), each.end(), 0);
   std::vector<OwnSizes> found;
   double with_one = 0.0;
   const std::vector<Hypothesis> hypotheses = HypothesesOf(candidates);
@@ -78,7 +69,7 @@ std::vector<OwnSizes> BestOwnSizes(const Linearisation& at, std::span<const Cand
     const double alike = ScoreOf(at, hypotheses[i]).score;
     with_one = std::max(with_one, alike);
     if (c.parameter_count() != 1 || c.effect->info.has_threshold) continue;
-    const Eigen::MatrixXd cut = CutToTrials(at, first, n);
+    const Eigen::MatrixXd cut = CutToTrials(at, first, each, static_cast<int>(n));
     const double least = std::sqrt(kInseparable) * at.length[first];
     if (!(cut.colwise().norm().minCoeff() > least) || !cut.allFinite()) continue;
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;

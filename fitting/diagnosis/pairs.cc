@@ -17,7 +17,7 @@ bool Allowed(const CandidateResult& c, double size) {
   const EffectParameter& p = c.candidate.Parameter(0);
   return size > 0.0 ? p.upper > p.null : p.lower < p.null;
 }
-bool MayPair(const CandidateResult& c) { return c.separable && c.candidate.only_recording.empty(); }
+bool MayPair(const CandidateResult& c) { return c.separable && c.candidate.in_all(); }
 
 // Where each candidate's columns begin.
 std::vector<int> FirstColumns(std::span<const CandidateResult> candidates) {
@@ -25,7 +25,7 @@ std::vector<int> FirstColumns(std::span<const CandidateResult> candidates) {
   int columns = 0;
   for (const CandidateResult& c : candidates) {
     first.push_back(columns);
-    if (c.candidate.only_recording.empty()) columns += c.candidate.parameter_count();
+    if (c.candidate.in_all()) columns += c.candidate.parameter_count();
   }
   return first;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "fitting/diagnosis/in_one_trial.h"
+#include "fitting/diagnosis/in_some_trials.h"
 #include "fitting/diagnosis/linearise_at.h"
 
 namespace hoplab {
@@ -37,11 +37,10 @@ void FillPool(Naming& naming, std::span<const Candidate> candidates, const Linea
   // One cause is expected among all: odds of one to the number of others.
   naming.log_odds =
       std::log(static_cast<double>(std::max({tested - 1, options.picked_from - 1, 1})));
-  naming.local_log_odds =
-      naming.log_odds + std::log(static_cast<double>(std::max<std::size_t>(recordings.size(), 1)));
+  naming.recordings = static_cast<int>(recordings.size());
   std::vector<int> all(candidates.size());
   std::iota(all.begin(), all.end(), 0);
-  if (options.in_one_trial) AddInOneTrial(naming, null_at, all, train, 0.0);
+  if (options.in_some_trials) AddInSomeTrials(naming, null_at, all, train, 0.0);
 }
 
 double PowerOf(const Linearisation& at, const Candidate& candidate, const Hypothesis& hypothesis) {
@@ -89,7 +88,7 @@ std::optional<int> ShowsBeside(const Naming& naming, int i) {
   for (std::size_t k = 0; k < naming.candidates.size(); ++k) {
     const Candidate& other = naming.candidates[k].candidate;
     if (other.effect->info.name == candidate.effect->info.shows_beside &&
-        other.only_recording == candidate.only_recording)
+        other.only_recordings == candidate.only_recordings)
       return static_cast<int>(k);
   }
   return std::nullopt;

@@ -31,12 +31,12 @@ Refits::Refits(const FittedModel& plain, const FittedModel& null,
   refit_.jobs = options.jobs;
 }
 
-// Each cause alike, one expected in all; one trial picked out of many must pay for the picking.
+// Each cause alike, one expected in all; trials picked out of many must pay for the picking.
 double Refits::LogPrior(const CandidateSet& set) const {
   double sum = 0.0;
   for (const int i : set) {
-    sum -= CandidateAt(i).only_recording.empty() ? naming_.log_odds : naming_.local_log_odds;
-    // Those of single trials stand behind the given ones.
+    sum -= naming_.LogOdds(CandidateAt(i));
+    // Those of some trials stand behind the given ones.
     if (const auto at = static_cast<std::size_t>(i); at < options_.prices.size())
       sum -= options_.prices[at];
   }
@@ -84,10 +84,7 @@ CandidateSet Refits::Adopt(const FittedModel& model) {
   CandidateSet order;
   for (const Candidate& member : model.members) {
     const auto at = std::find_if(naming_.candidates.begin(), naming_.candidates.end(),
-                                 [&](const CandidateResult& c) {
-                                   return c.candidate.effect == member.effect &&
-                                          c.candidate.only_recording == member.only_recording;
-                                 });
+                                 [&](const CandidateResult& c) { return c.candidate == member; });
     if (at == naming_.candidates.end()) return {};
     order.push_back(static_cast<int>(at - naming_.candidates.begin()));
   }

@@ -106,7 +106,7 @@ class FormulaSearch {
     }
     leaders_ = leaders;
     naming.max_effects = kMostTerms;
-    naming.in_one_trial = false;
+    naming.in_some_trials = false;
     naming.picked_from = static_cast<int>(leaders.size());
     naming.discrepancy = options_.fit.discrepancy;
     naming.jobs = options_.fit.jobs;

@@ -162,7 +162,7 @@ TEST(DiagnosisReport, ASearchThatIsStoppedTellsWhatItHas) {
   EXPECT_EQ(report().find("so far"), std::string::npos);
   const auto add = [&](const char* effect, double value, double gain, bool came_to_rest) {
     CandidateResult c;
-    c.candidate = {FindEffect(effect), ""};
+    c.candidate = {FindEffect(effect), {}};
     c.gain = gain;
     c.alone.shared = Eigen::VectorXd::Constant(1, value);
     c.alone.problem.shared.push_back({.name = effect, .unit = "s"});

@@ -145,7 +145,8 @@ TEST(Deviation, GoesWithAPieceOfItsTrialAndKeepsItsPrior) {
 
 TEST(Deviation, IsOnlyOfAValueThatActsInTheTrial) {
   Deviating c;
-  c.problem.shared[static_cast<std::size_t>(c.drag)].only_recording = c.problem.trials[1].recording;
+  c.problem.shared[static_cast<std::size_t>(c.drag)].only_recordings = {
+      c.problem.trials[1].recording};
   TrialProblem other = testing::NullFit(testing::World{}).train.front();
   other.recording = "elsewhere.csv";
   EXPECT_FALSE(AddDeviation(c.problem, c.drag, kSpread, other));

@@ -222,7 +222,7 @@ TEST(Candidates, AnEffectOfAnotherMechanismIsRefusedWithARemedy) {
 }
 
 TEST(Candidate, InOneRecordingSaysWhich) {
-  const Candidate c{FindEffect("air_drag"), "train-2.csv"};
+  const Candidate c{FindEffect("air_drag"), {"train-2.csv"}};
   EXPECT_EQ(c.Name(), "air_drag in train-2.csv");
 }
 
@@ -266,7 +266,7 @@ TEST(Extend, ChangesNoBitOfTheResidualsAtNull) {
 TEST(Extend, AnEffectInOneRecordingActsOnlyThere) {
   const FitProblem before = Problem();
   const FitProblem after =
-      Extend(before, std::array{Candidate{FindEffect("air_drag"), "train-2.csv"}});
+      Extend(before, std::array{Candidate{FindEffect("air_drag"), {"train-2.csv"}}});
   EXPECT_EQ(after.shared.back().name, "air_drag.c_drag@train-2.csv");
   Eigen::VectorXd shared(after.shared_count());
   shared << InitialShared(before), 0.1;

@@ -159,10 +159,10 @@ TEST(LeadOut, AnInterruptedOneGivesNoModel) {
 
 TEST(Refit, OfAnEffectInOneTrialLeavesTheOthersToTheSharedValues) {
   const NullFit fit(Draggy());
-  const FittedModel e = fit.RefittedWith({FindEffect("air_drag"), "train-2.csv"},
+  const FittedModel e = fit.RefittedWith({FindEffect("air_drag"), {"train-2.csv"}},
                                          Eigen::VectorXd::Constant(1, kDrag));
   ASSERT_TRUE(e.ok());
-  EXPECT_EQ(e.problem.shared.back().only_recording, "train-2.csv");
+  EXPECT_EQ(e.problem.shared.back().only_recordings, Recordings{"train-2.csv"});
   EXPECT_GT(e.cost, fit.RefittedWith(CandidateOf("air_drag")).cost + 1.0);
 }
 

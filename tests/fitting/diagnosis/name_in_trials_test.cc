@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
-#include "fitting/diagnosis/in_one_trial.h"
+#include "fitting/diagnosis/in_some_trials.h"
 #include "fitting/diagnosis/linearise_at.h"
 #include "fitting/diagnosis/pool.h"
 #include "tests/support/naming.h"
@@ -63,21 +64,71 @@ TEST(NameCauses, ASofterLegInOneTrialIsFoundBesideALargerCauseInAll) {
   const auto looked_for = [&](const FittedModel& model, std::vector<int> places) {
     Naming naming;
     FillPool(naming, candidates, fit.Linearised(fit.null, candidates), fit.train,
-             {.in_one_trial = false});
+             {.in_some_trials = false});
     const Linearisation at =
         LineariseAt(model, CandidatesAt(naming, places), fit.train, /*jobs=*/1);
     const double left = 0.5 * (at.chi2() - at.degrees_of_freedom());
-    AddInOneTrial(naming, at, places, fit.train, 0.5 * left);
+    AddInSomeTrials(naming, at, places, fit.train, 0.5 * left);
     return naming.candidates;
   };
   EXPECT_EQ(looked_for(fit.null, {0, 1, 2, 3, 4, 5, 6}).size(), candidates.size());
-  const Naming in_all = NameIn(fit, candidates, {.max_effects = 1, .in_one_trial = false});
+  const Naming in_all = NameIn(fit, candidates, {.max_effects = 1, .in_some_trials = false});
   ASSERT_EQ(MembersOf(in_all), std::vector<std::string>{"leg_material_damping"});
   FittedModel with_damping = in_all.best;
   with_damping.problem.noise = fit.null.problem.noise;
   const std::vector<CandidateResult> beside = looked_for(with_damping, {1, 2, 3, 4, 5, 6});
   ASSERT_GT(beside.size(), candidates.size());
   EXPECT_EQ(beside[candidates.size()].candidate.Name(), "leg_stiffness in train-3.csv");
+}
+
+// Six trials, the cause in some of them.
+Dataset InSome(const EffectSpec& effect, const std::vector<std::size_t>& trials) {
+  Dataset d = testing::DatasetOf({.train = 6});
+  const Dataset with = testing::DatasetOf({.effects = {effect}, .train = 6});
+  for (const std::size_t i : trials) d.trials[i] = with.trials[i];
+  return d;
+}
+
+TEST(NameCauses, OneCauseInSeveralTrialsIsNamedOnce) {
+  const std::vector<Candidate> candidates =
+      testing::CandidatesOf({"leg_stiffness", "leg_hardening", "touchdown_angle_bias",
+                             "ground_slope", "sensor_offset_y"});
+  const Naming crack =
+      NameIn(NullFit(InSome(EffectOfSize("leg_stiffness", -0.12), {2, 5})), candidates);
+  EXPECT_EQ(MembersOf(crack),
+            std::vector<std::string>{"leg_stiffness in train-3.csv and train-6.csv"});
+  EXPECT_NEAR(crack.best.ValuesOf(0)[0], -0.12, 0.02);
+  const Naming slope =
+      NameIn(NullFit(InSome(EffectOfSize("ground_slope", 0.015), {0, 3, 4})), candidates);
+  EXPECT_EQ(MembersOf(slope),
+            std::vector<std::string>{"ground_slope in train-1.csv, train-4.csv and train-5.csv"});
+  EXPECT_NEAR(slope.best.ValuesOf(0)[0], 0.015, 0.003);
+}
+
+// Sizes that are all other ones are no two groups of trials.
+TEST(NameCauses, SizesThatDifferInEachTrialAreNotLaidToSome) {
+  Dataset d = testing::DatasetOf({.train = 6});
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double size = 0.004 * static_cast<double>(i) - 0.008;
+    d.trials[i] =
+        testing::DatasetOf({.effects = {EffectOfSize("ground_slope", size)}, .train = 6}).trials[i];
+  }
+  const Naming n = NameSix(NullFit(d));
+  for (const std::string& name : MembersOf(n))
+    EXPECT_EQ(name.find(" and "), std::string::npos) << name;
+}
+
+// One trial, or all: whatever else would do as well has its picking to pay for.
+TEST(LogOdds, ArePaidForThePickingOfTrials) {
+  Naming naming;
+  naming.log_odds = 3.0;
+  naming.recordings = 6;
+  Candidate c(FindEffect("air_drag"));
+  EXPECT_DOUBLE_EQ(naming.LogOdds(c), 3.0);
+  c.only_recordings = {"a"};
+  EXPECT_DOUBLE_EQ(naming.LogOdds(c), 3.0 + std::log(6.0));
+  c.only_recordings = {"a", "b"};
+  EXPECT_DOUBLE_EQ(naming.LogOdds(c), 3.0 + std::log(6.0 * 15.0));
 }
 
 TEST(NameCauses, AScaleOfThePictureIsNoPairOfScales) {

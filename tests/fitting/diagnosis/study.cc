@@ -62,8 +62,8 @@ void ReadVerdict(const Diagnosis& d, Outcome& out) {
 
 bool IsPlanted(const Truth& truth, const Candidate& c) {
   return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const PlantedEffect& e) {
-    return e.name == c.effect->info.name && (c.only_recording.empty() || truth.own_sizes ||
-                                             c.only_recording == truth.only_recording);
+    return e.name == c.effect->info.name &&
+           (c.in_all() || truth.own_sizes || c.only_recordings == Recordings{truth.only_recording});
   });
 }
 

@@ -66,10 +66,10 @@ TEST(Wind, IsNamedBesideTheDragWithTheSpeedOfTheAir) {
 TEST(Wind, IsExcludedWhereNothingPulls) {
   const Diagnosis d = Diagnose(BallsIn(0.0, 0.0), {});
   EXPECT_EQ(NameOf(d.verdict), "adequate") << d.reason;
-  const auto wind = std::find_if(
-      d.naming.candidates.begin(), d.naming.candidates.end(), [](const CandidateResult& c) {
-        return c.candidate.Name() == "wind" && c.candidate.only_recording.empty();
-      });
+  const auto wind = std::find_if(d.naming.candidates.begin(), d.naming.candidates.end(),
+                                 [](const CandidateResult& c) {
+                                   return c.candidate.Name() == "wind" && c.candidate.in_all();
+                                 });
   ASSERT_NE(wind, d.naming.candidates.end());
   EXPECT_EQ(wind->status, CandidateStatus::kExcluded);
   EXPECT_LT(wind->bound95[0], 0.5 * kDrag);  // half a metre a second, had it this drag
