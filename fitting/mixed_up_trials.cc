@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostTrials = 40;   // pairs grow with the square
 constexpr double kLeastMissed = 0.125;    // rms, of a trial's own motion
-constexpr double kBetterExchanged = 0.5;  // rms of both, of what is missed as it stands
+constexpr double kBetterExchanged = 0.4;  // rms of both, of what is missed as it stands
 constexpr double kEach = 0.75;            // the same of one alone
 
 // What two trials may have of each other.

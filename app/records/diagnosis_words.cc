@@ -72,6 +72,12 @@ std::string HeldOutClause(const Diagnosis& d) {
   const HeldOutGain& gain = d.extension->gain;
   if (d.extension->after.test.trials == 0) return "no held-out trial confirms it";
   if (!gain.ci95) return "too few held-out hops to claim a gain";
+  const std::vector<const CauseReport*> told = d.extension->ToldCauses();
+  const bool elsewhere = !told.empty() && std::none_of(told.begin(), told.end(), [](const auto* c) {
+    return c->cause.in_all();
+  });
+  if (!gain.IsClaim() && elsewhere)
+    return "held-out trials cannot confirm what acts in these alone";
   if (!gain.IsClaim()) return "held-out trials do not confirm it";
   if (const std::optional<std::string> change = ErrorChange(d)) return "it takes " + *change;
   return fmt::format("it gains {:.3g} nats a held-out sample", gain.nats_per_sample);

@@ -56,7 +56,7 @@ Json FitSentences(const FitRun& run) {
           {"determined",
            assessed ? Json(DeterminedLine(run.problem, *run.uncertainty, "")) : Json(nullptr)},
           {"gradients", CertificateLine(run.certificate)},
-          {"remarks", TrialRemarks(run)}};
+          {"remarks", Remarks(run)}};
 }
 
 // How sure the values are together; nulls where they were not assessed.

@@ -27,6 +27,24 @@ std::string LoadingsText(const FitProblem& problem, const WeakDirection& weak) {
   return Join(parts, " ");
 }
 
+// Stiffnesses that ended far from where they began, of a model that misses something: a leg that
+// carries nothing, or all, may stand for what is missing.
+void AddFarStiffnesses(const FitRun& run, std::vector<std::string>& remarks) {
+  constexpr double kFar = 10.0;
+  if (!run.uncertainty || !run.uncertainty->misfit) return;
+  for (int i = 0; i < run.problem.shared_count(); ++i) {
+    const SharedParameter& s = run.problem.shared[static_cast<std::size_t>(i)];
+    const bool stiffness = s.name == "E" || s.name == "k" || s.name.starts_with("E_");
+    const double ratio = run.fit.shared[i] / s.initial;
+    if (!stiffness || (ratio < kFar && ratio > 1.0 / kFar)) continue;
+    remarks.push_back(fmt::format(
+        "{} ended {} times {} than it began: no estimate, where the model misses so much that a "
+        "leg may stand for what is missing (hoplab diagnose)",
+        s.name, Significant(ratio > 1.0 ? ratio : 1.0 / ratio, 2),
+        ratio > 1.0 ? "stiffer" : "softer"));
+  }
+}
+
 }  // namespace
 
 std::string MisfitLine(const FitProblem& problem, const Uncertainty& u) {
@@ -45,8 +63,9 @@ std::string MisfitLine(const FitProblem& problem, const Uncertainty& u) {
       Significant(u.chi2_per_dof, 3), between ? ", go by the one beside it" : "");
 }
 
-std::vector<std::string> TrialRemarks(const FitRun& run) {
+std::vector<std::string> Remarks(const FitRun& run) {
   std::vector<std::string> remarks;
+  AddFarStiffnesses(run, remarks);
   for (const TrialErrors& t : run.trials) {
     if (!t.complete) {
       remarks.push_back(

@@ -101,7 +101,7 @@ std::string NoteLines(const Dataset& dataset, const FitRun& run, bool colours) {
        FaultSentences(dataset, run.problem.trace_faults, run.problem.keeps_stray))
     text += Labelled("note", fault, colours);
   if (!run.note.empty()) text += Labelled("note", run.note, colours);
-  for (const std::string& remark : TrialRemarks(run)) text += Labelled("note", remark, colours);
+  for (const std::string& remark : Remarks(run)) text += Labelled("note", remark, colours);
   return text;
 }
 

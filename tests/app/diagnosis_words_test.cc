@@ -24,9 +24,9 @@ class VerdictSentenceTest : public ::testing::Test {
     d_.extension->gain.nats_per_sample = 2.0;
     d_.extension->gain.ci95 = {{1.0, 3.0}};
   }
-  int Add(const char* effect, const char* only = "") {
+  int Add(const char* effect, Recordings only = {}) {
     CandidateResult c;
-    c.candidate = {FindEffect(effect), only};
+    c.candidate = {FindEffect(effect), std::move(only)};
     d_.naming.candidates.push_back(c);
     return static_cast<int>(d_.naming.candidates.size()) - 1;
   }
@@ -186,15 +186,26 @@ TEST_F(VerdictSentenceTest, SaysHowLittleIsMissedWhereANameIsInDoubt) {
 }
 
 TEST_F(VerdictSentenceTest, ClaimsNothingThatTheHeldOutTrialsDoNotShow) {
-  Accept({Add("air_drag", "train-2.csv")});
+  Accept({Add("air_drag")});
   d_.verdict = Verdict::kNamed;
   d_.extension->gain.ci95 = {{-0.1, 3.0}};
   EXPECT_NE(VerdictSentence(d_).find("held-out trials do not confirm it"), std::string::npos);
-  EXPECT_NE(VerdictSentence(d_).find("air_drag in train-2.csv"), std::string::npos);
   d_.extension->gain.ci95.reset();
   EXPECT_NE(VerdictSentence(d_).find("too few held-out hops to claim"), std::string::npos);
   d_.extension->after.test.trials = 0;
   EXPECT_NE(VerdictSentence(d_).find("no held-out trial confirms it"), std::string::npos);
+}
+
+TEST_F(VerdictSentenceTest, SaysThatNoHeldOutTrialCanConfirmWhatActsInOthersAlone) {
+  Accept({Add("air_drag", {"train-2.csv", "train-4.csv"})});
+  d_.verdict = Verdict::kNamed;
+  d_.extension->gain.ci95 = {{-0.1, 3.0}};
+  EXPECT_EQ(VerdictSentence(d_),
+            "The simulation lacks air_drag in train-2.csv and train-4.csv; held-out trials cannot "
+            "confirm what acts in these alone.");
+  d_.extension->causes[0].cause.only_recordings = {"a", "b", "c", "d"};
+  EXPECT_NE(VerdictSentence(d_).find("air_drag in 4 trials"), std::string::npos)
+      << VerdictSentence(d_);
 }
 
 TEST_F(VerdictSentenceTest, SaysWhatItCannotTellApart) {
@@ -212,10 +223,10 @@ TEST_F(VerdictSentenceTest, SaysWhatItCannotTellApart) {
 TEST_F(VerdictSentenceTest, HasAtMostThirtyWordsHoweverManyNamesThereAre) {
   std::vector<int> many;
   for (const char* name : {"air_drag", "gravity_scale", "clock_scale", "camera_roll"})
-    many.push_back(Add(name, "train-2.csv"));
+    many.push_back(Add(name, {"train-2.csv"}));
   Accept(many, 0.7, 0.5);
   for (const char* name : {"touchdown_loss", "leg_hardening", "foot_slip"})
-    Accept({Add(name, "train-3.csv")}, 0.7, 0.1);
+    Accept({Add(name, {"train-3.csv"})}, 0.7, 0.1);
   for (const Verdict v :
        {Verdict::kNamed, Verdict::kConfounded, Verdict::kUnexplained, Verdict::kAdequate}) {
     d_.verdict = v;

@@ -115,5 +115,21 @@ TEST(FitReport, NoSentenceForAnIntervalThatIsMissing) {
   EXPECT_EQ(CertificateLine(std::nullopt), "not computed");
 }
 
+// A leg a hundred times softer is no estimate where the model misses something, and may be one
+// where it does not.
+TEST(FitWords, AStiffnessFarFromWhereItBeganIsRemarkedOfAModelThatMissesSomething) {
+  FitRun run;
+  run.problem.shared.push_back({.name = "E_1", .unit = "Pa", .initial = 24e9});
+  run.problem.shared.push_back({.name = "E_2", .unit = "Pa", .initial = 24e9});
+  run.problem.shared.push_back({.name = "leg_damping", .unit = "s", .initial = 3e-4});
+  run.fit.shared = Eigen::Vector3d(40e9, 0.08e9, 1e-6);
+  run.uncertainty.emplace();
+  EXPECT_TRUE(Remarks(run).empty());
+  run.uncertainty->misfit = true;
+  const std::vector<std::string> remarks = Remarks(run);
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks[0].find("E_2 ended 300 times softer than it began"), 0U) << remarks[0];
+}
+
 }  // namespace
 }  // namespace hoplab
