@@ -47,8 +47,10 @@ class Builder {
     AddSharedParameters(dataset_, options_, problem_);
     if (const std::vector<std::string> stand = AddStandingFeet(problem_); !stand.empty())
       problem_.notes.push_back(
-          "begins with a foot on the ground: " + Join(stand) +
-          "; where the foot stands is fitted (foot_ahead_1, ...), near straight below the leg");
+          std::to_string(stand.size()) + (stand.size() == 1 ? " trial begins" : " trials begin") +
+          " with a foot on the ground (" + stand.front() + (stand.size() > 1 ? ", ..." : "") +
+          "): how far each such foot is ahead of its place below the leg, and how far its motor is "
+          "turned, is fitted (foot_ahead_1, motor_ahead_1, ...)");
     return std::move(problem_);
   }
 

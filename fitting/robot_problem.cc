@@ -123,8 +123,8 @@ std::vector<std::string> AddStandingFeet(FitProblem& problem) {
     const bool turns = t.parameters.robot->control != MotorControl::kLocked &&
                        !t.parameters.robot->starts_at_angles;
     for (int leg = 0; leg < legs; ++leg)
-      AddLean("motor_ahead_", leg, legs + leg, kTurned, turns && stands[static_cast<std::size_t>(leg)],
-              t);
+      AddLean("motor_ahead_", leg, legs + leg, kTurned,
+              turns && stands[static_cast<std::size_t>(leg)], t);
   }
   return files;
 }

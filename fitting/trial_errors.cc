@@ -29,12 +29,12 @@ double PoorCost(const FitProblem& problem, const FitResult& fit) {
                      : kPoorCost;
 }
 
-// A start drawn from what is known of it.
+// A start drawn from what is known of it; what is held stays as it is stated.
 OwnValues DrawnStart(const TrialProblem& trial, RandomStream& random) {
   OwnValues start = trial.start;
   for (int k = 0; k < trial.own_count(); ++k) {
     const OwnParameter& own = trial.own[static_cast<std::size_t>(k)];
-    start[k] += std::min(own.scale, own.prior_sigma) * random.Normal();
+    if (own.free) start[k] += std::min(own.scale, own.prior_sigma) * random.Normal();
   }
   return start;
 }

@@ -16,7 +16,7 @@ namespace hoplab {
 std::map<std::string, std::string> DiagnosisTables(const DiagnosisRun& run);
 
 /// Evidence for effects that a model lacks, beside its fitted values: row by row and summed up
-/// since the trial's first; an effect of one trial only counts there. `names`: of the members.
+/// since the trial's first; an effect of some trials only counts there. `names`: of the members.
 std::string EvidenceTable(const FittedModel& null, std::span<const Candidate> members,
                           const std::vector<std::string>& names);
 

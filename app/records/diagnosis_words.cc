@@ -77,7 +77,8 @@ std::string HeldOutClause(const Diagnosis& d) {
     return c->cause.in_all();
   });
   if (!gain.IsClaim() && elsewhere)
-    return "held-out trials cannot confirm what acts in these alone";
+    return gain.ci95->second < 0.0 ? "held-out trials are missed by more: some may have it, too"
+                                   : "held-out trials cannot confirm what acts in those alone";
   if (!gain.IsClaim()) return "held-out trials do not confirm it";
   if (const std::optional<std::string> change = ErrorChange(d)) return "it takes " + *change;
   return fmt::format("it gains {:.3g} nats a held-out sample", gain.nats_per_sample);

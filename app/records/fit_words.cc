@@ -37,11 +37,12 @@ void AddFarStiffnesses(const FitRun& run, std::vector<std::string>& remarks) {
     const bool stiffness = s.name == "E" || s.name == "k" || s.name.starts_with("E_");
     const double ratio = run.fit.shared[i] / s.initial;
     if (!stiffness || (ratio < kFar && ratio > 1.0 / kFar)) continue;
-    remarks.push_back(fmt::format(
-        "{} ended {} times {} than it began: no estimate, where the model misses so much that a "
-        "leg may stand for what is missing (hoplab diagnose)",
-        s.name, Significant(ratio > 1.0 ? ratio : 1.0 / ratio, 2),
-        ratio > 1.0 ? "stiffer" : "softer"));
+    remarks.push_back(
+        fmt::format("{} ended {} times {} than it began: the model misses something, and this "
+                    "value may make up "
+                    "for it; do not use it (hoplab diagnose)",
+                    s.name, Significant(ratio > 1.0 ? ratio : 1.0 / ratio, 2),
+                    ratio > 1.0 ? "stiffer" : "softer"));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "app/records/record_parts.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/records/formula_words.h"
@@ -14,6 +15,14 @@ Json StateRecord(const Eigen::VectorXd& state) {
           {"y_m", NumberOrNull(state[1])},
           {"vx_m_per_s", NumberOrNull(state[2])},
           {"vy_m_per_s", NumberOrNull(state[3])}};
+}
+
+// All values that a trial has of its own, by name, each in its own unit.
+Json OwnRecord(const TrialProblem& trial, const OwnValues& values) {
+  Json out = Json::object();
+  for (int k = 0; k < std::min<int>(trial.own_count(), static_cast<int>(values.size())); ++k)
+    out[trial.own[static_cast<std::size_t>(k)].name] = NumberOrNull(values[k]);
+  return out;
 }
 
 // Leg angle that the first touch-down of a trial is commanded at [rad].
@@ -103,6 +112,7 @@ Json TrialsRecord(const FitProblem& problem, const std::vector<TrialErrors>& tri
                    {"complete", trial.complete},
                    {"end_time_s", NumberOrNull(trial.end_time + begin)},
                    {"start", StateRecord(trial.start)},
+                   {"own_values", OwnRecord(problem.trials[i], trial.start)},
                    {"touchdown_angle_rad", NumberOrNull(FirstAngle(problem.trials[i]))},
                    {"max_flexure", NumberOrNull(trial.max_deflection_ratio)},
                    {"hops", hops}});

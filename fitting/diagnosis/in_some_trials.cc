@@ -42,11 +42,26 @@ InEach CutToEach(const Linearisation& at, int column, const std::vector<TrialPro
   for (const TrialProblem& t : train)
     group_of.push_back(static_cast<int>(
         std::find(recordings.begin(), recordings.end(), t.recording) - recordings.begin()));
+  const auto n = static_cast<Eigen::Index>(recordings.size());
   InEach out;
-  const Eigen::MatrixXd cut =
-      CutToTrials(at, column, group_of, static_cast<int>(recordings.size()), &out.whole);
-  out.answers = cut.transpose() * cut;
-  out.against = -cut.transpose() * at.r;
+  if (recordings.size() <= kMostSome) {
+    const Eigen::MatrixXd cut = CutToTrials(at, column, group_of, static_cast<int>(n), &out.whole);
+    out.answers = cut.transpose() * cut;
+    out.against = -cut.transpose() * at.r;
+    return out;
+  }
+  // One after the other: of many no products are asked for.
+  out.answers = Eigen::MatrixXd::Zero(n, n);
+  out.whole = out.against = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    std::vector<int> this_one;
+    for (const int group : group_of) this_one.push_back(group == i ? 0 : -1);
+    Eigen::VectorXd whole;
+    const Eigen::VectorXd cut = CutToTrials(at, column, this_one, 1, &whole);
+    out.answers(i, i) = cut.squaredNorm();
+    out.against[i] = -cut.dot(at.r);
+    out.whole[i] = whole[0];
+  }
   return out;
 }
 
@@ -71,11 +86,12 @@ std::optional<Local> InTrials(const InEach& each, const std::vector<Eigen::Index
 }
 
 // The trials in which the candidate acts with one size, if sizes of their own are none in some and
-// alike in the others; `seen` in all trials: its size in all is none of what is fitted.
-std::optional<Local> InSeveral(const InEach& each, bool seen, const Hypothesis& hypothesis,
-                               const Recordings& recordings) {
+// alike in the others; `seen` in all trials: its size in all is none of what is fitted. If it is,
+// either half of the trials may be the one that it acts in.
+std::vector<Local> InSeveral(const InEach& each, bool seen, const Hypothesis& hypothesis,
+                             const Recordings& recordings) {
   const std::size_t n = recordings.size();
-  if (n < kFewestSome || n > kMostSome || !each.answers.allFinite()) return std::nullopt;
+  if (n < kFewestSome || n > kMostSome || !each.answers.allFinite()) return {};
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> own;
   own.setThreshold(1e-6);
   own.compute(each.answers);
@@ -85,18 +101,27 @@ std::optional<Local> InSeveral(const InEach& each, bool seen, const Hypothesis& 
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](Eigen::Index a, Eigen::Index b) { return sizes[a] < sizes[b]; });
-  std::optional<Local> best;
+  const auto in = [&](bool largest, std::size_t k) {
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(largest ? n - k : 0);
+    std::vector<Eigen::Index> some(first, first + static_cast<std::ptrdiff_t>(k));
+    std::sort(some.begin(), some.end());
+    return InTrials(each, some, hypothesis, recordings);
+  };
   const std::size_t most = seen ? n - 1 : n / 2;
-  for (const bool largest : {false, true}) {
-    for (std::size_t k = 2; k <= most; ++k) {
-      const auto first = order.begin() + static_cast<std::ptrdiff_t>(largest ? n - k : 0);
-      std::vector<Eigen::Index> some(first, first + static_cast<std::ptrdiff_t>(k));
-      std::sort(some.begin(), some.end());
-      std::optional<Local> local = InTrials(each, some, hypothesis, recordings);
-      if (local && !(best && best->gain >= local->gain)) best = std::move(local);
+  std::vector<Local> best;
+  for (std::size_t k = 2; k <= most; ++k) {
+    const bool halves = !seen && 2 * k == n;
+    for (const bool largest : {false, true}) {
+      std::optional<Local> local = in(largest, k);
+      if (!local) continue;
+      const bool other_half =
+          halves && largest && !best.empty() && best.front().recordings.size() == k;
+      if (!other_half && !best.empty() && best.front().gain >= local->gain) continue;
+      if (!other_half) best.clear();
+      best.push_back(std::move(*local));
     }
   }
-  if (!best || best->gain < kNearlyFree * free_gain) return std::nullopt;
+  if (best.empty() || best.front().gain < kNearlyFree * free_gain) return {};
   return best;
 }
 
@@ -166,11 +191,11 @@ bool AddInSomeTrials(Naming& naming, const Linearisation& at, std::span<const in
       in_one = std::max(in_one, local->gain);
       if (pays(*local)) single.push_back(std::move(*local));
     }
-    std::optional<Local> local = InSeveral(each, in_all.rank > 0, hypotheses[i], recordings);
-    // Less picking says as much.
-    if (local && pays(*local) &&
-        local->gain > std::max(in_one, in_all.predicted_gain) + kIndistinguishable)
-      several.push_back(std::move(*local));
+    for (Local& local : InSeveral(each, in_all.rank > 0, hypotheses[i], recordings)) {
+      // Less picking says as much.
+      if (pays(local) && local.gain > std::max(in_one, in_all.predicted_gain) + kIndistinguishable)
+        several.push_back(std::move(local));
+    }
   }
   const bool added = AddBest(naming, std::move(single));
   return AddBest(naming, std::move(several)) || added;

@@ -196,7 +196,7 @@ Eigen::MatrixXd CutToTrials(const Linearisation& at, int column, const std::vect
   Eigen::MatrixXd cut = Eigen::MatrixXd::Zero(at.rows(), groups);
   for (int row = 0; row < at.rows(); ++row) {
     const auto trial = static_cast<std::size_t>(at.labels[static_cast<std::size_t>(row)].trial);
-    cut(row, group_of[trial]) = whole[row];
+    if (group_of[trial] >= 0) cut(row, group_of[trial]) = whole[row];
   }
   if (squares) *squares = cut.colwise().squaredNorm();
   cut -= at.fitted_basis * (at.fitted_basis.transpose() * cut);

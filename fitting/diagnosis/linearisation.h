@@ -84,8 +84,8 @@ Linearisation Linearise(const FitProblem& problem, int first_tested,
 
 /// A tested column cut to each of `groups` groups of trials, what the fitted values take of it
 /// projected out again: what they stand for in all trials (a modulus, for how stiff the leg is) is
-/// seen in some. `group_of`: the group of each trial. `squares`, where it is asked for: the squared
-/// lengths before that projection.
+/// seen in some. `group_of`: the group of each trial, -1: none. `squares`, where it is asked for:
+/// the squared lengths before that projection.
 Eigen::MatrixXd CutToTrials(const Linearisation& at, int column, const std::vector<int>& group_of,
                             int groups, Eigen::VectorXd* squares = nullptr);
 

@@ -58,7 +58,8 @@ std::vector<CauseReport> TakeApart(const Naming& naming, const SharesRequest& re
         MeasureHeldOut(without, settings.jobs, /*test_only=*/true, request.after);
     if (!errors.test.rmse.empty()) cause.rmse_without = errors.test.rmse;
     cause.gain = CompareHeldOut(without, errors, *request.after, request.seed, nullptr);
-    // Of what acts in some trials alone these confirm each other, and no held-out one can.
+    // What acts in several trials alone is confirmed by each of them; a held-out one sees no more
+    // of it than the values that all trials share, and may have it, too.
     cause.main =
         (cause.cause.only_recordings.size() > 1 && cause.share >= request.material) ||
         IsMainCause(cause.share, ErrorGrowsBy(cause.rmse_without, request.after->test.rmse),

@@ -202,7 +202,12 @@ TEST_F(VerdictSentenceTest, SaysThatNoHeldOutTrialCanConfirmWhatActsInOthersAlon
   d_.extension->gain.ci95 = {{-0.1, 3.0}};
   EXPECT_EQ(VerdictSentence(d_),
             "The simulation lacks air_drag in train-2.csv and train-4.csv; held-out trials cannot "
-            "confirm what acts in these alone.");
+            "confirm what acts in those alone.");
+  d_.extension->gain.ci95 = {{-3.0, -1.0}};
+  EXPECT_NE(VerdictSentence(d_).find("held-out trials are missed by more: some may have it, too"),
+            std::string::npos);
+  d_.extension->causes[0].cause.only_recordings = {"train-2.csv"};
+  EXPECT_NE(VerdictSentence(d_).find("air_drag in train-2.csv; held-out"), std::string::npos);
   d_.extension->causes[0].cause.only_recordings = {"a", "b", "c", "d"};
   EXPECT_NE(VerdictSentence(d_).find("air_drag in 4 trials"), std::string::npos)
       << VerdictSentence(d_);

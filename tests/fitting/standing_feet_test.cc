@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -88,7 +89,8 @@ TEST(StandingFeet, AreFittedWhereARecordBeginsInMidStride) {
 TEST(StandingFeet, AreToldOfTheTrialsThatHaveThem) {
   const FitProblem problem = MakeProblem(WalkFromMidStride(), {});
   ASSERT_FALSE(problem.notes.empty());
-  EXPECT_EQ(problem.notes.back().find("begins with a foot on the ground: train-1.csv, train-2.csv"),
+  EXPECT_EQ(problem.notes.back().find(
+                "3 trials begin with a foot on the ground (train-1.csv, ...): how far"),
             0U)
       << problem.notes.back();
   const FitProblem whole =

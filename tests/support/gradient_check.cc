@@ -110,7 +110,7 @@ std::string NameOf(const SimulationRequest& q, const SensitivityDirection& d) {
       return std::string(InfoOf(d.parameter).name);
     case Of::kInitialState:
       return (d.index < static_cast<int>(std::size(kStates)) ? std::string(kStates[d.index])
-                                                              : "state " + std::to_string(d.index)) +
+                                                             : "state " + std::to_string(d.index)) +
              "(0)";
     case Of::kEffect:
       return std::string(q.effects[d.index].effect->info.name) + "." +

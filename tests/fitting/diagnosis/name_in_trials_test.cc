@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -105,17 +106,37 @@ TEST(NameCauses, OneCauseInSeveralTrialsIsNamedOnce) {
   EXPECT_NEAR(slope.best.ValuesOf(0)[0], 0.015, 0.003);
 }
 
+// What E stands for in all trials may be in the one half of them or in the other: both are named,
+// softer or stiffer.
+TEST(NameCauses, OfHalfTheTrialsEitherHalfMayHaveAnotherStiffness) {
+  const std::vector<Candidate> candidates =
+      testing::CandidatesOf({"leg_stiffness", "leg_hardening", "touchdown_angle_bias"});
+  for (const double gain : {-0.12, 0.12}) {
+    Dataset d = testing::DatasetOf({.train = 4});
+    const Dataset with =
+        testing::DatasetOf({.effects = {EffectOfSize("leg_stiffness", gain)}, .train = 4});
+    for (const std::size_t i : {1, 3}) d.trials[i] = with.trials[i];
+    std::vector<std::string> names = GroupNames(NameIn(NullFit(d), candidates));
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, (std::vector<std::string>{"leg_stiffness in train-1.csv and train-3.csv",
+                                               "leg_stiffness in train-2.csv and train-4.csv"}))
+        << gain;
+  }
+}
+
 // Sizes that are all other ones are no two groups of trials.
 TEST(NameCauses, SizesThatDifferInEachTrialAreNotLaidToSome) {
+  const std::vector<Candidate> candidates = testing::CandidatesOf({"ground_slope", "air_drag"});
   Dataset d = testing::DatasetOf({.train = 6});
   for (std::size_t i = 0; i < 6; ++i) {
     const double size = 0.004 * static_cast<double>(i) - 0.008;
     d.trials[i] =
         testing::DatasetOf({.effects = {EffectOfSize("ground_slope", size)}, .train = 6}).trials[i];
   }
-  const Naming n = NameSix(NullFit(d));
-  for (const std::string& name : MembersOf(n))
-    EXPECT_EQ(name.find(" and "), std::string::npos) << name;
+  const Naming n = NameIn(NullFit(d), candidates);
+  EXPECT_FALSE(MembersOf(n).empty());
+  for (const CandidateResult& c : n.candidates)
+    EXPECT_LE(c.candidate.only_recordings.size(), 1U) << c.candidate.Name();
 }
 
 // One trial, or all: whatever else would do as well has its picking to pay for.
