@@ -253,7 +253,7 @@ class Robot final : public HybridSystem<T> {
   bool creeps_;               // feet that hold do, under a force along (M29)
   bool drifts_;               // the stiffness of all legs, with time
   mutable std::array<T, kMaxLegs> ahead_{};  // how far a foot stands ahead at the start, M119 [m]
-  double size_;               // of the legs, half of one unloaded [m]
+  double size_;                              // of the legs, half of one unloaded [m]
   double fall_height_;
   std::array<Leg, kMaxLegs> leg_;
   mutable Push push_{};           // of the last evaluation: too many numbers to be cleared for each
