@@ -7,6 +7,7 @@
 #include "app/records/trajectory_tables.h"
 #include "app/records/trial_tables.h"
 #include "base/nan.h"
+#include "base/text.h"
 #include "fitting/trial_noise.h"
 
 namespace hoplab {
