@@ -115,6 +115,7 @@ std::vector<std::string> AddStandingFeet(FitProblem& problem) {
     const std::vector<bool> stands = StandingFeet(problem, t);
     if (std::find(stands.begin(), stands.end(), true) == stands.end()) continue;
     files.push_back(t.file);
+    t.parameters.robot->starts_leaning = true;
     const int legs = static_cast<int>(stands.size());
     const double lean =
         kLean * (problem.robot_legs().straight ? 0.5 * t.parameters.l0 : t.parameters.r);

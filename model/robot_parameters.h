@@ -65,7 +65,9 @@ struct RobotParameters {
   bool own_moduli = false;     // each leg has its E; else all have that of Parameters
   MotorControl control = MotorControl::kHeld;
   bool starts_at_angles = false;  // recorded motors, at `angle`; else on what they follow
-  double pitch_limit = 1.4;       // [rad]
+  /// What a start has beside pitch and its rate is how far feet and motors are ahead (M119).
+  bool starts_leaning = false;
+  double pitch_limit = 1.4;  // [rad]
 
   /// Every differentiable number, in one order: for converting.
   template <class Self, class Do>
@@ -98,6 +100,7 @@ RobotParameters<To> ConvertRobot(const RobotParameters<From>& from) {
   to.own_moduli = from.own_moduli;
   to.control = from.control;
   to.starts_at_angles = from.starts_at_angles;
+  to.starts_leaning = from.starts_leaning;
   to.pitch_limit = from.pitch_limit;
   return to;
 }

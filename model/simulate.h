@@ -51,8 +51,8 @@ struct SimulationRequest {
   std::span<const EffectSetting> effects;
   /// x, y [m], vx, vy [m/s]; of a start in stance the place of the contact follows [m]. What a
   /// mechanism has beside them may follow, else it starts as it rests. Of a robot: pitch [rad], its
-  /// rate [rad/s]; then nothing, or how far each foot that stands is ahead [m] and each motor [rad]
-  /// (M119), or all the rest of its state.
+  /// rate [rad/s], then nothing or the rest of its state; with starts_leaning how far each foot
+  /// that stands is ahead [m], and each motor [rad] (M119).
   std::vector<double> initial = std::vector<double>(4, 0.0);
   /// kStance of a C-leg is whichever of rolling and toe it is in.
   Mode start_mode = Mode::kFlight;

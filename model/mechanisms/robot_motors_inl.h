@@ -88,7 +88,7 @@ T Robot<T>::ToldRate(int leg, const T* z, const T* dz) const {
 // fast as its hip.
 template <class T>
 void Robot<T>::CompleteStart(T* z, int given) const {
-  const bool leans = given == Contact(0);  // M119
+  const bool leans = robot_.starts_leaning && given == Contact(0);
   const bool own = given > 6 && !leans, clock = robot_.control == MotorControl::kClock;
   const bool recorded = robot_.control == MotorControl::kRecorded;
   for (int i = 0; i < legs_; ++i) {

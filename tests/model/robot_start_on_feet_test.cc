@@ -22,6 +22,7 @@ Parameters<double> LockedRobot(int legs) {
   Parameters<double> p = RobotParametersFor(legs);
   p.robot->control = MotorControl::kLocked;
   p.robot->damping = 4e-4;
+  p.robot->starts_leaning = true;
   return p;
 }
 
