@@ -39,8 +39,7 @@ void AddFarStiffnesses(const FitRun& run, std::vector<std::string>& remarks) {
     if (!stiffness || (ratio < kFar && ratio > 1.0 / kFar)) continue;
     remarks.push_back(
         fmt::format("{} ended {} times {} than it began: the model misses something, and this "
-                    "value may make up "
-                    "for it; do not use it (hoplab diagnose)",
+                    "value may make up for it; do not use it (hoplab diagnose)",
                     s.name, Significant(ratio > 1.0 ? ratio : 1.0 / ratio, 2),
                     ratio > 1.0 ? "stiffer" : "softer"));
   }

@@ -51,8 +51,8 @@ inline constexpr double kMaterial = 0.02;
 /// error is more than a tenth larger without it; and held-out trials confirm it: its gain may be
 /// claimed, or it explains a material share and some held-out error is more than a quarter larger
 /// without it. Where no gain could be measured nothing need confirm it. (Nor need held-out trials
-/// confirm a cause in several trials alone: TakeApart.) `error_grows`: the largest
-/// of the held-out errors without it over those with it.
+/// confirm a cause in several trials alone: TakeApart.) `error_grows`: the largest of the held-out
+/// errors without it over those with it.
 bool IsMainCause(double share, double error_grows, const HeldOutGain& gain,
                  double material = kMaterial);
 

@@ -75,6 +75,8 @@ TEST_F(FitCli, RigDropsGivesEveryKeyOfTheContract) {
     EXPECT_TRUE(trial.at("file").is_string());
     EXPECT_TRUE(trial.at("role") == "train" || trial.at("role") == "test");
     EXPECT_GT(trial.at("rmse").at("body_y_m"), 0.0);
+    EXPECT_EQ(trial.at("own_values").size(), 4u);
+    EXPECT_EQ(trial.at("own_values").at("vy0"), trial.at("start").at("vy_m_per_s"));
   }
   EXPECT_GT(record.at("identifiability").at("condition_number"), 1.0);
   EXPECT_TRUE(record.at("identifiability").at("weak_directions").is_array());
