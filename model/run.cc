@@ -42,8 +42,10 @@ struct Seeds {
     std::array<bool, ActiveEffects<T>::kMax> active{};
     HOPLAB_CHECK(request.effects.size() <= active.size());
     for (std::size_t e = 0; e < request.effects.size(); ++e) {
-      active[e] = !request.effects[e].IsNull();
-      for (int i = 0; i < kMaxEffectParameters; ++i) values[e][i] = T(request.effects[e].values[i]);
+      // Where the law has it in itself, its null is another model.
+      const EffectSetting& effect = request.effects[e];
+      active[e] = !effect.IsNull() || IsPartOf(request.law, *effect.effect);
+      for (int i = 0; i < kMaxEffectParameters; ++i) values[e][i] = T(effect.values[i]);
     }
     // An effect that any direction asks for acts in every chunk: all chunks run the same
     // simulation.

@@ -82,6 +82,9 @@ function causesPart(causes, extension) {
   const unconfirmed = setAside.filter((c) => list(c.parameters_by_whole_trials).length);
   const leftOut = setAside.filter((c) => !unconfirmed.includes(c));
   if (!causes.length && !setAside.length) return undefined;
+  // What would be likely, had shorter parts shown it, too.
+  const late = !causes.length && leftOut.some((c) => (c.probability_group ?? c.probability) >= 0.5);
+  const whyLeftOut = late ? 'but are seen late alone, as a model’s own error is' : 'but most likely do not act';
   const channels = Object.keys(causes[0]?.held_out_rmse_without ?? {});
   const unit = (c) => splitUnit(c).unit;
   const row = (c) => [causeText({...c, effect: c.name}), c.parameters.map((p) => sizeOf(c, p)).join('; '),
@@ -98,7 +101,7 @@ function causesPart(causes, extension) {
     main.length ? dataTable(['main cause', ...heads], main.map(row), align, 'What each cause explains, and the held-out errors without it') : undefined,
     small.length ? details('Small corrections the data also want, which may stand for details of the model', dataTable(['cause', ...heads], small.map(row), align)) : undefined,
     needed.length ? paragraph(`The model needs them, but most likely in place of something not listed: ${doubted(needed)}.`) : undefined,
-    leftOut.length ? paragraph(`Left out, since they would explain ${causes.length ? 'a little more' : 'some'} and most likely do not act: ${doubted(leftOut)}.`) : undefined,
+    leftOut.length ? paragraph(`Left out: they would explain ${causes.length ? 'a little more' : 'some'}, ${whyLeftOut}: ${doubted(leftOut)}.`) : undefined,
     unconfirmed.length ? paragraph(`Left out, since the whole trials know ${unconfirmed.length === 1 ? 'it' : 'them'} in another size: ${unconfirmed.map(unconfirmedText).join(', ')}. What acts keeps its size; what stands in for an error of the model does not.`) : undefined,
     ...causes.flatMap((c) => list(c.varies).filter((v) => v.told ?? true).map((v) => details(`${causeText({...c, effect: c.name})}: in every trial, differently`,
       paragraph(variesText(v)),

@@ -147,6 +147,7 @@ Json SetAsideRecord(const Diagnosis& d) {
                    {"only_in_trials", s.cause.only_recordings},
                    {"parameters", SizesOfCause(s.cause, s.values)},
                    {"probability", NumberOrNull(s.probability)},
+                   {"probability_group", NumberOrNull(s.group_probability)},
                    {"share", NumberOrNull(s.share)},
                    {"share_of_misfit", NumberOrNull(s.of_misfit)},
                    {"parameters_by_whole_trials",

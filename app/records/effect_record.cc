@@ -55,12 +55,15 @@ Json EffectRecord(const Effect& effect) {
     if (std::find(mechanisms.begin(), mechanisms.end(), mechanism) == mechanisms.end())
       mechanisms.push_back(mechanism);
   }
+  Json part_of = Json::array();
+  for (const Law law : effect.info.part_of) part_of.push_back(NameOf(law));
   return {{"name", effect.info.name},
           {"kind", NameOf(effect.info.kind)},
           {"equation", effect.info.equation},
           {"sentence", effect.info.sentence},
           {"mechanisms", mechanisms},
           {"laws", laws},
+          {"part_of", part_of},
           {"massless_leg_only", effect.info.massless_leg_only},
           {"dissipative", effect.info.dissipative},
           {"parameters", parameters}};

@@ -334,7 +334,9 @@ std::string LeftOutLine(const Diagnosis& d, bool colours) {
   if (names.empty()) return "";
   return Labelled("left out",
                   std::string(d.extension ? "would explain a little more" : "would explain some") +
-                      ", but most likely does not act: " + Join(names),
+                      (d.ShowsLateAlone() ? ", but is seen late alone, as a model's own error is: "
+                                          : ", but most likely does not act: ") +
+                      Join(names),
                   colours);
 }
 

@@ -35,7 +35,8 @@ std::string LawsText(const Effect& effect) {
   std::vector<std::string> names;
   for (const Law law : LawsWith(effect)) names.push_back("`" + std::string(NameOf(law)) + "`");
   return Join(names) + (effect.info.massless_leg_only ? "; not with a toe mass" : "") +
-         (effect.info.needs_inputs != 0 ? "; where a logged column drives the run" : "");
+         (effect.info.needs_inputs != 0 ? "; where a logged column drives the run" : "") +
+         PartOfText(effect);
 }
 
 std::string Section(const Effect& effect) {

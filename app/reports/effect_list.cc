@@ -66,7 +66,9 @@ std::string EffectText(const Effect& effect, const std::string& given, bool colo
   std::vector<std::string> laws;
   for (const Law law : LawsWith(effect)) laws.emplace_back(NameOf(law));
   return text +
-         Labelled("laws", Join(laws) + (info.massless_leg_only ? "; not with a toe mass" : ""),
+         Labelled("laws",
+                  Join(laws) + (info.massless_leg_only ? "; not with a toe mass" : "") +
+                      PartOfText(effect),
                   colours) +
          Labelled("energy",
                   info.dissipative ? "only ever taken away" : "may be put in or taken away",

@@ -41,4 +41,11 @@ std::string RestrictionOf(const Effect& effect) {
   return info.for_legs ? "legs only" : "ball only";
 }
 
+std::string PartOfText(const Effect& effect) {
+  std::vector<std::string> names;
+  for (const Law law : effect.info.part_of) names.emplace_back(NameOf(law));
+  return names.empty() ? ""
+                       : "; part of " + Join(names) + ", where it is not tried and 0 takes it away";
+}
+
 }  // namespace hoplab

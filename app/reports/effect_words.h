@@ -21,4 +21,8 @@ std::string SentenceOf(const Effect& effect);
 /// "ball only", "laws thesis, no_slip", "massless legs only"; empty where it goes with everything.
 std::string RestrictionOf(const Effect& effect);
 
+/// "; part of elastica, where it is not tried and 0 takes it away"; empty where no law has it in
+/// itself.
+std::string PartOfText(const Effect& effect);
+
 }  // namespace hoplab

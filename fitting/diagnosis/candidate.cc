@@ -19,6 +19,19 @@ const Effect& Applicable(const FitProblem& problem, const std::string& name,
   return effect;
 }
 
+// What `--effects` names is to be tried, which means nothing of what the law has in itself.
+const Effect& ToTry(const FitProblem& problem, const std::string& name) {
+  const Effect& effect = Applicable(problem, name, "--effects");
+  if (IsPartOf(problem.law, effect)) {
+    throw InputError(
+        {"--effects", name,
+         "is part of the law " + std::string(NameOf(problem.law)) + ", which cannot lack it",
+         "Leave it out; --with " + name + " fits its share."});
+  }
+  problem.known.CheckOpen(effect, "--effects");
+  return effect;
+}
+
 bool Simulates(const FitProblem& problem, const Effect& effect) {
   return std::any_of(problem.effects.begin(), problem.effects.end(),
                      [&](const EffectSetting& e) { return e.effect == &effect; });
@@ -112,10 +125,7 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
   std::vector<const Effect*> without, only;
   for (const std::string& name : options.without)
     without.push_back(&Applicable(problem, name, "--without"));
-  for (const std::string& name : options.only) {
-    only.push_back(&Applicable(problem, name, "--effects"));
-    problem.known.CheckOpen(*only.back(), "--effects");
-  }
+  for (const std::string& name : options.only) only.push_back(&ToTry(problem, name));
   const auto holds = [](const std::vector<const Effect*>& list, const Effect* effect) {
     return std::find(list.begin(), list.end(), effect) != list.end();
   };
@@ -130,7 +140,7 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
   for (const Effect* effect : tried) {
     if (!AppliesTo(*effect, problem.law, problem.leg_mass(), problem.inputs(),
                    problem.robot_legs()) ||
-        IsFitted(problem, *effect) || Simulates(problem, *effect))
+        IsPartOf(problem.law, *effect) || IsFitted(problem, *effect) || Simulates(problem, *effect))
       continue;
     if (only.empty() && (HasNothingOf(problem, *effect) || IsOfAllLegs(problem, *effect) ||
                          IsDelayOfAll(problem, *effect) || IsUnseenFilter(*effect, filters)))

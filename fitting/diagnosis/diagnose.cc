@@ -79,8 +79,11 @@ class StageByStage {
     const bool nothing_early = last && last->verdict == Verdict::kAdequate;
     if (nothing_early) late.max_effects = std::min(late.max_effects, kMostLateOnes);
     const bool far_off = IsFarOff(WholeNull());
-    Diagnosis whole = WithStepsThatServe(
-        whole_, late, [&] { return DiagnoseFitted(WholeNull(), late, FoundIn(last, whole_)); });
+    Diagnosis whole = WithStepsThatServe(whole_, late, [&] {
+      Beforehand found = FoundIn(last, whole_);
+      found.nothing_seen = nothing_early;
+      return DiagnoseFitted(WholeNull(), late, found);
+    });
     if (late.max_effects < options_.max_effects && whole.extension)
       whole.notes.push_back("nothing is seen in the first stances, so no more than " +
                             std::to_string(late.max_effects) +

@@ -196,7 +196,10 @@ class Pipeline {
   void Extended(const std::vector<Candidate>& candidates) {
     ExtensionReport report = ReportOf(candidates, {});
     FindStandIns(report.causes);
-    if (IsSlight(d_.detection, report)) return SetAllAside(report, candidates);
+    d_.nothing_seen_before = beforehand_.nothing_seen;
+    // What shows late alone may be the model's own error, which grows: even odds are not enough.
+    const double likely = beforehand_.nothing_seen ? kProbable : kLikely;
+    if (IsSlight(d_.detection, report, likely)) return SetAllAside(report, candidates);
     std::vector<SetAside> doubtful = DoubtfulCorrections(report, d_.naming);
     if (!doubtful.empty() && !Stopped()) {
       Stage("taking out corrections that are most likely not what they say");

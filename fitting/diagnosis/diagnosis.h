@@ -215,7 +215,8 @@ struct Diagnosis {
   std::vector<std::optional<HeldOutGain>> candidate_gains;
   HeldOutErrors before;
   std::optional<ExtensionReport> extension;
-  std::vector<SetAside> set_aside;  // what the evidence wanted besides; without an extension, all
+  std::vector<SetAside> set_aside;   // what the evidence wanted besides; without an extension, all
+  bool nothing_seen_before = false;  // Beforehand::nothing_seen
   Leftover left;
   std::optional<SeparatingExperiment> experiment;
   std::optional<CarriedOn> carried_on;    // where causes were named by first parts of the trials
@@ -231,12 +232,15 @@ struct Diagnosis {
   double UnlistedProbability() const;
   /// What was named, if anything, may only stand in for something else.
   bool CausesMayStandIn() const;
+  /// Nothing is told, but what is set aside would be likely had it been seen in shorter parts, too.
+  bool ShowsLateAlone() const;
 };
 
 /// What a diagnosis of shorter parts of the same trials has found: NamingOptions.
 struct Beforehand {
   std::vector<FittedModel> begin = {};  // as NamingOptions has it
   bool slow_ones_only_beside = false;
+  bool nothing_seen = false;  // shorter parts were looked at and are adequate
 };
 
 /// Diagnoses what a fit of the model as it is leaves, up to the verdict.

@@ -37,9 +37,10 @@ void WeighWhatIsLeft(Diagnosis& d, double material) {
 void JudgeSlight(Diagnosis& d) {
   d.verdict = Verdict::kAdequate;
   char text[120];
-  std::snprintf(text, sizeof text,
-                "what stands out is %.2f of the noise, and no main cause is likely",
-                MisfitOverNoise(d.detection));
+  std::snprintf(
+      text, sizeof text, "what stands out is %.2f of the noise, and %s",
+      MisfitOverNoise(d.detection),
+      d.ShowsLateAlone() ? "late alone, as a model's own error does" : "no main cause is likely");
   d.reason = text;
 }
 
@@ -111,12 +112,12 @@ double LeftOverNoise(const Detection& seen, double share) {
   return std::sqrt(std::max(share, 0.0)) * MisfitOverNoise(seen);
 }
 
-bool IsSlight(const Detection& seen, const ExtensionReport& report) {
+bool IsSlight(const Detection& seen, const ExtensionReport& report, double likely) {
   const std::vector<const CauseReport*> told = report.ToldCauses();
   const double square = seen.chi2 / seen.degrees_of_freedom - 1.0;
   return std::abs(square) < kSlight * kSlight &&
          std::none_of(told.begin(), told.end(),
-                      [](const CauseReport* c) { return c->group_probability >= kLikely; });
+                      [&](const CauseReport* c) { return c->group_probability >= likely; });
 }
 
 std::string WhatItNeeds(const ExtensionReport& e) {
@@ -208,6 +209,12 @@ std::optional<int> Diagnosis::Cause() const {
 
 double Diagnosis::UnlistedProbability() const {
   return extension ? 1.0 - extension->Probability() : naming.unlisted_probability;
+}
+
+bool Diagnosis::ShowsLateAlone() const {
+  return nothing_seen_before && !extension &&
+         std::any_of(set_aside.begin(), set_aside.end(),
+                     [](const SetAside& s) { return s.group_probability >= kLikely; });
 }
 
 bool Diagnosis::CausesMayStandIn() const {

@@ -20,8 +20,8 @@ double MisfitOverNoise(const Detection& seen);
 double LeftOverNoise(const Detection& seen, double share);
 
 /// Whether something stands out that is much less than the noise (kSlight), and no cause that
-/// `report` tells is likely.
-bool IsSlight(const Detection& seen, const ExtensionReport& report);
+/// `report` tells has a probability of `likely`.
+bool IsSlight(const Detection& seen, const ExtensionReport& report, double likely);
 
 /// What an extension that is beyond physics needs, after its name.
 std::string WhatItNeeds(const ExtensionReport& e);

@@ -55,6 +55,11 @@ bool AppliesTo(const Effect& effect, Law law, LegMass mass, InputSet inputs, Rob
          std::find(info.only_laws.begin(), info.only_laws.end(), law) != info.only_laws.end();
 }
 
+bool IsPartOf(Law law, const Effect& effect) {
+  const std::span<const Law> laws = effect.info.part_of;
+  return std::find(laws.begin(), laws.end(), law) != laws.end();
+}
+
 const Effect* FindEffect(std::string_view name) {
   for (const Effect* effect : AllEffects()) {
     if (effect->info.name == name) return effect;

@@ -63,6 +63,9 @@ struct EffectInfo {
   bool massless_leg_only = false;
   std::span<const EffectParameter> parameters;
   std::span<const Law> only_laws = {};  // of those mechanisms' laws; empty: all of them
+  /// Laws that have it in themselves: nothing is lacking there that it could be. Given, it says the
+  /// share in the law's place.
+  std::span<const Law> part_of = {};
   InputSet needs_inputs = 0;  // means nothing unless one of these drives the run; 0: always does
   bool for_robot = false;     // applies to a robot, too
   int least_legs = 1;         // that it must have
@@ -220,6 +223,9 @@ struct RobotLegs {
 /// Whether an effect means anything under a law, on such a leg, on a robot with those legs.
 bool AppliesTo(const Effect& effect, Law law, LegMass mass = LegMass::kNone, InputSet inputs = 0,
                RobotLegs robot_legs = {});
+
+/// Whether the law has it in itself (EffectInfo::part_of).
+bool IsPartOf(Law law, const Effect& effect);
 
 /// Every effect there is, by name. One entry per file in model/effects (cmake writes the list).
 std::span<const Effect* const> AllEffects();

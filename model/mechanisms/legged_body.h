@@ -137,9 +137,13 @@ class LeggedBody final : public HybridSystem<T> {
  private:
   static bool DampsAlongArc(const MechanismSetup<T>& setup);
   static bool BendsByLoad(const MechanismSetup<T>& setup);
+  static bool BendsByItsLaw(const MechanismSetup<T>& setup);
   static Parameters<T> ParametersOf(const MechanismSetup<T>& setup);
   bool FallsBelow(const T& touchdown) const;
   LegConditions<T> Conditions(Mode mode, const T& t, const T* z, const T* over) const;
+  LegConditions<T> BentBy(const T& torque, const T& t) const;
+  T WithUnloadedEffects(T torque, const T& t, const T* z) const;
+  T QuickLagged(Mode mode, const T& motor, const LegLoad<T>& load, const T& t, const T* z) const;
   T CommandedTorque(const T& t, const T* z) const;
   T MotorTorque(const T& t, const T* z) const;
   T SweptAngle(const T& t, const T* z) const;

@@ -85,12 +85,27 @@ Vector2<T> LeggedBody<T, LegT>::BodyForce(Mode mode, const T& t, const T* z) con
 template <class T, class LegT>
 LegConditions<T> LeggedBody<T, LegT>::Conditions(Mode mode, const T& t, const T* z,
                                                  const T* over) const {
-  T torque = MotorTorque(t, z);
-  if (has_hip_torque_) effects_.AddHipTorque({torque, SinceFirstRow(t), z[kVx]}, torque, false);
-  const LegConditions<T> driven{t, T(p_.law_terms.torque_bending * torque)};
+  const T motor = MotorTorque(t, z);
+  T torque = WithUnloadedEffects(motor, t, z);
+  if (has_quick_lag_ && may_pull_) {
+    const LegLoad<T> load = leg_->extended().Load(mode, over, BentBy(torque, t));
+    torque = WithUnloadedEffects(QuickLagged(mode, motor, load, t, z), t, z);
+  }
+  const LegConditions<T> driven = BentBy(torque, t);
   if (!bends_by_load_) return driven;
   const LegLoad<T> load = leg_->extended().Load(mode, over, driven);
-  return {t, driven.torque + WithTorqueEffects(mode, MotorTorque(t, z), load, t, z) - torque};
+  return {t, driven.torque + WithTorqueEffects(mode, motor, load, t, z) -
+                 WithUnloadedEffects(motor, t, z)};
+}
+template <class T, class LegT>
+LegConditions<T> LeggedBody<T, LegT>::BentBy(const T& torque, const T& t) const {
+  return {t, T(p_.law_terms.torque_bending * torque)};
+}
+// The motor's torque with what effects add that do not ask how the leg is loaded.
+template <class T, class LegT>
+T LeggedBody<T, LegT>::WithUnloadedEffects(T torque, const T& t, const T* z) const {
+  if (has_hip_torque_) effects_.AddHipTorque({torque, SinceFirstRow(t), z[kVx]}, torque, false);
+  return torque;
 }
 // What the motor gives: its command, or with a lag long enough to integrate a state.
 template <class T, class LegT>
@@ -108,14 +123,20 @@ template <class T, class LegT>
 T LeggedBody<T, LegT>::HipTorque(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const {
   if (!is_driven_) return T(0.0);
   const T motor = MotorTorque(t, z);
-  if (!has_quick_lag_) return WithTorqueEffects(mode, motor, load, t, z);
-  // A lag too short to integrate, to its first order: T_cmd - t_lag dT_cmd/dt.
+  return WithTorqueEffects(mode, has_quick_lag_ ? QuickLagged(mode, motor, load, t, z) : motor,
+                           load, t, z);
+}
+// What a motor gives whose lag is too short to integrate, to its first order:
+// T_cmd - t_lag dT_cmd/dt.
+template <class T, class LegT>
+T LeggedBody<T, LegT>::QuickLagged(Mode mode, const T& motor, const LegLoad<T>& load, const T& t,
+                                   const T* z) const {
   T fx = HipForce(load, WithTorqueEffects(mode, motor, load, t, z), t).x;
   if (has_body_force_) fx += BodyForce(mode, t, z).x;
   const T rate = inputs_.Has(InputKind::kHipTorque)
                      ? inputs_.of(InputKind::kHipTorque).Rate()
                      : controller_.TorqueRate(fx / inertia_.mx + inertia_.gravity_x);
-  return WithTorqueEffects(mode, motor - p_.torque_lag * rate, load, t, z);
+  return motor - p_.torque_lag * rate;
 }
 template <class T, class LegT>
 HipMotion<T> LeggedBody<T, LegT>::HipMotionAt(Mode mode, const T& torque, const LegLoad<T>& load,

@@ -62,9 +62,21 @@ bool LeggedBody<T, LegT>::BendsByLoad(const MechanismSetup<T>& setup) {
   return setup.law == Law::kElastica && setup.effects.HasTorqueOfLoad() &&
          IsZero(setup.parameters.m_toe);
 }
+// M120: `elastica` knows what a torque at the hip does to its arc, unless it is told another share.
+template <class T, class LegT>
+bool LeggedBody<T, LegT>::BendsByItsLaw(const MechanismSetup<T>& setup) {
+  const Parameters<T>& p = setup.parameters;
+  const bool is_driven = !IsZero(p.kp) || setup.inputs.Has(InputKind::kHipTorque) ||
+                         !IsZero(p.torque_lag) || setup.effects.HasHipTorque();
+  return setup.law == Law::kElastica && is_driven && !p.law_terms.torque_active && IsZero(p.m_toe);
+}
 template <class T, class LegT>
 Parameters<T> LeggedBody<T, LegT>::ParametersOf(const MechanismSetup<T>& setup) {
   Parameters<T> p = setup.parameters;
+  if (BendsByItsLaw(setup)) {
+    p.law_terms.active = p.law_terms.torque_active = true;
+    p.law_terms.torque_bending = T(1.0);
+  }
   if (BendsByLoad(setup))
     p.law_terms.active = p.law_terms.slopes_active = p.law_terms.torque_active = true;
   if (DampsAlongArc(setup)) p.law_terms.active = p.law_terms.slopes_active = true;
@@ -115,11 +127,16 @@ std::optional<T> LeggedBody<T, LegT>::PassKnot(Mode mode, double t, T* z) {
   const std::optional<InputKind> due = inputs_.Due(flight, t);
   if (due == InputKind::kHipTorque && has_quick_lag_) {
     // M52: a motor that lags by t_lag gives t_lag times the jump less than its command, at once.
-    const T missed = p_.torque_lag * inputs_.of(InputKind::kHipTorque).NextJump();
-    const LegLoad<T> load = Load(mode, T(t), z);
-    const T normal = missed / (load.l * load.l);
-    if (!inertia_.on_guide) z[kVx] -= normal * load.y / inertia_.mx;
-    z[kVy] -= torque_lift_ * normal * load.u / inertia_.my;
+    const T now = MotorTorque(T(t), z);
+    const auto force = [&](const T& motor) {
+      const LegLoad<T> load =
+          may_pull_ ? leg_->extended().Load(mode, z, BentBy(motor, T(t))) : Load(mode, T(t), z);
+      return HipForce(load, motor, T(t));
+    };
+    const Vector2<T> before = force(now);
+    const Vector2<T> after = force(now + inputs_.of(InputKind::kHipTorque).NextJump());
+    if (!inertia_.on_guide) z[kVx] -= p_.torque_lag * (after.x - before.x) / inertia_.mx;
+    z[kVy] -= p_.torque_lag * (after.y - before.y) / inertia_.my;
     Seat(mode, T(t), z);
   }
   return inputs_.Pass(flight, t);

@@ -89,6 +89,16 @@ TEST(ExportC, AnotherRuleOfLiftoffIsTheLibrarys) {
   }
 }
 
+TEST(ExportC, ItsHeadTellsWhatATorqueDoesToAnElastica) {
+  const auto head_of = [](Law law) {
+    const std::string text = CSourceOf(ModelOf(law), "run.json");
+    return text.substr(0, text.find("#include"));
+  };
+  const std::string line = "what a torque of the hip does to the arc";
+  EXPECT_NE(head_of(Law::kElastica).find(line), std::string::npos);
+  EXPECT_EQ(head_of(Law::kLargeDeflection).find(line), std::string::npos);
+}
+
 TEST(ExportC, WhatTheFileDoesNotKnowIsRefusedOrTold) {
   for (const Effect* effect : AllEffects()) {
     const std::string name(effect->info.name);

@@ -57,6 +57,9 @@ ExportedLeg::ExportedLeg(ExportedModel model) : model_(std::move(model)) {
                                .parameters = model_.Effective(),
                                .effects = effects,
                                .liftoff = model_.liftoff};
+  // The file leaves out what a torque does to the arc of an elastica (M120).
+  LawTerms<double>& terms = setup.parameters.law_terms;
+  if (model_.law == Law::kElastica) terms.active = terms.torque_active = true;
   LegLawOf(model_.law).body.Make(setup, body_);
   p_ = setup.parameters;
 }

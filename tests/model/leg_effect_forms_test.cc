@@ -158,7 +158,7 @@ TEST(TorqueLag, FollowsTheCommandByItsTimeConstant) {
 }
 
 TEST(TorqueLag, TooShortToIntegrateMeetsTheIntegratedOne) {
-  for (Law law : {Law::kLargeDeflection, Law::kStraightLeg}) {
+  for (Law law : {Law::kElastica, Law::kLargeDeflection, Law::kStraightLeg}) {
     SimulationRequest q = ExcitedRequest(law);
     std::array effects = {Setting("torque_lag", 0.9999e-5)};
     q.effects = effects;

@@ -169,7 +169,7 @@ TEST(SlidingFoot, SlidesFromTheStartWhereATorquePushesIt) {
   s.request.start_mode = Mode::kStance;
   s.request.horizon = 0.03;
   const Trajectory holds = Simulate(s.request);
-  s.request.parameters.kp = 5.0;
+  s.request.parameters.kp = 1.0;
   s.request.parameters.v_des = 3.0;
   const Trajectory slides = Simulate(s.request);
   EXPECT_EQ(Find(slides, EventKind::kSlide), nullptr) << "it slides already";

@@ -72,7 +72,7 @@ void Push(const BeamRig& rig, double angle, bool stands, mjModel& model, mjData&
   data.qfrc_applied[kX] = -drag * vx;
   data.qfrc_applied[kY] = -drag * vy;
   model.dof_damping[kHip] = stands ? rig.hip_damping : rig.hold_damping;
-  data.ctrl[0] = stands ? rig.hip_gain * (rig.desired_speed - vx)
+  data.ctrl[0] = stands ? rig.motor_share * rig.hip_gain * (rig.desired_speed - vx)
                         : -rig.hold_stiffness * (angle - data.qpos[kHip]);
   if (rig.extras.push) rig.extras.push(stands, model, data);
 }

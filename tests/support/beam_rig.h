@@ -25,6 +25,7 @@ struct BeamRig {
   double hip_damping = 0.0;  // in stance [N m s/rad]
   double hip_gain = 0.0;     // torque = gain (desired speed - speed), in stance [N s]
   double desired_speed = 1.8;
+  double motor_share = 1.0;  // of the torque that is asked for
   // The motor that holds the hip in the air, and how long after the last contact it does.
   double hold_stiffness = 60.0, hold_damping = 0.45;  // [N m/rad], [N m s/rad]
   double release = 0.005;

@@ -28,9 +28,22 @@ TEST(Candidates, AreEveryEffectThatAppliesInTheOrderOfTheCatalogue) {
   std::vector<std::string> expected;
   for (const Effect* effect : AllEffects()) {
     const bool filters = effect->info.filter != RecordFilter::kNone;  // white noise rules it out
-    if (AppliesTo(*effect, Law::kElastica) && !filters) expected.emplace_back(effect->info.name);
+    if (AppliesTo(*effect, Law::kElastica) && !filters && !IsPartOf(Law::kElastica, *effect))
+      expected.emplace_back(effect->info.name);
   }
   EXPECT_EQ(NamesOf(CandidatesOf(Problem(), {})), expected);
+}
+
+// A torque bends an elastica, which therefore cannot lack it (M120); the other laws can.
+TEST(Candidates, HoldNothingThatTheLawHasInItself) {
+  const CandidateOptions bending{.only = {"torque_bending"}};
+  EXPECT_EQ(
+      InputErrorOf([&] { CandidatesOf(Problem(), bending); }),
+      "--effects: torque_bending; is part of the law elastica, which cannot lack it. Leave it "
+      "out; --with torque_bending fits its share.");
+  FitProblem other = Problem();
+  other.law = Law::kLargeDeflection;
+  EXPECT_EQ(NamesOf(CandidatesOf(other, bending)), std::vector<std::string>{"torque_bending"});
 }
 
 TEST(Candidates, OfAFreeBallHoldNoFrictionOfAGuide) {

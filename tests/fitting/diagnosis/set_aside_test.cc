@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "fitting/diagnosis/believe.h"
+#include "fitting/diagnosis/null_fit.h"
+#include "fitting/diagnosis/verdict.h"
 #include "tests/support/diagnosed_hops.h"
 
 namespace hoplab {
@@ -152,6 +155,40 @@ TEST(SetAside, AModelWithItIsNoLikelierThanItsName) {
   unconfirmed.by_whole_trials = Eigen::VectorXd::Zero(1);
   Doubt({unconfirmed}, models);
   EXPECT_EQ(models[0].log_odds, 0.0);
+}
+
+// Drag that hardly shows, of several sizes: where shorter parts were seen to be sound, what even
+// odds would tell is told no more, and what is sure is told as before.
+TEST(SetAside, WhatShowsLateAloneIsNotToldAtEvenOdds) {
+  DiagnosisOptions options;
+  options.candidates.only = testing::kSixEffects;
+  int even = 0, sure = 0;
+  for (const double drag : {0.002, 0.003, 0.004, 0.005, 0.006, 0.008}) {
+    const Dataset hops =
+        testing::DatasetOf({.effects = {EffectOfSize("air_drag", drag)}, .rate_hz = 800.0});
+    const auto diagnosed = [&](const Beforehand& beforehand) {
+      DatasetFit null = FitPlain(MakeProblem(hops, options.problem), options, Segmentation::kWhole);
+      return DiagnoseFitted(std::move(null), options, beforehand);
+    };
+    const Diagnosis at_once = diagnosed({});
+    if (!at_once.extension) continue;
+    const Diagnosis late = diagnosed({.nothing_seen = true});
+    const double told = at_once.extension->ToldProbability();
+    const double over_noise = MisfitOverNoise(at_once.detection);
+    std::printf("  drag %.3f: %.2f of the noise, P %.2f\n", drag, over_noise, told);
+    if (told >= kProbable) {
+      EXPECT_TRUE(late.extension) << drag;
+      ++sure;
+    } else if (over_noise < kSlight) {
+      EXPECT_FALSE(late.extension) << drag;
+      EXPECT_EQ(late.verdict, Verdict::kAdequate) << drag;
+      EXPECT_TRUE(late.ShowsLateAlone()) << drag;
+      EXPECT_NE(late.reason.find("late alone, as a model's own error does"), std::string::npos);
+      ++even;
+    }
+  }
+  EXPECT_GE(even, 1);
+  EXPECT_GE(sure, 1);
 }
 
 }  // namespace

@@ -194,12 +194,17 @@ TEST(Verdict, AsksForMoreThanEvenOddsWhereMoreIsLeftThanTheNoise) {
 // A model of another engine is never quite right: where no cause is likely, a misfit of a tenth of
 // the noise asks for none.
 TEST(Verdict, AMisfitFarBelowTheNoiseNamesNoUnlikelyCause) {
-  const auto is_slight = [](const Diagnosis& d) { return IsSlight(d.detection, *d.extension); };
+  const auto is_slight = [](const Diagnosis& d, double likely = kLikely) {
+    return IsSlight(d.detection, *d.extension, likely);
+  };
   for (double explained : {0.4, 1.0}) {
     EXPECT_TRUE(is_slight(Judged(0.3, explained, 0.1)));
     EXPECT_FALSE(is_slight(Judged(0.3, explained, 0.3)));
   }
   EXPECT_FALSE(is_slight(Judged(0.97, 1.0, 0.1)));  // small, and there
+  EXPECT_FALSE(is_slight(Judged(0.7, 1.0, 0.1)));
+  EXPECT_TRUE(is_slight(Judged(0.7, 1.0, 0.1), kProbable));  // seen late alone
+  EXPECT_FALSE(is_slight(Judged(0.9, 1.0, 0.1), kProbable));
   // Noise that was stated too large is no reason to see less.
   Diagnosis quiet = Judged(0.3, 0.4);
   quiet.detection.chi2 = 900.0;
@@ -225,6 +230,11 @@ TEST(Verdict, WhereAllIsSetAsideTheModelIsAdequateAndNothingIsExcluded) {
   Judge(d, kMaterial);
   EXPECT_EQ(d.verdict, Verdict::kAdequate);
   EXPECT_NE(d.reason.find("0.10 of the noise"), std::string::npos) << d.reason;
+  EXPECT_FALSE(d.ShowsLateAlone());
+  d.set_aside.front().group_probability = 0.7;
+  EXPECT_FALSE(d.ShowsLateAlone());  // no shorter part was looked at
+  d.nothing_seen_before = true;
+  EXPECT_TRUE(d.ShowsLateAlone());
   EXPECT_FALSE(NamesSomething(d));
   EXPECT_EQ(d.naming.candidates[0].status, CandidateStatus::kNotNeeded);
 }
