@@ -82,9 +82,7 @@ function causesPart(causes, extension) {
   const unconfirmed = setAside.filter((c) => list(c.parameters_by_whole_trials).length);
   const leftOut = setAside.filter((c) => !unconfirmed.includes(c));
   if (!causes.length && !setAside.length) return undefined;
-  // What would be likely, had shorter parts shown it, too.
-  const late = !causes.length && leftOut.some((c) => (c.probability_group ?? c.probability) >= 0.5);
-  const whyLeftOut = late ? 'but are seen late alone, as a model’s own error is' : 'but most likely do not act';
+  const whyLeftOut = run.shows_late_alone ? 'but are seen late alone, as a model’s own error is' : 'but most likely do not act';
   const channels = Object.keys(causes[0]?.held_out_rmse_without ?? {});
   const unit = (c) => splitUnit(c).unit;
   const row = (c) => [causeText({...c, effect: c.name}), c.parameters.map((p) => sizeOf(c, p)).join('; '),

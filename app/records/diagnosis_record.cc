@@ -194,6 +194,7 @@ void AddModels(const DiagnosisRun& run, Json& record) {
   record["penalty_nats"] = d.naming.log_odds > 0.0 ? Json(d.naming.log_odds) : Json(nullptr);
   record["causes"] = CausesRecord(d);
   record["set_aside"] = SetAsideRecord(d);
+  record["shows_late_alone"] = d.ShowsLateAlone();
   // A model that is adequate lacks nothing, listed or not.
   record["probability_unlisted"] =
       d.verdict == Verdict::kAdequate ? Json(nullptr) : NumberOrNull(d.UnlistedProbability());

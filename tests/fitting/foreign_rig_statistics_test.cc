@@ -208,9 +208,8 @@ TEST(ForeignRigs, CausesOfRigsDrawnAtRandom) {
   EXPECT_LE(count.width / count.rigs, 0.01);
 }
 
-// With a motor, all that is there is found in one of the first three
-// (docs/statistics/foreign-data.md). What is held is that no wrong name is sure, and that E is
-// within its interval.
+// With a motor, less is found than without (docs/statistics/foreign-data.md). What is held is that
+// no wrong name is sure, and that E is within its interval.
 TEST(ForeignRigs, NoWrongNameOfADrivenRigIsSure) {
   const Lot lot = LotOf(3);
   const Count count = DiagnoseAll(lot, /*driven=*/true);

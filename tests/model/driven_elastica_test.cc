@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <span>
+#include <vector>
 
 #include "model/effects/effect.h"
 #include "tests/support/effect_requests.h"
@@ -76,6 +76,25 @@ TEST(DrivenElastica, IsBentByItsTorqueAsTheShotElastica) {
     EXPECT_GT(of.rows, 8);
     EXPECT_GT(of.bent_by_torque, 1e-4);
     EXPECT_LT(of.worst, c.bound * of.bent_by_torque);
+  }
+}
+
+// A log, an amplifier's offset: they bend it as a controller does.
+TEST(DrivenElastica, IsBentByWhateverTorqueActs) {
+  const std::vector<double> rows = {0.0, 1.0}, torque = {0.5, 0.5};
+  const std::array inputs = {
+      DrivenInput{.kind = InputKind::kHipTorque, .times = rows, .values = torque}};
+  const std::array offset = {Setting("torque_bias", 0.5)};
+  SimulationRequest logged = DrivenHop(4.0);
+  logged.parameters.kp = 0.0;
+  SimulationRequest biased = logged;
+  logged.inputs = inputs;
+  biased.effects = offset;
+  for (const SimulationRequest& q : {logged, biased}) {
+    const Chords of = MissesOf(q, 1.0);
+    EXPECT_GT(of.rows, 8);
+    EXPECT_GT(of.bent_by_torque, 1e-4);
+    EXPECT_LT(of.worst, 0.02 * of.bent_by_torque);
   }
 }
 

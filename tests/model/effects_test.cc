@@ -81,6 +81,7 @@ TEST(EffectAtNull, ChangesNothingBitForBit) {
     q.channels = ChannelsOf(law);
     const Trajectory without = Simulate(q);
     for (const Effect* effect : AllEffects()) {
+      // Of what the law has in itself null is another model (driven_elastica_test.cc).
       if (!AppliesTo(*effect, law) || IsPartOf(law, *effect)) continue;
       SCOPED_TRACE(std::string(NameOf(law)) + " " + std::string(effect->info.name));
       const std::array effects = {EffectSetting::Null(*effect)};

@@ -171,6 +171,31 @@ TEST(TorqueLag, TooShortToIntegrateMeetsTheIntegratedOne) {
   }
 }
 
+// M52: the impulse that a lag takes from each step of a logged torque; of an elastica along the
+// chord, too, since the torque bends it (M120).
+TEST(TorqueLag, TakesOfEachStepOfALogWhatTheIntegratedOneDoes) {
+  std::vector<double> rows, torque;
+  for (int i = 0; i < 100; ++i) {
+    rows.push_back(0.007 * i);
+    torque.push_back(0.4 * (0.6 + std::sin(31.0 * rows.back())));
+  }
+  const std::array inputs = {
+      DrivenInput{.kind = InputKind::kHipTorque, .times = rows, .values = torque, .held = true}};
+  for (Law law : {Law::kElastica, Law::kLargeDeflection}) {
+    SimulationRequest q = ThickLegRequest(law);
+    q.parameters.kp = 0.0;
+    q.inputs = inputs;
+    const auto end = [&](double lag) {
+      const std::array effects = {Setting("torque_lag", lag)};
+      q.effects = effects;
+      return Simulate(q).final_state;
+    };
+    const std::vector<double> none = end(0.0), quick = end(0.9999e-5), integrated = end(1.0001e-5);
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(quick[i], integrated[i], 0.03 * std::abs(integrated[i] - none[i]) + 1e-9) << i;
+  }
+}
+
 TEST(RestLengthStep, PutsInTheWorkOfItsPush) {
   SimulationRequest q = SteadyStraightLeg();
   const double dl = 0.01;
