@@ -219,6 +219,7 @@ StartRecord FitFrom(const FitProblem& problem, const std::vector<TrialProblem>& 
     }
   } else {
     SolveRequest request = RequestFor(problem, trials, options, start_number, "all rows");
+    request.follow_edges = true;
     request.shared = options.strategy == FitStrategy::kRaw
                          ? shared
                          : ShootApexes(problem, trials, shared, options, start_number);

@@ -29,6 +29,8 @@ struct SolveRequest {
   double start_below = std::numeric_limits<double>::infinity();
   /// A search that would not get below this cost at its present pace ends.
   double give_up_above = std::numeric_limits<double>::infinity();
+  /// A search that ends on an edge (fitting/edges.h) goes on along it.
+  bool follow_edges = false;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;  // set: end as soon as possible
   std::function<void(int iteration, double cost)> progress = nullptr;

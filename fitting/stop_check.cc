@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "base/parallel.h"
+#include "fitting/edges.h"
 #include "fitting/eliminated_trial.h"
 
 namespace hoplab {
@@ -35,9 +36,11 @@ std::vector<int> IndicesAtWall(const FitProblem& problem, const Eigen::VectorXd&
   return at_wall;
 }
 
-// Gain of a Gauss-Newton step that does not cross the bounds values lie on already, and that step.
+// Gain of a Gauss-Newton step that does not cross the bounds values lie on already, and that step;
+// `held` gets the values that it leaves where they are.
 double PromisedNats(const FitProblem& problem, const Eigen::VectorXd& shared,
-                    const EliminatedTrial& all, Eigen::VectorXd& of_shared) {
+                    const EliminatedTrial& all, Eigen::VectorXd& of_shared,
+                    std::vector<int>& held) {
   const Eigen::VectorXd gradient = all.columns.transpose() * all.residuals;
   Eigen::MatrixXd S(all.columns.rows(), all.columns.cols());
   std::vector<int> free_values;
@@ -48,7 +51,10 @@ double PromisedNats(const FitProblem& problem, const Eigen::VectorXd& shared,
     const bool outward =
         (side == Side::kLower && gradient[k] > 0.0) || (side == Side::kUpper && gradient[k] < 0.0);
     const bool seen = all.columns.col(k).squaredNorm() > 0.0;
-    if (!seen || outward) continue;
+    if (!seen || outward) {
+      held.push_back(k);
+      continue;
+    }
     S.col(free++) = all.columns.col(k);
     free_values.push_back(k);
   }
@@ -136,7 +142,21 @@ StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& 
                          s.unit);
   }
   if (!evaluated) return out;
-  out.promised_nats = PromisedNats(problem, shared, Stacked(eliminated), out.promised_step);
+  std::vector<int> held;
+  out.promised_nats = PromisedNats(problem, shared, Stacked(eliminated), out.promised_step, held);
+  if (out.complete && !(out.promised_nats < kMinimumNats)) {
+    const EdgeCheck check =
+        CheckEdges({problem, trials, shared, initial_states, held, false, loss, jobs});
+    for (const Edge& edge : check.edges) {
+      const std::string& file = trials[static_cast<std::size_t>(edge.trial)].file;
+      if (out.on_edges_of.empty() || out.on_edges_of.back() != file)
+        out.on_edges_of.push_back(file);
+    }
+    if (!check.edges.empty()) {
+      out.promised_nats = check.promised_nats;
+      out.promised_step = check.promised_step;
+    }
+  }
   if (!(out.promised_nats < kMinimumNats)) {
     out.faults.push_back(
         Text("the search ended where the fit still gets better, by %.2g nats to first order",

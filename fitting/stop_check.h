@@ -20,6 +20,9 @@ struct StopCheck {
   double promised_nats = std::numeric_limits<double>::quiet_NaN();
   /// The step of the shared values that promises it, in their own units; zero for those it holds.
   Eigen::VectorXd promised_step;
+  /// Files of trials on whose edges it lies (fitting/edges.h): the promise is that of a step along
+  /// them.
+  std::vector<std::string> on_edges_of;
   /// Shared values on a bound where no physics ends: a modulus can be neither 1e3 nor 1e13 Pa.
   std::vector<std::string> at_wall;
   /// What speaks against a minimum, one sentence each.

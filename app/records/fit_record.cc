@@ -77,6 +77,7 @@ Json StopRecord(const FitRun& run) {
       {"minimum", run.has_result && run.faults.empty()},
       {"complete", run.has_result && run.fit.stop.complete},
       {"promised_nats", run.has_result ? NumberOrNull(run.fit.stop.promised_nats) : Json(nullptr)},
+      {"on_edges_of", run.fit.stop.on_edges_of},
       {"at_wall", run.fit.stop.at_wall},
       {"faults", run.faults}};
 }

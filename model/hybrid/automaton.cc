@@ -35,6 +35,7 @@ constexpr EventTraits kEvents[] = {
     {.name = "fall_pitch"},
     {.name = "slide", .waits_to_open = true},
     {.name = "stick", .waits_to_open = true, .opens_slowly = true},
+    {.name = "press", .changes_flow = true},
     {.name = "brush"},
     {.name = "gear_mesh"},
     {.name = "hip_stop", .waits_to_open = true, .opens_slowly = true},

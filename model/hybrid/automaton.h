@@ -25,6 +25,7 @@ enum class EventKind {
   kFallPitch,       // a robot's body pitches beyond its limit
   kSlide,           // a foot that held begins to slide
   kStick,           // a sliding foot comes to hold
+  kPress,           // a foot that a torque has lifted presses on the ground
   kBrush,           // a leg meets the ground and is off it at once
   kGearMesh,        // teeth of a motor's gear meet or part
   kHipStop,         // a hip with dry friction stops turning: it is held, or turns back

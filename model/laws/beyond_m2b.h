@@ -71,6 +71,40 @@ BeyondM2b<S> BeyondM2bAt(const S& phi, const S& f, const Energy& d, const Bendin
           f2 * (G(0, 0) + f * G_f - 0.25 * first(0) - (2.0 / 3.0) * (f * next(0)))};
 }
 
+// M121: what a torque at the hip adds to the chord, over r, and to the lead u/l, by what it adds at
+// the values of an arc, a load f and a torque; `t`: how far the torque is from there.
+template <class S>
+struct BentByTorque {
+  S chord, lead;
+};
+template <class S>
+BentByTorque<S> BentByTorqueAt(const S& phi, const S& f, const S& t,
+                               const elastica::TorqueBending& by) {
+  const auto lifted = [&](const auto& d) { return Lift2(phi, f, d, 0, 0); };
+  if constexpr (kOfSearch<S>) {
+    return {lifted(by.chord), lifted(by.lead)};
+  } else {
+    return {lifted(by.chord) + t * lifted(by.chord_t), lifted(by.lead) + t * lifted(by.lead_t)};
+  }
+}
+template <class S>
+elastica::TorqueBending TorqueBendingFor(double phi, double f, double t) {
+  return kOfSearch<S> ? elastica::TorqueBendingOf(phi, f, t) : elastica::TorqueBendingAt(phi, f, t);
+}
+// The same at a load that is `df` more.
+template <class S>
+void MoveLoad(double phi, double f, double t, double df, elastica::TorqueBending& by) {
+  if (!kOfSearch<S> && !(std::abs(df) < 1e-11)) {
+    by = elastica::TorqueBendingAt(phi, f + df, t);
+    return;
+  }
+  for (elastica::Derivatives<2>* d : {&by.chord, &by.lead}) {
+    (*d)[0][0] += df * ((*d)[0][1] + 0.5 * df * (*d)[0][2]);
+    (*d)[0][1] += df * (*d)[0][2];
+    (*d)[1][0] += df * (*d)[1][1];
+  }
+}
+
 // Of values alone: the chord, and how chord and turn go with phi and f; the energy goes by f times
 // what the chord does.
 struct SlopesBeyondM2b {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <type_traits>
 
 #include "model/effects/effect.h"
@@ -75,10 +76,11 @@ struct ArcParts {
   ArcShapes shapes;
   P flex, stretch, slide;  // M2: r^3 flex f + r stretch a + r slide s
   S bending1, Cs;          // slopes of the chord's compliance
-  S N, turn;               // M24, M25: the normal force N bends the leg and turns its tip
   bool is_exact, second_order;
-  P unit;  // M2b, by the law or by the share an effect brings in
+  S N, turn;  // M24, M25: the normal force N bends the leg and turns its tip; 0 where M121 does
+  P unit;     // M2b, by the law or by the share an effect brings in
   S softer2, C2s;
+  P t;  // M121: the hip torque, in E I/r
 
   S Lifted(const auto& shape, int k) const { return Lift(at.phi, shape.data(), k); }
   // Chord compliance of an arc of another radius, and its derivative dC/ds at the rest radius.
@@ -105,19 +107,58 @@ struct ArcParts {
         bending1(at.softer * (p.r * p.r * flex * Lifted(shapes.bending, 1))),
         Cs(bending1 + at.softer * (stretch * Lifted(shapes.axial, 1)) +
            slide * Lifted(shapes.shear, 1)),
-        N(torque / at.l),
-        turn(N * (at.softer * (0.5 * p.r * p.r * flex * Lifted(shapes.bending, 2)))),
         is_exact(law == Law::kElastica),
         second_order(is_exact || law == Law::kLargeDeflection || p.law_terms.second_order_active),
+        N(is_exact ? S(P(0.0)) : S(torque / at.l)),
+        turn(N * (at.softer * (0.5 * p.r * p.r * flex * Lifted(shapes.bending, 2)))),
         unit((is_exact || law == Law::kLargeDeflection ? P(1.0) : p.law_terms.second_order) *
              (4.0 * p.r * p.r * p.r * p.r * flex * flex)),
         softer2(at.softer * at.softer),
-        C2s(softer2 * (unit * Lifted(shapes.second_order, 1))) {}
+        C2s(softer2 * (unit * Lifted(shapes.second_order, 1))),
+        t(2.0 * p.r * flex * torque) {}
 };
 
-// M65: F from the chord, by Newton in values. A round more in the slopes of these values brings the
-// first derivatives in, and one with all derivatives the second ones. Newton's error is squared at
-// each round, so a small step is the last.
+// What the search for F has found, in values: f is the load of its last round but for that step.
+struct ForceOfChord {
+  double F, f;
+  elastica::Derivatives<2> G;
+  elastica::TorqueBending bent;  // M121, if the leg is driven
+};
+// M65: F from the chord, by Newton. `per_N`: f over F; `now`: the share of what M2b has not, times
+// r; `t`: the torque at the hip, if one bends the leg.
+template <class S, class P>
+ForceOfChord FindForce(const ArcParts<S, P>& arc, double C, const Statics<S>& out, double per_N,
+                       double now, std::optional<double> t) {
+  constexpr double kLastStep = kOfSearch<S> ? 1e-6 : 1e-8;  // over the greatest force
+  const double phi = Value(arc.at.phi), r = Value(arc.p.r), A2 = Value(out.A2);
+  const double delta = Value(out.delta), scale = elastica::LoadScale(phi) * per_N;
+  const double least = elastica::kLoadBegin / scale, most = elastica::kLoadEnd / scale;
+  const double C0 = C - 0.5 * now * per_N * arc.shapes.bending[0];
+  const double A0 = A2 - now * per_N * per_N * arc.shapes.second_order[0];
+  ForceOfChord at{};
+  // At first that of M2b.
+  at.F = std::isnan(arc.at.F_near) ? 2.0 * delta / (C + std::sqrt(C * C + 4.0 * A2 * delta))
+                                   : arc.at.F_near;
+  for (int round = 0; round < 30; ++round) {
+    double& F = at.F;
+    F = F < most ? (F > least ? F : least) : most;  // NaN is most
+    const double f = at.f = per_N * F;
+    const auto& G = at.G = elastica::EnergyTo2(phi, f);
+    if (t) at.bent = TorqueBendingFor<S>(phi, f, *t);
+    const double miss = F * (C0 + A0 * F) + now * f * (2.0 * G[0][0] + f * G[0][1]) -
+                        r * at.bent.chord[0][0] - delta;
+    const double step = miss / (C0 + 2.0 * A0 * F - r * per_N * at.bent.chord[0][1] +
+                                now * per_N * (2.0 * G[0][0] + f * (4.0 * G[0][1] + f * G[0][2])));
+    F -= step;
+    if (!(std::abs(step) > kLastStep * most)) break;
+  }
+  if (t) MoveLoad<S>(phi, at.f, *t, per_N * at.F - at.f, at.bent);
+  return at;
+}
+
+// M65: a round more in the slopes of what FindForce has found brings the first derivatives in, and
+// one with all derivatives the second ones. Newton's error is squared at each round, so a small
+// step is the last.
 template <class S, class P>
 void AddBeyondM2b(const ArcParts<S, P>& arc, const S& C, const S& Cs, const S& A2s, const S& turn,
                   Statics<S>& out) {
@@ -127,46 +168,36 @@ void AddBeyondM2b(const ArcParts<S, P>& arc, const S& C, const S& Cs, const S& A
   const P blend = arc.is_exact ? P(1.0 + terms.higher_order) : terms.higher_order;
   const S unit_f = at.softer * (2.0 * r * r * arc.flex);  // f over F
   const double phi_now = Value(at.phi), per_N = Value(unit_f), now = Value(blend) * Value(r);
-  const double least = elastica::kLoadBegin / elastica::LoadScale(phi_now) / per_N;
-  const double most = elastica::kLoadEnd / elastica::LoadScale(phi_now) / per_N;
-  constexpr double kLastStep = kOfSearch<S> ? 1e-6 : 1e-8;  // over the greatest force
-  double F = at.F_near, f = 0.0;
-  if (std::isnan(F)) {  // that of M2b
-    const double C0 = Value(C), delta = Value(out.delta);
-    F = 2.0 * delta / (C0 + std::sqrt(C0 * C0 + 4.0 * Value(out.A2) * delta));
-  }
-  elastica::Derivatives<2> G{};
-  for (int round = 0; round < 30; ++round) {
-    F = F < most ? (F > least ? F : least) : most;  // NaN is most
-    f = per_N * F;
-    G = elastica::EnergyTo2(phi_now, f);
-    const double C0 = Value(C) - 0.5 * now * per_N * arc.shapes.bending[0];
-    const double A0 = Value(out.A2) - now * per_N * per_N * arc.shapes.second_order[0];
-    const double miss =
-        F * (C0 + A0 * F) + now * f * (2.0 * G[0][0] + f * G[0][1]) - Value(out.delta);
-    const double step = miss / (C0 + 2.0 * A0 * F +
-                                now * per_N * (2.0 * G[0][0] + f * (4.0 * G[0][1] + f * G[0][2])));
-    F -= step;
-    if (!(std::abs(step) > kLastStep * most)) break;
-  }
+  const bool is_driven = arc.is_exact && terms.torque_active;
+  const S t = at.softer * arc.t, t_moved = t - S(P(Value(t)));
+  const auto [F_found, f, G, bent] =
+      FindForce(arc, Value(C), out, per_N, now, is_driven ? std::optional(Value(t)) : std::nullopt);
+  double F = F_found;
   if (!elastica::InDomain(phi_now, per_N * F)) F = std::numeric_limits<double>::quiet_NaN();
   const auto table = EnergyNear<S>(phi_now, per_N * F, f, G);
   const SlopesBeyondM2b by = SlopesAt(per_N * F, table, arc.shapes);
-  const double slope = Value(C) + 2.0 * Value(out.A2) * F + now * per_N * by.chord_f;
+  const double slope = Value(C) + 2.0 * Value(out.A2) * F + now * per_N * by.chord_f -
+                       Value(r) * per_N * bent.chord[0][1];
   S moved =
       now * by.chord_phi * (at.phi - S(P(phi_now))) + now * by.chord_f * F * (unit_f - S(P(per_N)));
   moved = moved + S(P(by.chord * (blend * r)));
+  if (is_driven) moved = moved - r * BentByTorqueAt(at.phi, S(P(F) * unit_f), t_moved, bent).chord;
   const S first = F * (C + F * out.A2) + moved - out.delta;
   out.F = S(P(F)) - (1.0 / slope) * first;
   BeyondM2b<S> more =
       BeyondM2bAt<S>(at.phi, unit_f * out.F, table, arc.shapes.bending, arc.shapes.second_order);
-  const S miss = out.F * (C + out.A2 * out.F) + (blend * r) * more.chord - out.delta;
+  BentByTorque<S> driven{S(P(0.0)), S(P(0.0))};
+  if (is_driven) driven = BentByTorqueAt(at.phi, unit_f * out.F, t_moved, bent);
+  const S miss =
+      out.F * (C + out.A2 * out.F) + (blend * r) * more.chord - r * driven.chord - out.delta;
   const S next = (-1.0 / slope) * miss;
   out.F = out.F + next;
   more.turn = more.turn + (per_N * by.turn_f) * next;
+  driven.lead = driven.lead + (per_N * bent.lead[0][1]) * next;
   more.energy = more.energy + (per_N * (per_N * F) * by.chord_f) * next;
   out.tip_turn =
       out.F * (0.5 * Cs + (1.0 / 3.0) * (out.F * A2s)) + blend * more.turn + turn - out.cos;
+  if (is_driven) out.tip_turn = out.tip_turn - driven.lead;
   if constexpr (!kIsTangent<S>)
     out.beyond = (blend / (2.0 * r * arc.flex)) * (more.energy / at.softer);
 }
@@ -195,7 +226,7 @@ void SetElastic(const ArcParts<S, P>& arc, Statics<S>& out) {
     }
   }
   S C = out.C;
-  if (terms.torque_active && arc.second_order) {
+  if (terms.torque_active && arc.second_order && !arc.is_exact) {
     const SecondOrderAcross<S> next = SecondOrderAcrossAt(arc.at.phi, out.sin, out.cos);
     const S of_N = arc.softer2 * (arc.unit * arc.N);
     out.delta = out.delta + r * (of_N * arc.N * next.chord_NN);

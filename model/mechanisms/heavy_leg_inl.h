@@ -196,31 +196,80 @@ std::array<T, 3> LeggedBody<T, LegT>::SolveSliding(const LegInertia<T>& leg,
 }
 
 template <class T, class LegT>
-void LeggedBody<T, LegT>::SlidingAcceleration(const LegLoad<T>& load, const Vector2<T>& force,
-                                              Mode mode, const T& t, const T* z, T* dz) const {
-  const LegInertia<T> leg = InertiaOfLeg(load);
-  const LegMomentum<T> momentum = MomentumOfLeg(load);
+SlidingFoot<T> LeggedBody<T, LegT>::SlidingFootOf(const LegLoad<T>& load, const Vector2<T>& force,
+                                                  Mode mode, const T& t, const T* z) const {
+  SlidingFoot<T> foot{InertiaOfLeg(load), MomentumOfLeg(load), {}, {}, {}, {}};
+  const LegMomentum<T>& momentum = foot.momentum;
   const T &m_leg = p_.law_terms.leg_mass, &inverse = p_.law_terms.foot_friction;
-  const T &foot = z[FootSpeed()], &wy = z[kVy], wx = z[kVx] - foot;
-  Vector2<T> f = HeavyForce(leg, force, wx, wy);
+  const T &speed = z[FootSpeed()], &wy = z[kVy], wx = z[kVx] - speed;
+  foot.force = HeavyForce(foot.leg, force, wx, wy);
   // The mean velocity of the leg is no gradient to the last: what its curl takes.
-  const T curl = m_leg * foot * (momentum.xy.rate[0] - momentum.xx.rate[1]);
-  f.x += curl * wy;
-  f.y -= curl * wx;
-  Vector2<T> outside{-inertia_.weight_along, -inertia_.weight_down};
+  const T curl = m_leg * speed * (momentum.xy.rate[0] - momentum.xx.rate[1]);
+  foot.force.x += curl * wy;
+  foot.force.y -= curl * wx;
+  foot.outside = {-inertia_.weight_along, -inertia_.weight_down};
   if (has_body_force_) {
     const Vector2<T> push = BodyForce(mode, t, z);
-    outside.x += push.x;
-    outside.y += push.y;
+    foot.outside.x += push.x;
+    foot.outside.y += push.y;
   }
-  const std::array<T, 3> rate =
-      SolveSliding(leg, momentum, slides_,
-                   {f.x, f.y,
-                    inverse * (outside.x - m_leg * momentum.TurnX(wx, wy)) +
-                        slides_ * (outside.y - m_leg * momentum.TurnY(wx, wy))});
-  dz[kVx] = rate[0] + rate[2];
-  dz[kVy] = rate[1];
-  dz[FootSpeed()] = rate[2];
+  foot.outside.x -= m_leg * momentum.TurnX(wx, wy);
+  foot.outside.y -= m_leg * momentum.TurnY(wx, wy);
+  foot.rate = SolveSliding(
+      foot.leg, momentum, slides_,
+      {foot.force.x, foot.force.y, inverse * foot.outside.x + slides_ * foot.outside.y});
+  foot.press = (inertia_.my - m_leg) * foot.rate[1] +
+               m_leg * (momentum.yx.value * foot.rate[0] + momentum.yy.value * foot.rate[1]) -
+               foot.outside.y;
+  return foot;
+}
+
+template <class T, class LegT>
+void LeggedBody<T, LegT>::SlidingAcceleration(const LegLoad<T>& load, const Vector2<T>& force,
+                                              Mode mode, const T& t, const T* z, T* dz) const {
+  const SlidingFoot<T> foot = SlidingFootOf(load, force, mode, t, z);
+  if (is_lifted_) return LiftFoot(foot, dz);
+  dz[kVx] = foot.rate[0] + foot.rate[2];
+  dz[kVy] = foot.rate[1];
+  dz[FootSpeed()] = foot.rate[2];
+}
+
+// How much the ground would have to pull on a foot that slides [N].
+template <class T, class LegT>
+T LeggedBody<T, LegT>::PullOfGround(Mode mode, const LegLoad<T>& load, const T& t,
+                                    const T* z) const {
+  Vector2<T> force = HipForce(load, HipTorque(mode, load, t, z), t);
+  if (has_body_force_) {
+    const Vector2<T> push = BodyForce(mode, t, z);
+    force = {force.x + push.x, force.y + push.y};
+  }
+  return -SlidingFootOf(load, force, mode, t, z).press;
+}
+
+// M122: no ground pulls. Where a torque would have it pull on a foot that lands, it gives nothing,
+// and the foot is free upwards, too: body and leg as one go on under the other forces, the hip over
+// the foot under the leg's.
+template <class T, class LegT>
+void LeggedBody<T, LegT>::LiftFoot(const SlidingFoot<T>& foot, T* dz) const {
+  const LegInertia<T>& leg = foot.leg;
+  const LegMomentum<T>& momentum = foot.momentum;
+  const T &m_leg = p_.law_terms.leg_mass, &mx = inertia_.mx, &my = inertia_.my;
+  const T body_x = mx - m_leg, body_y = my - m_leg;
+  // Momentum of all by the velocity of the hip over the foot: [row: along, up][column].
+  const T xx = body_x + m_leg * momentum.xx.value, xy = m_leg * momentum.xy.value;
+  const T yx = m_leg * momentum.yx.value, yy = body_y + m_leg * momentum.yy.value;
+  // The foot's acceleration is (outside - that . w)/m: what is left of the hip's own equations.
+  const T a = body_x + leg.xx.value - xx * xx / mx - yx * yx / my;
+  const T b = leg.xy.value - xx * xy / mx - yx * yy / my;
+  const T c = body_y + leg.yy.value - xy * xy / mx - yy * yy / my;
+  const T along = foot.outside.x / mx, up = foot.outside.y / my;
+  const T right_x = foot.force.x - xx * along - yx * up;
+  const T right_y = foot.force.y - xy * along - yy * up;
+  const T over = 1.0 / (a * c - b * b);
+  const T wx = over * (c * right_x - b * right_y), wy = over * (a * right_y - b * right_x);
+  dz[FootSpeed()] = along - (xx * wx + xy * wy) / mx;
+  dz[kVx] = wx + dz[FootSpeed()];
+  dz[kVy] = wy + up - (yx * wx + yy * wy) / my;
 }
 
 // What the ground gives a leg whose foot holds: what body and leg take, less the other forces.
@@ -267,6 +316,13 @@ void LeggedBody<T, LegT>::BeginSlide(Mode mode, const T& t, T* z) {
   const Vector2<T> force = GroundForce(mode, Load(mode, t, z), t, z);
   z[FootSpeed()] = T(0.0);
   slides_ = Value(force.x) < 0.0 ? 1.0 : -1.0;
+}
+// A foot that lands and slides as a torque pushes it is off the ground from then on, where that
+// would have to pull.
+template <class T, class LegT>
+void LeggedBody<T, LegT>::MayLift(Mode mode, const T& t, const T* z) {
+  if (!CanLift() || slides_ == 0.0 || !Pushes(mode, t, z)) return;
+  is_lifted_ = Value(PullOfGround(mode, Load(mode, t, z), t, z)) > 0.0;
 }
 // The foot loses its hold, or comes to hold: but where the ground would have to hold it the other
 // way by more than its cone, it turns round.

@@ -64,6 +64,17 @@ struct LegMomentum {
   }
 };
 
+/// M87 of a foot that slides: what moves hip and foot, and how.
+template <class T>
+struct SlidingFoot {
+  LegInertia<T> leg;
+  LegMomentum<T> momentum;
+  Vector2<T> force;       // on the hip over the foot [N]
+  Vector2<T> outside;     // on body and leg as one, the ground's left out [N]
+  std::array<T, 3> rate;  // of the hip's velocity over the foot, of the foot's [m/s^2]
+  T press;                // what the ground holds [N]
+};
+
 template <class T>
 LegMomentum<T> BarMomentum() {
   const T zero(0.0), half(0.5);

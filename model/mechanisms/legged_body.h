@@ -170,6 +170,13 @@ class LeggedBody final : public HybridSystem<T> {
   int FootSpeed() const { return lagged_ ? kLaggedLegStateSize : kLegStateSize; }
   void SlidingAcceleration(const LegLoad<T>& load, const Vector2<T>& force, Mode mode, const T& t,
                            const T* z, T* dz) const;
+  SlidingFoot<T> SlidingFootOf(const LegLoad<T>& load, const Vector2<T>& force, Mode mode,
+                               const T& t, const T* z) const;
+  // One that a torque lifts, M122.
+  bool CanLift() const { return foot_has_inertia_ && may_pull_; }
+  void LiftFoot(const SlidingFoot<T>& foot, T* dz) const;
+  T PullOfGround(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const;
+  void MayLift(Mode mode, const T& t, const T* z);
   std::array<T, 3> SolveSliding(const LegInertia<T>& leg, const LegMomentum<T>& momentum,
                                 double side, std::array<T, 3> right) const;
   Vector2<T> GroundForce(Mode mode, const LegLoad<T>& load, const T& t, const T* z) const;
@@ -206,7 +213,8 @@ class LeggedBody final : public HybridSystem<T> {
   int landings_ = 0;
   bool sinks_ = true;  // in flight, of a leg whose angle an input moves: it has passed its apex
   T swing_begin_{0.0}, swing_time_{0.0}, swing_x_{0.0}, swing_y_{0.0};  // after lift-off, M88
-  double slides_ = 0.0;  // direction in which the foot slides; 0: it holds
+  double slides_ = 0.0;     // direction in which the foot slides; 0: it holds
+  bool is_lifted_ = false;  // after touch-down, by the hip torque
 };
 
 }  // namespace hoplab

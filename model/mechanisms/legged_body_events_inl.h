@@ -14,6 +14,7 @@ template <class T, class LegT>
 Mode LeggedBody<T, LegT>::Begin(Mode mode, T* z) {
   sinks_ = Value(z[kVy]) <= 0.0;
   slides_ = 0.0;
+  is_lifted_ = false;
   swing_time_ = T(0.0);
   if (foot_has_inertia_) z[FootSpeed()] = T(0.0);
   if (mode != Mode::kFlight) {
@@ -80,7 +81,7 @@ int LeggedBody<T, LegT>::GuardCount(Mode mode) const {
 template <class T, class LegT>
 int LeggedBody<T, LegT>::OwnGuardCount(Mode mode) const {
   if (mode == Mode::kFlight) return 3;
-  return 3 + leg_->OwnGuardCount(mode) + (has_foot_friction_ ? 1 : 0) +
+  return 3 + leg_->OwnGuardCount(mode) + (has_foot_friction_ ? 1 : 0) + (CanLift() ? 1 : 0) +
          (controller_.limited() ? 1 : 0);
 }
 
@@ -108,6 +109,9 @@ GuardSpec LeggedBody<T, LegT>::Guard(Mode mode, int i) const {
         return {EventKind::kSlide, weight};
       }
       if (has_foot_friction_) return {EventKind::kLiftoff, 1.0, Outcome::kNoSupport};
+      [[fallthrough]];
+    case 4:
+      if (CanLift()) return {EventKind::kPress, weight};
       [[fallthrough]];
     default:
       return {EventKind::kTorqueLimit, controller_.limit()};
@@ -148,6 +152,7 @@ void LeggedBody<T, LegT>::StanceGuards(Mode mode, const LegLoad<T>& load, const 
     const T slope = load.u / load.y;
     *g++ = 1.0 - p_.law_terms.foot_friction * (Value(slope) < 0.0 ? T(-slope) : slope);
   }
+  if (CanLift()) *g++ = is_lifted_ ? PullOfGround(mode, load, t, z) : T(1.0);
   if (controller_.limited()) *g++ = controller_.Guard(z[kVx]);
   if (effects_.corner_count() == 0) return;
   const ChordMotion<T> chord = ChordMotionAt(load, t);
@@ -175,6 +180,9 @@ ResetResult LeggedBody<T, LegT>::ResetOwn(Mode mode, int i, const T& t, T* z) {
     return {mode};
   }
   switch (event) {
+    case EventKind::kPress:
+      is_lifted_ = false;
+      return {mode};
     case EventKind::kTouchdown:
       return Land(SweptAngle(t, z), t, z, T(0.0));
     case EventKind::kLiftoff:
@@ -182,6 +190,7 @@ ResetResult LeggedBody<T, LegT>::ResetOwn(Mode mode, int i, const T& t, T* z) {
       if (effects_.HasLiftoffVelocity()) ApplyLiftoff(Load(mode, t, z), z);
       z[kContact] = T(0.0);
       if (foot_has_inertia_) LetFootGo(z);
+      is_lifted_ = false;
       inputs_.Seek(Value(t));
       sinks_ = !inputs_.Has(InputKind::kLegAngle) || Value(z[kVy]) <= 0.0;
       return {Mode::kFlight};
@@ -212,6 +221,7 @@ ResetResult LeggedBody<T, LegT>::Land(const T& theta, const T& t, T* z, const T&
   inputs_.Seek(Value(t));
   if (lagged_) z[kMotorTorque] = CommandedTorque(t, z);
   slides_ = 0.0;
+  is_lifted_ = false;
   if (has_leg_mass_) {
     TakeLegAlong(Load(stance, t, z), z);
     // The blow changes the speed that the motor follows.
@@ -221,6 +231,7 @@ ResetResult LeggedBody<T, LegT>::Land(const T& theta, const T& t, T* z, const T&
   // What the leg itself presses brings an unloaded foot into its cone at once; a torque does not.
   if (foot_has_inertia_ && slides_ == 0.0 && Pushes(stance, t, z) && !HoldsWithin(stance, t, z))
     BeginSlide(stance, t, z);
+  MayLift(stance, t, z);
   return {stance};
 }
 template <class T, class LegT>

@@ -90,6 +90,7 @@ void LeggedBody<T, LegT>::SaveDiscreteState(DiscreteState& to) const {
   to.Put(landings_);
   to.Put(sinks_ ? 1.0 : 0.0);
   to.Put(slides_);
+  to.Put(is_lifted_ ? 1.0 : 0.0);
   if (driven_) inputs_.Save(to);
   effects_.SaveCorners(to);
 }
@@ -100,6 +101,7 @@ void LeggedBody<T, LegT>::LoadDiscreteState(DiscreteState& from) {
   landings_ = static_cast<int>(from.Take());
   sinks_ = from.Take() > 0.5;
   slides_ = from.Take();
+  is_lifted_ = from.Take() > 0.5;
   if (driven_) inputs_.Load(from);
   effects_.LoadCorners(from);
 }

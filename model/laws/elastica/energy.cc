@@ -84,19 +84,32 @@ Derivatives<kOrder> OfCell(const Spot& at) {
   return d;
 }
 
-// The tables of the dissipation, by their splines.
+// The other tables, by their splines.
 template <int kOrder>
 class Cell {
  public:
   Cell(double phi, double z) : spot_(phi, z), phi_(spot_.x), z_(spot_.y) {}
 
   Derivatives<kOrder> Of(Table table) const {
-    const double* c =
-        kCoefficients[table] + static_cast<std::ptrdiff_t>(spot_.i) * kLoadCount + spot_.j;
+    const double* c = Coefficients(table);
+    return Sum([c](int place) { return c[place]; });
+  }
+  // a times one table and b times another.
+  Derivatives<kOrder> Of(Table one, double a, Table other, double b) const {
+    const double *c = Coefficients(one), *d = Coefficients(other);
+    return Sum([=](int place) { return a * c[place] + b * d[place]; });
+  }
+
+ private:
+  const double* Coefficients(Table table) const {
+    return kCoefficients[table] + static_cast<std::ptrdiff_t>(spot_.i) * kLoadCount + spot_.j;
+  }
+  Derivatives<kOrder> Sum(const auto& coefficient) const {
     double along[kOrder + 1][kSpan] = {};
-    for (int k = 0; k < kSpan; ++k, c += kLoadCount) {
-      for (int p = 0; p <= kOrder; ++p) {
-        for (int m = 0; m < kSpan; ++m) along[p][m] += phi_.at[p][k] * c[m];
+    for (int k = 0; k < kSpan; ++k) {
+      for (int m = 0; m < kSpan; ++m) {
+        const double c = coefficient(k * kLoadCount + m);
+        for (int p = 0; p <= kOrder; ++p) along[p][m] += phi_.at[p][k] * c;
       }
     }
     Derivatives<kOrder> d{};
@@ -109,7 +122,6 @@ class Cell {
     return d;
   }
 
- private:
   Spot spot_;
   Basis<kOrder> phi_, z_;
 };
@@ -203,6 +215,30 @@ Dissipation DissipationAt(double phi, double f) {
   }
   d.fphi = {{{f * d.fphi[0][0], d.fphi[0][0] + f * d.fphi[0][1]}, {f * d.fphi[1][0], 0.0}}};
   return d;
+}
+
+TorqueBending TorqueBendingOf(double phi, double f, double t) {
+  const std::array<double, 4> w = ScaleAt(phi);
+  const Cell<2> cell(phi, f * w[0]);
+  const auto at_torque = [&](Table first, Table second) {
+    return ByLoad<2>(cell.Of(first, t, second, t * t), w, f);
+  };
+  return {TimesPower<3, 2>(phi, at_torque(kTorqueChord, kTorqueChord2)),
+          TimesPower<2, 2>(phi, at_torque(kTorqueLead, kTorqueLead2)),
+          {},
+          {}};
+}
+
+TorqueBending TorqueBendingAt(double phi, double f, double t) {
+  TorqueBending out = TorqueBendingOf(phi, f, t);
+  const std::array<double, 4> w = ScaleAt(phi);
+  const Cell<1> cell(phi, f * w[0]);
+  const auto slope = [&](Table first, Table second) {
+    return ByLoad<1>(cell.Of(first, 1.0, second, 2.0 * t), w, f);
+  };
+  out.chord_t = TimesPower<3, 1>(phi, slope(kTorqueChord, kTorqueChord2));
+  out.lead_t = TimesPower<2, 1>(phi, slope(kTorqueLead, kTorqueLead2));
+  return out;
 }
 
 }  // namespace hoplab::elastica

@@ -24,4 +24,14 @@ struct Dissipation {
 };
 Dissipation DissipationAt(double phi, double f);
 
+/// M121: what a torque t at the hip adds to the chord, over r, and to the cosine of the tip's angle
+/// to it, and their slopes by t.
+struct TorqueBending {
+  Derivatives<2> chord, lead;
+  Derivatives<1> chord_t, lead_t;
+};
+TorqueBending TorqueBendingAt(double phi, double f, double t);
+/// The same without slopes by t.
+TorqueBending TorqueBendingOf(double phi, double f, double t);
+
 }  // namespace hoplab::elastica

@@ -5,12 +5,16 @@
 
 namespace hoplab::elastica {
 
-/// What is tabulated of the pressed arc (M61, M63), each divided by the powers of phi and f that it
-/// begins with.
+/// What is tabulated of the pressed arc (M61, M63, M121), each divided by the powers of phi and f
+/// that it begins with.
 enum Table {
   kDissipationFF,      // D_ff/phi^5 of M63
   kDissipationFPhi,    // D_fphi/(f phi^4)
   kDissipationPhiPhi,  // D_phiphi/(f^2 phi^3)
+  kTorqueChord,        // c1/phi^3 of M121
+  kTorqueChord2,       // c2/phi^3
+  kTorqueLead,         // b1/phi^2
+  kTorqueLead2,        // b2/phi^2
   kSplineCount,
   kEnergy = kSplineCount,  // b of M61
   kTableCount

@@ -189,6 +189,27 @@ Dissipation DissipationOf(const Shape& s) {
   return d;
 }
 
+// Chord and cosine of the tip's angle to it, by the torque at the hip: slope and half the second
+// derivative, by differences of fourth order.
+struct ByTorque {
+  Real chord1, chord2, lead1, lead2;
+};
+ByTorque ByTorqueOf(Real phi, const Shape& rest) {
+  constexpr Real h = 2e-3L;
+  const auto at = [&](int steps) {
+    const Shape s = Solve(phi, rest.f, steps * h, rest);
+    return std::array<Real, 2>{SizeOf(s).along[0], std::cos(s.foot)};
+  };
+  const auto none = at(0), more = at(1), less = at(-1), most = at(2), least = at(-2);
+  const auto first = [&](int k) {
+    return (8.0L * (more[k] - less[k]) - (most[k] - least[k])) / (12.0L * h);
+  };
+  const auto second = [&](int k) {
+    return (16.0L * (more[k] + less[k]) - (most[k] + least[k]) - 30.0L * none[k]) / (24.0L * h * h);
+  };
+  return {first(0), second(0), first(1), second(1)};
+}
+
 using Values = std::array<Real, kTableCount>;
 Values ValuesAt(Real phi, Real f, Shape& guess) {
   const Shape s = guess = Solve(phi, f, 0.0L, guess);
@@ -199,6 +220,11 @@ Values ValuesAt(Real phi, Real f, Shape& guess) {
   v[kDissipationFF] = d.ff / p5;
   v[kDissipationFPhi] = d.fphi / (f * p2 * p2);
   v[kDissipationPhiPhi] = d.phiphi / (f * f * p3);
+  const ByTorque t = ByTorqueOf(phi, s);
+  v[kTorqueChord] = t.chord1 / p3;
+  v[kTorqueChord2] = t.chord2 / p3;
+  v[kTorqueLead] = t.lead1 / p2;
+  v[kTorqueLead2] = t.lead2 / p2;
   return v;
 }
 
