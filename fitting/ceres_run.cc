@@ -91,6 +91,7 @@ class Watch : public ceres::IterationCallback {
     else if (summary.step_is_valid)  // else no point was tried
       beyond_ = TriedBeyond();
     if (met_bound_ || !beyond_.empty()) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    if (summary.step_is_successful) useless_ = 0;
     converged_ = summary.step_is_successful ? IsAtMinimum(summary.cost) : IsOfNoUse(summary);
     if (converged_) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     return IsHopeless() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;

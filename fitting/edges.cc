@@ -13,10 +13,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of the Gauss-Newton step: along so short a way the columns of a smooth function turn by less than
-// kJump of their length, and those of one with an edge there by about all of it.
-constexpr double kWay = 1e-3;
-constexpr double kJump = 5e-3;
+// Of the Gauss-Newton step: along so short a way the columns turn by kJump of their length where an
+// edge is there. Those of a smooth function turn an eighth of it along an eighth of the way, those
+// of one with an edge as much.
+constexpr double kWay = 1e-3, kShorter = 0.125;
+constexpr double kJump = 5e-3, kStays = 0.5;
 
 // The unknowns of all trials in one row: shared values, then each trial's own, over their scales.
 class Unknowns {
@@ -127,6 +128,7 @@ struct LinearModel {
   // The Gauss-Newton step along which every row of `normals` stays zero; columns over `size`.
   VectorXd Step(const MatrixXd& normals) const {
     const Index n = JtJ.rows();
+    if (normals.rows() >= n) return VectorXd::Zero(n);
     MatrixXd along = MatrixXd::Identity(n, n);
     if (normals.rows() > 0) {
       const MatrixXd Q = Eigen::HouseholderQR<MatrixXd>(normals.transpose()).householderQ();
@@ -172,17 +174,23 @@ EdgeCheck CheckEdges(const EdgePoint& at) {
   MatrixXd normals(0, unknowns.count());
   const VectorXd free_step = model.Step(normals);
   for (const double way : {kWay, -kWay}) {
-    const std::vector<TrialEvaluation> there =
-        unknowns.EvaluatedAt(way * model.size.cwiseProduct(free_step));
-    for (std::size_t i = 0; i < there.size(); ++i) {
-      if (there[i].jacobian.rows() != here[i].jacobian.rows()) continue;
+    const VectorXd step = way * model.size.cwiseProduct(free_step);
+    const std::vector<TrialEvaluation> there = unknowns.EvaluatedAt(kShorter * step);
+    const std::vector<TrialEvaluation> beyond = unknowns.EvaluatedAt(step);
+    for (std::size_t i = 0; i < std::min(there.size(), beyond.size()); ++i) {
       const VectorXd size = unknowns.PartOf(i, model.size);
-      const MatrixXd jump =
-          (unknowns.Scaled(i, there[i]) - unknowns.Scaled(i, here[i])) * size.asDiagonal();
+      const MatrixXd at_point = unknowns.Scaled(i, here[i]);
+      if (there[i].jacobian.rows() != at_point.rows() ||
+          beyond[i].jacobian.rows() != at_point.rows())
+        continue;
+      const MatrixXd jump = (unknowns.Scaled(i, there[i]) - at_point) * size.asDiagonal();
+      const MatrixXd further = (unknowns.Scaled(i, beyond[i]) - at_point) * size.asDiagonal();
       const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(jump.transpose() * jump);
       for (Index k = jump.cols(); k-- > 0;) {  // the largest first
         if (!(solver.eigenvalues()[k] > kJump * kJump)) break;
-        const VectorXd normal = unknowns.Spread(i, solver.eigenvectors().col(k));
+        const VectorXd along = solver.eigenvectors().col(k);
+        if ((jump * along).norm() < kStays * (further * along).norm()) continue;
+        const VectorXd normal = unknowns.Spread(i, along);
         if (!Add(normal, normals)) continue;
         Edge edge{static_cast<int>(i), {}, 0.0};
         // A way over the scales is one over `size` times it.

@@ -96,8 +96,7 @@ void FollowEdges(const SolveRequest& request, TrialEvaluations& evaluations, Sol
   constexpr int kMostTurns = 5;
   constexpr double kWorthNats = 0.05;
   for (int turn = 0; turn < kMostTurns; ++turn) {
-    const int left = request.max_iterations - best.iterations;
-    if (best.status != SolveStatus::kConverged || !best.complete || left <= 0) return;
+    if (best.status != SolveStatus::kConverged || !best.complete) return;
     evaluations.MoveTo(best.shared, best.initial_states);
     evaluations.PrepareForEvaluation(true, false);
     Places held = HeldAtFirst(request);
@@ -112,11 +111,16 @@ void FollowEdges(const SolveRequest& request, TrialEvaluations& evaluations, Sol
     if (check.edges.empty() || check.promised_nats < kWorthNats) return;
     const double before = best.cost;
     for (const std::vector<Edge>& edges : {check.edges, std::vector<Edge>()}) {
+      const int left = request.max_iterations - best.iterations;
+      if (left <= 0) return;
+      evaluations.MoveTo(best.shared, best.initial_states);
       const SolveResult next = Descend(request, edges, left, evaluations);
-      const int iterations = best.iterations + next.iterations;
-      if (IsUsable(next.status) && next.complete && next.cost < best.cost) best = next;
-      best.iterations = iterations;
       if (next.status == SolveStatus::kInterrupted) return;
+      const int iterations = best.iterations + next.iterations;
+      // One that ends elsewhere than at a minimum is worth it only where it gains.
+      const double least = next.status == SolveStatus::kConverged ? 0.0 : kWorthNats;
+      if (IsUsable(next.status) && next.complete && best.cost - next.cost > least) best = next;
+      best.iterations = iterations;
     }
     if (before - best.cost < kWorthNats) return;
   }

@@ -149,7 +149,8 @@ StopCheck CheckStop(const FitProblem& problem, const std::vector<TrialProblem>& 
         CheckEdges({problem, trials, shared, initial_states, held, false, loss, jobs});
     for (const Edge& edge : check.edges) {
       const std::string& file = trials[static_cast<std::size_t>(edge.trial)].file;
-      if (out.on_edges_of.empty() || out.on_edges_of.back() != file)
+      const auto& known = out.on_edges_of;
+      if (std::find(known.begin(), known.end(), file) == known.end())
         out.on_edges_of.push_back(file);
     }
     if (!check.edges.empty()) {

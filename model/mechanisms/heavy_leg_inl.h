@@ -338,6 +338,7 @@ void LeggedBody<T, LegT>::ResetFoot(EventKind event, Mode mode, const T& t, T* z
 template <class T, class LegT>
 void LeggedBody<T, LegT>::LetFootGo(T* z) {
   slides_ = 0.0;
+  is_lifted_ = false;
   z[FootSpeed()] = T(0.0);
 }
 

@@ -24,6 +24,7 @@ Mode LeggedBody<T, LegT>::Begin(Mode mode, T* z) {
     const bool is_pushed = foot_has_inertia_ && (Pushes(mode, T(0.0), z) ||
                                                  Value(Load(mode, T(0.0), z).damping_rate) > 0.0);
     if (is_pushed && !HoldsWithin(mode, T(0.0), z)) BeginSlide(mode, T(0.0), z);
+    MayLift(mode, T(0.0), z);
   }
   Seat(mode, T(0.0), z);
   return mode;
@@ -72,8 +73,8 @@ Mode LeggedBody<T, LegT>::PlaceContact(Mode mode, T* z) {
 
 // Guards in flight: touch-down, apex, the ground under a hip whose leg is not placed. Guards in
 // stance: lift-off, the leg's own, fall by height, fall by angle, a foot that slips
-// away, torque limit. Behind both the corners of formulas. Of two at one instant the first fires
-// first.
+// away, one that presses again, torque limit. Behind both the corners of formulas. Of two at one
+// instant the first fires first.
 template <class T, class LegT>
 int LeggedBody<T, LegT>::GuardCount(Mode mode) const {
   return OwnGuardCount(mode) + effects_.corner_count();
@@ -147,7 +148,9 @@ void LeggedBody<T, LegT>::StanceGuards(Mode mode, const LegLoad<T>& load, const 
   g[1] = load.y / load.l - kFallCosine;
   g += 2;
   if (foot_has_inertia_) {  // M87
-    *g++ = slides_ != 0.0 ? T(slides_ * z[FootSpeed()]) : ConeMargin(mode, load, t, z);
+    *g++ = is_lifted_       ? T(1.0)
+           : slides_ != 0.0 ? T(slides_ * z[FootSpeed()])
+                            : ConeMargin(mode, load, t, z);
   } else if (has_foot_friction_) {  // M64
     const T slope = load.u / load.y;
     *g++ = 1.0 - p_.law_terms.foot_friction * (Value(slope) < 0.0 ? T(-slope) : slope);
@@ -182,6 +185,9 @@ ResetResult LeggedBody<T, LegT>::ResetOwn(Mode mode, int i, const T& t, T* z) {
   switch (event) {
     case EventKind::kPress:
       is_lifted_ = false;
+      // Friction begins at zero there, whichever way the foot goes.
+      if (const double speed = Value(z[FootSpeed()]); speed != 0.0)
+        slides_ = speed < 0.0 ? -1.0 : 1.0;
       return {mode};
     case EventKind::kTouchdown:
       return Land(SweptAngle(t, z), t, z, T(0.0));
@@ -190,7 +196,6 @@ ResetResult LeggedBody<T, LegT>::ResetOwn(Mode mode, int i, const T& t, T* z) {
       if (effects_.HasLiftoffVelocity()) ApplyLiftoff(Load(mode, t, z), z);
       z[kContact] = T(0.0);
       if (foot_has_inertia_) LetFootGo(z);
-      is_lifted_ = false;
       inputs_.Seek(Value(t));
       sinks_ = !inputs_.Has(InputKind::kLegAngle) || Value(z[kVy]) <= 0.0;
       return {Mode::kFlight};
