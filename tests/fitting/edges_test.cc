@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
-#include "base/random.h"
 #include "datasets/read_dataset.h"
 #include "fitting/fit.h"
+#include "fitting/solve.h"
+#include "fitting/stop_check.h"
 
 namespace hoplab {
 namespace {
@@ -82,6 +85,70 @@ TEST_F(OnAnEdge, IsFoundWhereTheEventsChangeAndNotBesideIt) {
   }
   Move(edge - 0.01);
   EXPECT_TRUE(Check().edges.empty());
+}
+
+// Data for which both sides of the edge want to cross it: their residuals at a point on it fall
+// along the normal on the one side and against it on the other. A search stays where it meets the
+// edge; one that follows it gains, until no step along it promises more.
+TEST_F(OnAnEdge, ASearchGoesOnAlongIt) {
+  Move(LastLike(kHolds, kSlides));
+  const EdgeCheck check = Check();
+  ASSERT_EQ(check.edges.size(), 1u);
+  TrialProblem& trial = trials_.front();
+  const TrialEvaluator evaluator(problem_, trial);
+  const int n = problem_.shared_count();
+  Eigen::VectorXd scale(check.edges.front().normal.size());
+  for (int k = 0; k < scale.size(); ++k)
+    scale[k] = k < n ? problem_.shared[static_cast<std::size_t>(k)].scale
+                     : trial.own[static_cast<std::size_t>(k - n)].scale;
+  const Eigen::VectorXd normal = check.edges.front().normal.cwiseProduct(scale);
+  const auto at = [&](double way) {
+    TrialEvaluation e;
+    evaluator.Evaluate(
+        {shared_ + way * normal.head(n), own_.front() + way * normal.tail(normal.size() - n), true},
+        e);
+    return e;
+  };
+  const TrialEvaluation here = at(-1e-6);
+  const Eigen::VectorXd before = here.jacobian * normal, after = at(1e-6).jacobian * normal;
+  // No part of them falls or rises along the edge: they have none along its columns.
+  Eigen::MatrixXd along = here.jacobian * scale.asDiagonal();
+  const Eigen::VectorXd unit = check.edges.front().normal;
+  along -= along * unit * unit.transpose();
+  const Eigen::MatrixXd Q = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(along).householderQ() *
+                            Eigen::MatrixXd::Identity(along.rows(), along.cols() - 1);
+  const auto clear = [&](const Eigen::VectorXd& x) {
+    return Eigen::VectorXd(x - Q * (Q.transpose() * x));
+  };
+  const Eigen::VectorXd one = clear(before), other = clear(after);
+  Eigen::Matrix2d products;
+  products << one.dot(one), one.dot(other), other.dot(one), other.dot(other);
+  const Eigen::Vector2d parts = products.inverse() * Eigen::Vector2d(-1.0, 1.0);
+  Eigen::VectorXd wanted = parts[0] * one + parts[1] * other;
+  wanted *= 20.0 / wanted.norm();
+  const std::size_t channels = problem_.channels.size();
+  for (std::size_t c = 0; c < channels; ++c) {
+    const std::vector<int>& rows = evaluator.channel_rows()[c].rows;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      double& datum = trial.data[k * channels + c];
+      datum += problem_.channels[c].sigma * (here.residuals[rows[k]] - wanted[rows[k]]);
+    }
+  }
+  SolveRequest request;
+  request.problem = &problem_;
+  request.trials = &trials_;
+  request.shared = shared_;
+  request.shared[0] *= 1.001;
+  request.initial_states = own_;
+  const SolveResult stays = Solve(request);
+  request.follow_edges = true;
+  const SolveResult goes = Solve(request);
+  std::printf("  on the edge %.3f, along it %.3f\n", stays.cost, goes.cost);
+  EXPECT_LT(goes.cost, stays.cost - 0.05);
+  const StopCheck stop =
+      CheckStop(problem_, trials_, goes.shared, goes.initial_states, {}, /*jobs=*/1);
+  EXPECT_TRUE(stop.IsMinimum()) << stop.promised_nats;
+  EXPECT_EQ(stop.on_edges_of, std::vector<std::string>{trial.file});
 }
 
 // Along the normal the events change: a way beyond the surface by it has those of the other side.
