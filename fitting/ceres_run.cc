@@ -91,8 +91,7 @@ class Watch : public ceres::IterationCallback {
     else if (summary.step_is_valid)  // else no point was tried
       beyond_ = TriedBeyond();
     if (met_bound_ || !beyond_.empty()) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
-    if (summary.step_is_successful) useless_ = 0;
-    converged_ = summary.step_is_successful ? IsAtMinimum(summary.cost) : IsOfNoUse(summary);
+    converged_ = summary.step_is_successful && IsAtMinimum(summary.cost);
     if (converged_) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     return IsHopeless() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
@@ -107,17 +106,6 @@ class Watch : public ceres::IterationCallback {
   // Ceres asks what the next step has gained, and then drops it; here it is not taken.
   bool IsAtMinimum(double cost) const {
     return evaluations_.PredictedGain(settings_.held) <= request_.function_tolerance * cost;
-  }
-  // Steps that hardly change the cost, and not for the better, where hardly any gain is promised:
-  // what is left is the roughness of the simulations.
-  bool IsOfNoUse(const ceres::IterationSummary& summary) {
-    constexpr double kRough = 1e-7, kNats = 0.02;
-    constexpr int kInARow = 2;
-    const bool of_use = !summary.step_is_valid ||
-                        std::abs(summary.cost_change) > kRough * summary.cost ||
-                        evaluations_.PredictedGain(settings_.held) > kNats;
-    useless_ = of_use ? 0 : useless_ + 1;
-    return useless_ >= kInARow;
   }
   bool MeetsBound() const {
     if (request_.hold_shared) return false;
@@ -151,7 +139,6 @@ class Watch : public ceres::IterationCallback {
   const TrialEvaluations& evaluations_;
   const RunSettings& settings_;
   bool converged_ = false, met_bound_ = false;
-  int useless_ = 0;
   Places beyond_;
 };
 

@@ -69,7 +69,7 @@ std::vector<std::string> LeftOut(const ExportedModel& model) {
   }
   if (model.law == Law::kElastica)
     lines.push_back(
-        "what a torque of the hip does to the arc (M24): it is bent as if there were none");
+        "what a torque of the hip does to the arc (M121): it is bent as if there were none");
   for (const std::string& kind : model.driven_by)
     lines.push_back("a column of a log drove " + kind + "; give it to leg_load_driven, leg_decide");
   return lines;

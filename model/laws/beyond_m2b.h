@@ -80,11 +80,16 @@ struct BentByTorque {
 template <class S>
 BentByTorque<S> BentByTorqueAt(const S& phi, const S& f, const S& t,
                                const elastica::TorqueBending& by) {
-  const auto lifted = [&](const auto& d) { return Lift2(phi, f, d, 0, 0); };
+  const auto lifted = [&](const elastica::Derivatives<2>& d) { return Lift2(phi, f, d, 0, 0); };
+  // The value of `t` is zero, so second derivatives of what it is multiplied by count for nothing.
+  const auto lifted_slope = [&](const elastica::Derivatives<1>& d) {
+    return lifted({{{d[0][0], d[0][1], 0.0}, {d[1][0], 0.0, 0.0}, {0.0, 0.0, 0.0}}});
+  };
   if constexpr (kOfSearch<S>) {
     return {lifted(by.chord), lifted(by.lead)};
   } else {
-    return {lifted(by.chord) + t * lifted(by.chord_t), lifted(by.lead) + t * lifted(by.lead_t)};
+    return {lifted(by.chord) + t * lifted_slope(by.chord_t),
+            lifted(by.lead) + t * lifted_slope(by.lead_t)};
   }
 }
 template <class S>

@@ -228,8 +228,8 @@ Observation<T> LeggedBody<T, LegT>::Observe(Mode mode, const T& t, const T* z) c
   const Vector2<T> force = HipForce(load, torque, t);
   seen[Channel::kLegAngle] = leg_->ShownAngle(mode, load);
   seen[Channel::kLegLength] = load.l;
-  seen[Channel::kGroundForceX] = force.x;
-  seen[Channel::kGroundForceY] = force.y;
+  seen[Channel::kGroundForceX] = is_lifted_ ? T(0.0) : force.x;
+  seen[Channel::kGroundForceY] = is_lifted_ ? T(0.0) : force.y;
   seen[Channel::kHipTorque] = torque;
   seen[Channel::kContact] = T(1.0);
   seen[Channel::kContactX] = z[kX] + load.u;

@@ -106,7 +106,7 @@ TEST(DrivenElastica, AShareThatIsStatedTakesItsPlace) {
   EXPECT_LT(MissesOf(q, 0.0).worst, 1e-9);
   q.effects = half;
   const Chords of = MissesOf(q, 0.5);
-  EXPECT_LT(of.worst, 0.06 * of.bent_by_torque);
+  EXPECT_LT(of.worst, 2e-4 * of.bent_by_torque);
   q.effects = all;
   const Trajectory stated = Simulate(q);
   q.effects = {};

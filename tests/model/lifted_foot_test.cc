@@ -16,23 +16,14 @@ using namespace testing;
 
 // A leg of 7 g under a motor that asks for more than a newton metre.
 struct Driven {
-  SimulationRequest request;
+  SimulationRequest request = RigRequest();
   std::array<EffectSetting, 2> effects = {Setting("leg_mass", 0.007),
                                           Setting("foot_coulomb_friction", 1.0)};
 
   explicit Driven(double kp = 2.0) {
-    request.law = Law::kElastica;
-    Parameters<double>& p = request.parameters;
-    p.m = 1.27;
-    p.r = 0.09;
-    p.E = 22e9;
-    p.G = 4e9;
-    p.I = 0.03 * std::pow(0.003658, 3) / 12.0;
-    p.A = 0.03 * 0.003658;
-    p.d = 0.0;
-    p.theta_td = Degrees(22.0);
-    p.kp = kp;
-    p.v_des = 1.8;
+    request.parameters.m = 1.27;
+    request.parameters.E = 22e9;
+    request.parameters.kp = kp;
     request.effects = effects;
     request.initial = {0.0, 0.3, 1.0, 0.0};
     request.horizon = 0.3;
@@ -60,6 +51,23 @@ TEST(LiftedFoot, LeavesTheBodyToItsWeight) {
   const double share = 0.007 / driven.request.parameters.m;
   EXPECT_NEAR(press->vy - down->vy_after, -driven.request.parameters.g * lasted, share * kLegMoves);
   EXPECT_NEAR(press->vx - down->vx_after, 0.0, 2.0 * share * kLegMoves);
+}
+
+// No force of the ground is reported meanwhile, one is thereafter.
+TEST(LiftedFoot, IsSeenWithoutAForce) {
+  Driven driven;
+  const Trajectory run = Simulate(driven.request);
+  const Event *down = FirstOf(run, EventKind::kTouchdown), *press = FirstOf(run, EventKind::kPress);
+  ASSERT_TRUE(down && press);
+  const std::array rows = {0.5 * (down->time + press->time), press->time + 2e-3};
+  const std::array channels = {Channel::kGroundForceX, Channel::kGroundForceY};
+  driven.request.row_times = rows;
+  driven.request.channels = channels;
+  const Trajectory seen = Simulate(driven.request);
+  ASSERT_EQ(seen.samples.size(), 4u);
+  EXPECT_EQ(seen.samples[0], 0.0);
+  EXPECT_EQ(seen.samples[1], 0.0);
+  EXPECT_GT(seen.samples[3], 1.0);
 }
 
 // Where it comes to press, lifted and pressed are one motion: nothing jumps.

@@ -187,19 +187,12 @@ TEST(SlidingFoot, SlidesFromTheStartWhereATorquePushesIt) {
 // turn back within a microsecond, while the chord force ends too: it lifts off all the same, and no
 // leg is left standing that pulls on the ground.
 TEST(SlidingFoot, LiftsOffWhereASlideHardlyBegins) {
-  SimulationRequest q;
-  q.law = Law::kElastica;
+  SimulationRequest q = RigRequest();
   Parameters<double>& p = q.parameters;
   p.m = 1.01;
-  p.r = 0.09;
   p.E = 22.59e9;
-  p.G = 4e9;
-  p.I = 0.03 * std::pow(0.003658, 3) / 12.0;
-  p.A = 0.03 * 0.003658;
   p.d = 1.808;
-  p.theta_td = Degrees(22.0);
   p.kp = 2.0;
-  p.v_des = 1.8;
   const std::array effects = {Setting("leg_mass", 0.01262), Setting("torque_bending", 1.107),
                               Setting("foot_coulomb_friction", 0.4)};
   q.effects = effects;

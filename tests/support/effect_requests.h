@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,22 @@ inline SimulationRequest ExcitedRequest(Law law) {
   SimulationRequest q = ThickLegRequest(law);
   q.parameters.kp = 0.6;
   q.parameters.v_des = 1.6;
+  return q;
+}
+
+/// The leg of the rig (datasets/rig-controlled) under its first angle, held by no damper: 3.7 mm of
+/// strip, 9 cm of radius, law elastica. Mass, modulus, controller and start are the caller's.
+inline SimulationRequest RigRequest() {
+  SimulationRequest q;
+  q.law = Law::kElastica;
+  Parameters<double>& p = q.parameters;
+  p.r = 0.09;
+  p.G = 4e9;
+  p.I = 0.03 * std::pow(0.003658, 3) / 12.0;
+  p.A = 0.03 * 0.003658;
+  p.d = 0.0;
+  p.theta_td = Degrees(22.0);
+  p.v_des = 1.8;
   return q;
 }
 
