@@ -71,7 +71,7 @@ std::optional<std::string> ErrorChange(const Diagnosis& d) {
 std::string HeldOutClause(const Diagnosis& d) {
   const HeldOutGain& gain = d.extension->gain;
   if (d.extension->after.test.trials == 0) return "no held-out trial confirms it";
-  if (!gain.ci95) return "too few held-out hops to claim a gain";
+  if (!gain.ci95) return "too little is held out to claim a gain";
   const std::vector<const CauseReport*> told = d.extension->ToldCauses();
   const bool elsewhere = !told.empty() && std::none_of(told.begin(), told.end(), [](const auto* c) {
     return c->cause.in_all();

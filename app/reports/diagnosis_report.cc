@@ -117,7 +117,7 @@ std::string GainLine(const ExtensionReport& e) {
   if (std::isnan(g.nats_per_sample)) return "not computed: no held-out trial to compare on";
   std::string text = fmt::format("{:+.3g} nats a sample", g.nats_per_sample);
   text += g.ci95 ? fmt::format(", 95 % interval {:.3g} .. {:.3g}", g.ci95->first, g.ci95->second)
-                 : std::string(", no interval from so few hops");
+                 : std::string(", no interval from so little");
   text += fmt::format(" ({}, {})", Plural(g.hops, "hop"), Plural(g.samples, "sample"));
   if (!g.IsClaim()) text += ": no claim";
   if (!e.left_out.empty()) text += "; left out, not simulated to its end: " + Join(e.left_out);
@@ -222,6 +222,22 @@ std::string BestAlone(const Diagnosis& d, bool colours) {
   return Labelled("so far", "what each explains alone, not yet weighed: " + Join(words), colours);
 }
 
+// What was tried together, of which it has the best.
+std::string BestTogether(const Diagnosis& d, bool colours) {
+  const FittedModel& best = d.naming.best;
+  const bool has_own_sizes = best.has_own_sizes();
+  if (best.members.size() < 2 || !best.ok() || has_own_sizes) return "";
+  std::vector<std::string> words;
+  std::size_t place = d.null.problem.shared.size();
+  for (const Candidate& c : best.members) {
+    words.push_back(fmt::format(
+        "{} {}", CauseText(c),
+        SizeText(best.shared[static_cast<Eigen::Index>(place)], best.problem.shared[place].unit)));
+    place += static_cast<std::size_t>(c.parameter_count());
+  }
+  return Labelled("", "and the best together, which may not be all: " + Join(words), colours);
+}
+
 std::string NoVerdict(const Diagnosis& d, const std::string& failure, bool colours) {
   std::string text = "\n" + Labelled("no verdict", failure, colours);
   for (const GateCheck& c : d.gate.checks) {
@@ -230,7 +246,10 @@ std::string NoVerdict(const Diagnosis& d, const std::string& failure, bool colou
     text += Labelled(!c.passed ? "failed" : (in_doubt ? "in doubt" : "passed"),
                      c.name + ": " + c.text, colours);
   }
-  return d.interrupted ? text + BestAlone(d, colours) : text;
+  if (!d.interrupted) return text;
+  text += BestAlone(d, colours) + BestTogether(d, colours);
+  for (const std::string& note : d.notes) text += Labelled("note", note, colours);
+  return text;
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/text.h"
+#include "fitting/smoothed_traces.h"
 
 namespace hoplab {
 namespace {
@@ -49,6 +51,22 @@ HeldOutErrors ErrorsOf(const FittedModel& alone, const Diagnosis& d, int jobs) {
   FittedModel alike = alone;
   alike.problem.noise = d.null.problem.noise;
   return MeasureHeldOut(alike, jobs, /*test_only=*/true, &d.before);
+}
+
+// Where the noise does not tell of a filter that is told.
+void NoteUnseenFilters(Diagnosis& d) {
+  if (!d.extension) return;
+  std::vector<std::string> unseen;
+  for (const CauseReport* c : d.extension->ToldCauses())
+    if (c->cause.effect->info.filter != RecordFilter::kNone) unseen.emplace_back(c->cause.Name());
+  if (unseen.empty()) return;
+  for (const RecordFilter seen : FiltersSeen(d.problem))
+    std::erase_if(unseen,
+                  [&](const std::string& name) { return FindEffect(name)->info.filter == seen; });
+  if (!unseen.empty())
+    d.notes.push_back("the noise does not tell of " + Join(unseen) +
+
+                      ": it came in after the filter, or too little of it is seen");
 }
 
 // A stiffness or a damping of the mechanism, by its unit.
@@ -144,6 +162,7 @@ void TellBesides(Diagnosis& d, const DiagnosisOptions& options) {
   if (!d.interrupted) NoteMass(d);
   if (!d.extension && d.set_aside.empty()) return;
   NoteShapes(d);
+  NoteUnseenFilters(d);
   NoteTilt(d);
   if (options.fit.IsStopped()) return;
   MeasureCandidates(d, options);

@@ -113,15 +113,17 @@ std::string Candidate::Name() const {
 
 namespace {
 
-// It is tried only where the noise tells of it: it rounds corners, and so could stand in for much.
+// At first it is tried only where the noise tells of it: it rounds corners, and so could stand in
+// for much.
 bool IsUnseenFilter(const Effect& effect, const std::vector<RecordFilter>& seen) {
   const RecordFilter filter = effect.info.filter;
   return filter != RecordFilter::kNone && std::find(seen.begin(), seen.end(), filter) == seen.end();
 }
 
-}  // namespace
-
-std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOptions& options) {
+struct Collection {
+  std::vector<Candidate> tried, unseen_filters;
+};
+Collection Collected(const FitProblem& problem, const CandidateOptions& options) {
   std::vector<const Effect*> without, only;
   for (const std::string& name : options.without)
     without.push_back(&Applicable(problem, name, "--without"));
@@ -130,7 +132,7 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
     return std::find(list.begin(), list.end(), effect) != list.end();
   };
   const std::vector<RecordFilter> filters = FiltersSeen(problem);
-  std::vector<Candidate> candidates;
+  Collection all;
   std::vector<const Effect*> tried(AllEffects().begin(), AllEffects().end());
   const auto add = [&](const Effect* effect) {
     if (!holds(tried, effect)) tried.push_back(effect);
@@ -143,12 +145,25 @@ std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOp
         IsPartOf(problem.law, *effect) || IsFitted(problem, *effect) || Simulates(problem, *effect))
       continue;
     if (only.empty() && (HasNothingOf(problem, *effect) || IsOfAllLegs(problem, *effect) ||
-                         IsDelayOfAll(problem, *effect) || IsUnseenFilter(*effect, filters)))
+                         IsDelayOfAll(problem, *effect)))
       continue;
-    if (holds(without, effect) || (!only.empty() && !holds(only, effect))) continue;
-    if (!problem.known.RulesOut(*effect)) candidates.push_back({effect, {}, problem.known});
+    if (holds(without, effect) || (!only.empty() && !holds(only, effect)) ||
+        problem.known.RulesOut(*effect))
+      continue;
+    const bool unseen = only.empty() && IsUnseenFilter(*effect, filters);
+    (unseen ? all.unseen_filters : all.tried).push_back({effect, {}, problem.known});
   }
-  return candidates;
+  return all;
+}
+
+}  // namespace
+
+std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOptions& options) {
+  return Collected(problem, options).tried;
+}
+
+std::vector<Candidate> UnseenFilters(const FitProblem& problem, const CandidateOptions& options) {
+  return Collected(problem, options).unseen_filters;
 }
 
 FitProblem Extend(const FitProblem& problem, std::span<const Candidate> candidates) {

@@ -46,6 +46,9 @@ struct CandidateOptions {
 /// those that are known not to be there are not among them. Throws InputError (place: the option)
 /// for names that are not effects, do not apply to the law, or are known not to be there.
 std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOptions& options);
+/// The filters that would be among them if the noise told of them: noise that came in after a
+/// filter does not. None where `only` says what is tried.
+std::vector<Candidate> UnseenFilters(const FitProblem& problem, const CandidateOptions& options);
 
 /// `problem` with the candidates' parameters as further shared values, at their null.
 FitProblem Extend(const FitProblem& problem, std::span<const Candidate> candidates);

@@ -110,8 +110,11 @@ class StageByStage {
     return !null.result.ok || !(2.0 * null.result.cost <= kFarOff * static_cast<double>(samples));
   }
   // A verdict stays where somebody waits for no longer parts; that nothing is seen in the first
-  // stances is none.
+  // stances is none, but it is told.
   static Diagnosis CutShort(std::optional<Diagnosis> last, Diagnosis interrupted) {
+    if (last && last->verdict == Verdict::kAdequate && last->until)
+      interrupted.notes.push_back("in the first " + WithTwoDecimals(*last->until) +
+                                  " s of each trial nothing is missing that they could show");
     if (!last || last->verdict == Verdict::kAdequate) return interrupted;
     last->cut_short = true;
     last->notes.emplace_back("stopped: what longer parts of the trials say was not looked at");

@@ -13,27 +13,16 @@
 #include "fitting/diagnosis/each_trial.h"
 #include "fitting/diagnosis/heterogeneity.h"
 #include "fitting/diagnosis/linearise_at.h"
+#include "fitting/diagnosis/movements.h"
 #include "fitting/diagnosis/null_fit.h"
 #include "fitting/diagnosis/own_sizes.h"
 #include "fitting/diagnosis/sizes.h"
+#include "fitting/diagnosis/unseen_filters.h"
 #include "fitting/diagnosis/verdict.h"
 #include "fitting/stop_check.h"
 
 namespace hoplab {
 namespace {
-
-std::vector<Movement> MovementsOf(const FittedModel& null, const Uncertainty& uncertainty,
-                                  const FittedModel& best) {
-  std::vector<Movement> movements;
-  for (int k = 0; k < null.problem.shared_count(); ++k) {
-    const SharedParameter& s = null.problem.shared[static_cast<std::size_t>(k)];
-    Movement m{s.name, s.unit, null.shared[k], best.shared[k], std::nullopt};
-    const auto& error = uncertainty.parameters[static_cast<std::size_t>(k)].std_error;
-    if (error && *error > 0.0) m.std_errors = (m.after - m.before) / *error;
-    movements.push_back(std::move(m));
-  }
-  return movements;
-}
 
 class Pipeline {
  public:
@@ -43,10 +32,13 @@ class Pipeline {
   Diagnosis Run(DatasetFit null) {
     BeginWith(std::move(null), options_, d_, train_);
     if (!d_.refusal.empty() || Stopped()) return Finish();
-    const std::vector<Candidate> candidates = CandidatesOf(d_.problem, options_.candidates);
+    std::vector<Candidate> candidates = CandidatesOf(d_.problem, options_.candidates);
     Look(candidates);
     if (Stopped()) return Finish();
-    if (d_.detection.p_value <= kDetectionLevel) Name(candidates);
+    if (d_.detection.p_value <= kDetectionLevel) {
+      Name(candidates);
+      NameUnseenFilters(candidates);
+    }
     if (!Stopped() && LeavesMuch()) NameOfEachTrial(candidates);
     if (Stopped()) return Finish();
     RestateUnseen(train_, options_.fit.jobs, d_.naming.best);
@@ -148,6 +140,22 @@ class Pipeline {
     Stage("refitting with every candidate cause");
     d_.naming =
         NameCauses({&d_.plain, &d_.null}, candidates, NullAt(candidates), train_, HowToName());
+  }
+
+  // Noise that came in after a filter does not tell of it: such a one is sought where what was
+  // found leaves something smooth. (The legs of a robot land one by one, and no filter has been
+  // seen.)
+  void NameUnseenFilters(std::vector<Candidate>& candidates) {
+    const std::vector<Candidate> filters = UnseenFilters(d_.problem, options_.candidates);
+    const bool leaves = d_.naming.best.evidence.discrepancy_probability() > 0.5;
+    if (filters.empty() || !leaves || d_.problem.robot_legs().count > 0 || Stopped()) return;
+    Stage("refitting with filters of which the noise does not tell");
+    const auto null_at = [&](std::span<const Candidate> all) { return LinearisedAt(d_.null, all); };
+    std::optional<Naming> found = NameWithFilters(
+        {{&d_.plain, &d_.null}, candidates, filters, &d_.naming, &train_, HowToName(), null_at});
+    if (!found || LeavesMore(found->best)) return;
+    d_.naming = *std::move(found);
+    candidates.insert(candidates.end(), filters.begin(), filters.end());
   }
 
   // What was found, each cause of one size for all trials, is not enough, or is pieced together.

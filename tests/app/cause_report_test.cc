@@ -180,6 +180,19 @@ TEST(DiagnosisReport, ASearchThatIsStoppedTellsWhatItHas) {
       << text;
   EXPECT_EQ(text.find("air_drag"), std::string::npos);
   EXPECT_EQ(text.find("wind"), std::string::npos);
+  EXPECT_EQ(text.find("together"), std::string::npos);
+
+  d.notes = {"in the first 0.2 s nothing is missing"};
+  FittedModel& best = d.naming.best;
+  best = d.naming.candidates[0].alone;
+  best.members = {d.naming.candidates[0].candidate, {FindEffect("gravity_scale"), {}}};
+  best.shared = Eigen::Vector2d(0.003, 0.02);
+  best.problem.shared.push_back({.name = "gravity_scale", .unit = "-"});
+  const std::string longer = Unbroken(report());
+  EXPECT_NE(longer.find("together, which may not be all: sensor_delay 3.0 ms, gravity_scale 0.02"),
+            std::string::npos)
+      << longer;
+  EXPECT_NE(longer.find("note in the first 0.2 s nothing is missing"), std::string::npos);
 }
 
 }  // namespace

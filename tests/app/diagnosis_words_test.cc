@@ -191,7 +191,7 @@ TEST_F(VerdictSentenceTest, ClaimsNothingThatTheHeldOutTrialsDoNotShow) {
   d_.extension->gain.ci95 = {{-0.1, 3.0}};
   EXPECT_NE(VerdictSentence(d_).find("held-out trials do not confirm it"), std::string::npos);
   d_.extension->gain.ci95.reset();
-  EXPECT_NE(VerdictSentence(d_).find("too few held-out hops to claim"), std::string::npos);
+  EXPECT_NE(VerdictSentence(d_).find("too little is held out to claim a gain"), std::string::npos);
   d_.extension->after.test.trials = 0;
   EXPECT_NE(VerdictSentence(d_).find("no held-out trial confirms it"), std::string::npos);
 }

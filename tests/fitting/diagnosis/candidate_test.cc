@@ -34,6 +34,20 @@ TEST(Candidates, AreEveryEffectThatAppliesInTheOrderOfTheCatalogue) {
   EXPECT_EQ(NamesOf(CandidatesOf(Problem(), {})), expected);
 }
 
+// White noise does not tell of a filter, so it is no candidate at first.
+TEST(Candidates, KeepFiltersThatTheNoiseDoesNotTellOfApart) {
+  const std::vector<std::string> all = {"sensor_low_pass", "sensor_causal_low_pass",
+                                        "sensor_moving_average", "sensor_exponential_filter"};
+  std::vector<std::string> unseen = NamesOf(UnseenFilters(Problem(), {}));
+  EXPECT_TRUE(std::is_permutation(unseen.begin(), unseen.end(), all.begin(), all.end()));
+  unseen = NamesOf(UnseenFilters(Problem(), {.without = {"sensor_low_pass"}}));
+  EXPECT_EQ(unseen.size(), all.size() - 1);
+  EXPECT_EQ(std::count(unseen.begin(), unseen.end(), "sensor_low_pass"), 0);
+  const CandidateOptions asked{.only = {"sensor_low_pass"}};
+  EXPECT_TRUE(UnseenFilters(Problem(), asked).empty());
+  EXPECT_EQ(NamesOf(CandidatesOf(Problem(), asked)), std::vector<std::string>{"sensor_low_pass"});
+}
+
 // A torque bends an elastica, which therefore cannot lack it (M120); the other laws can.
 TEST(Candidates, HoldNothingThatTheLawHasInItself) {
   const CandidateOptions bending{.only = {"torque_bending"}};

@@ -144,6 +144,22 @@ TEST(Diagnose, KeepsTheVerdictOfTheFirstStancesWhereLongerPartsAreNotWaitedFor) 
   EXPECT_EQ(d.notes.back(), "stopped: what longer parts of the trials say was not looked at");
 }
 
+// That nothing is seen in the first stances is no verdict of the whole, but it is told.
+TEST(Diagnose, TellsThatNothingIsSeenEarlyWhereTheWholeTrialsAreNotWaitedFor) {
+  std::atomic<bool> stop = false;
+  DiagnosisOptions options;
+  options.fit.jobs = 2;
+  options.fit.stop = &stop;
+  options.candidates.only = {"com_offset"};
+  options.stage = [&](std::string_view stage) { stop = stop || stage == "up to there: adequate"; };
+  const Diagnosis d = Diagnose(testing::RobotPronks(0.0, 0.8), options);
+  ASSERT_TRUE(stop);
+  EXPECT_TRUE(d.interrupted);
+  ASSERT_FALSE(d.notes.empty());
+  EXPECT_TRUE(d.notes.back().ends_with(" s of each trial nothing is missing that they could show"))
+      << d.notes.back();
+}
+
 // The fit alone says how far it goes.
 TEST(FitDataset, FitsAsMuchOfARobotsTrialsAsItFollows) {
   FitOptions options;

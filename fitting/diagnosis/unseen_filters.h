@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fitting/diagnosis/linearisation.h"
+#include "fitting/diagnosis/name.h"
+
+namespace hoplab {
+
+/// Nats by which a filter is less likely beforehand than another cause if the noise does not tell
+/// of it: most logs are filtered with their noise.
+inline constexpr double kUnseenFilter = 3.0;
+
+/// What a search with filters of which the noise does not tell begins with.
+struct FilterRequest {
+  NullFits null;
+  std::span<const Candidate> candidates;  // of the search without them
+  std::span<const Candidate> filters;     // UnseenFilters
+  const Naming* without = nullptr;        // what that search found
+  const std::vector<TrialProblem>* train = nullptr;
+  NamingOptions naming;
+  /// The linearisation at the null fit with columns of such candidates.
+  std::function<Linearisation(std::span<const Candidate>)> null_at;
+};
+
+/// Searches anew, with them behind the other candidates, each kUnseenFilter less likely beforehand,
+/// where one of them is worth more among the causes that were found and those that explain most
+/// alone. Absent where none is in the end.
+std::optional<Naming> NameWithFilters(const FilterRequest& request);
+
+}  // namespace hoplab
