@@ -142,7 +142,7 @@ class TraceParser {
       Fail(shown, "must be in " + kTimeRange.Text(), RangeRemedy(time, kTimeRange));
     if (!trace_.time_s.empty() && time <= trace_.time_s.back())
       Fail(shown, "must be greater than the time before, " + FormatDouble(trace_.time_s.back()),
-           "Sort the rows by time and remove repeated ones.");
+           "Sort the rows by time and remove repeated ones; hoplab import --mend-times does.");
     trace_.time_s.push_back(time);
   }
 

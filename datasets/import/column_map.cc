@@ -205,6 +205,7 @@ ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entrie
     FindUnitOf(table, unit, &map, &mapped);
     map.columns.push_back(mapped);
   }
+  std::string doubt;
   if (entries.empty()) {
     Guesses guesses = GuessChannels(table, map, type);
     // Here what needs no guess goes before all of them.
@@ -215,6 +216,7 @@ ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entrie
     std::stable_sort(guesses.columns.begin(), guesses.columns.end(),
                      [&](const auto& a, const auto& b) { return order(a) < order(b); });
     map.warnings.insert(map.warnings.end(), guesses.notes.begin(), guesses.notes.end());
+    doubt = guesses.doubt;
     for (MappedColumn guess : guesses.columns) {
       if (guess.unit.name.empty()) FindUnitOf(table, "", &map, &guess);
       map.columns.push_back(guess);
@@ -226,8 +228,10 @@ ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entrie
                     [](const MappedColumn& m) { return m.target.channel.has_value(); });
   if (channels == 0)
     throw InputError({table.file, "", "no column could be told to be a channel of a dataset",
-                      "Name them, as --map t=COLUMN:ms --map y=COLUMN:mm; the columns are: " +
+                      (doubt.empty() ? "" : doubt + ". ") +
+                          "Name them, as --map t=COLUMN:ms --map y=COLUMN:mm; the columns are: " +
                           Shown(table) + "."});
+  if (!doubt.empty()) map.warnings.push_back(table.file + ": " + doubt);
   return map;
 }
 

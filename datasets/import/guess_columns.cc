@@ -1,8 +1,10 @@
 #include "datasets/import/guess_columns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <string_view>
 
 #include "base/input_error.h"
 #include "base/text.h"
@@ -15,10 +17,25 @@ namespace {
 
 // ---- the parts of names
 
+// Where a name's last word begins: "pos_up", "hip.z".
+std::size_t LastWordAt(const std::string& lower_stem) {
+  const std::size_t before = lower_stem.find_last_of("._ :/-");
+  return before == lower_stem.npos ? 0 : before + 1;
+}
+
+constexpr std::array<std::string_view, 12> kAxisWords = {"px",  "py",     "pz",         "forward",
+                                                         "fwd", "ahead",  "horizontal", "horiz",
+                                                         "up",  "upward", "vertical",   "vert"};
+bool EndsInAxisWord(const std::string& lower_stem) {
+  const std::string_view last = std::string_view(lower_stem).substr(LastWordAt(lower_stem));
+  return std::find(kAxisWords.begin(), kAxisWords.end(), last) != kAxisWords.end();
+}
+
 // Whether a name's last part is an axis or the index of one: "hip.Position.Y", "pos_x", "Z",
-// "pelvis_tx", "log.pos(:,2)", "/body/pos[:,1]".
+// "pelvis_tx", "pos_up", "log.pos(:,2)", "/body/pos[:,1]".
 bool IsCoordinate(const std::string& lower_stem) {
   if (lower_stem.empty()) return false;
+  if (EndsInAxisWord(lower_stem)) return true;
   const char last = lower_stem.back();
   if (last == ')' || last == ']') return lower_stem.find(":,") != std::string::npos;
   if (last < 'x' || last > 'z') return false;
@@ -34,6 +51,14 @@ bool IsCoordinate(const std::string& lower_stem) {
 std::string ThingOf(const std::string& lower_stem) {
   const bool indexed = lower_stem.ends_with(')') || lower_stem.ends_with(']');
   return lower_stem.substr(0, indexed ? lower_stem.find_last_of("([") : lower_stem.size() - 1);
+}
+
+// "hip_x" and "hip_z", "hip forward" and "hip high", "forward" and "up".
+bool AreOfOneThing(const std::string& lower_stem, const std::string& other) {
+  if (ThingOf(lower_stem) == ThingOf(other)) return true;
+  const std::size_t at = LastWordAt(lower_stem);
+  if (at != LastWordAt(other) || lower_stem.compare(0, at, other, 0, at) != 0) return false;
+  return at > 0 || (EndsInAxisWord(lower_stem) && EndsInAxisWord(other));
 }
 
 struct Height {
@@ -67,8 +92,14 @@ class ChannelGuesser {
     if (!Has(Channel::kBodyX) && height_) GuessForward();
     return std::move(guesses_);
   }
+  /// Why no column is taken for the height, though one falls; or empty.
+  const std::string& doubt() const { return doubt_; }
 
  private:
+  static std::vector<LogUnit> HeightUnits() {
+    return {*FindUnit("m"), *FindUnit("mm"), *FindUnit("cm")};
+  }
+
   bool Has(Channel channel) const {
     return std::any_of(guesses_.begin(), guesses_.end(),
                        [&](const MappedColumn& g) { return g.target == channel; });
@@ -131,12 +162,8 @@ class ChannelGuesser {
   void GuessHeight() {
     for (const std::size_t i : Positions()) {
       const double per_unit = Fall(table_, i, times_);
-      std::vector<LogUnit> units;
-      if (const auto stated = StatedUnit(i, Dimension::kLength)) {
-        units = {*stated};
-      } else {
-        for (const char* name : {"m", "mm", "cm"}) units.push_back(*FindUnit(name));
-      }
+      std::vector<LogUnit> units = HeightUnits();
+      if (const auto stated = StatedUnit(i, Dimension::kLength)) units = {*stated};
       for (const LogUnit& unit : units) {
         // ApparentGravity looks for what falls; upside down it would rise.
         const double fall = per_unit * SiFactor(unit);
@@ -145,7 +172,7 @@ class ChannelGuesser {
         if (IsGravity(rise)) Better({i, unit, true, rise});
       }
     }
-    if (!height_) return;
+    if (!height_) return DoubtUnits();
     const bool stated = StatedUnit(height_->column, Dimension::kLength).has_value();
     MappedColumn guess{Channel::kBodyY, height_->column, height_->negate};
     if (!stated) guess.unit = height_->unit;
@@ -153,6 +180,21 @@ class ChannelGuesser {
                 Rounded(height_->fall) + " m/s^2 in flight" +
                 (stated ? "" : " if it is in " + height_->unit.name);
     Take(guess);
+  }
+
+  // A height whose unit is not what the file says.
+  void DoubtUnits() {
+    for (const std::size_t i : Positions()) {
+      const double per_unit = Fall(table_, i, times_);
+      for (const LogUnit& unit : HeightUnits()) {
+        const double fall = per_unit * SiFactor(unit);
+        if (!IsGravity(fall)) continue;
+        doubt_ = table_.columns[i].name + " falls at " + Rounded(fall) + " m/s^2 if it is in " +
+                 unit.name + ", and not as the file says; --map " +
+                 MapText(table_, {Channel::kBodyY, i, false, unit, false, ""}) + " takes it so";
+        return;
+      }
+    }
   }
 
   // A robot may walk without ever falling, and its legs brake it as if it fell along x. Of two
@@ -193,11 +235,10 @@ class ChannelGuesser {
   // The other coordinate of the same thing that travels furthest.
   void GuessForward() {
     const std::string& name = table_.columns[height_->column].name;
-    const std::string thing = ThingOf(LowerStem(name));
     double furthest = 0;
     MappedColumn guess{Channel::kBodyX};
     for (const std::size_t i : Positions()) {
-      if (ThingOf(LowerStem(table_.columns[i].name)) != thing) continue;
+      if (!AreOfOneThing(LowerStem(table_.columns[i].name), LowerStem(name))) continue;
       const Travel travel = TravelOf(i);
       if (travel.range <= furthest) continue;
       furthest = travel.range;
@@ -230,6 +271,7 @@ class ChannelGuesser {
   std::vector<MappedColumn> guesses_;
   std::optional<Height> height_;
   bool of_robot_ = false;
+  std::string doubt_;
 };
 
 }  // namespace
@@ -248,6 +290,7 @@ Guesses GuessChannels(const Table& table, const ColumnMap& map, std::optional<Me
     }
   }
   guesses.columns = guesser.Guess();
+  guesses.doubt = guesser.doubt();
   return guesses;
 }
 

@@ -22,6 +22,7 @@ MappedColumn GuessTime(const Table& table);
 struct Guesses {
   std::vector<MappedColumn> columns;
   std::vector<std::string> notes;  // what was not taken, and why
+  std::string doubt;               // a height that would fall in another unit than it has; or empty
   std::string unclear_legs;        // why a robot's legs cannot be told apart by their columns
 };
 

@@ -108,6 +108,14 @@ TEST_F(ImportMap, GravityTellsTheVerticalAxisAndItsUnit) {
        {"t=Time (ms):ms", "y=hip Z [mm]:mm", "x=hip X [mm]:mm"}},
       {"t,pos_x,pos_y,q", 1, 1, 1, {"t=t:s", "y=pos_y:m", "x=pos_x:m"}},
       {"timestamp,x,y,q", 1e6, 1e2, 1, {"t=timestamp:us", "y=y:cm", "x=x:cm"}},
+      {"t,pos_fwd,pos_up,q", 1, 1e3, 1, {"t=t:s", "y=pos_up:mm", "x=pos_fwd:mm"}},
+      {"t,px,pz,q", 1, 1, 1, {"t=t:s", "y=pz:m", "x=px:m"}},
+      {"t,horizontal,vertical,q", 1, 1, 1, {"t=t:s", "y=vertical:m", "x=horizontal:m"}},
+      {"t,Marker vor [mm],Marker hoch [mm],q",
+       1,
+       1e3,
+       1,
+       {"t=t:s", "y=Marker hoch [mm]:mm", "x=Marker vor [mm]:mm"}},
       // An image's rows count downwards.
       {"time,x,y,q", 1e3, 1e3, -1, {"t=time:ms", "y=-y:mm", "x=x:mm"}},
   };
@@ -170,6 +178,23 @@ TEST_F(ImportMap, AHeightThatDoesNotFallIsNotGuessed) {
   const std::string error = InputErrorOf([&] { ImportFile(Log(text), {}); });
   EXPECT_NE(error.find("no column could be told to be a channel"), std::string::npos) << error;
   EXPECT_NE(error.find("the columns are: time, x, y"), std::string::npos) << error;
+}
+
+// The file says centimetres, and the body falls in millimetres.
+TEST_F(ImportMap, AHeightThatFallsInAnotherUnitThanItsOwnIsTold) {
+  const auto file = Log(FallLog("t,hip_x_cm,hip_z_cm,q", 1, 1e3));
+  const std::string error = InputErrorOf([&] { ImportFile(file, {}); });
+  EXPECT_NE(error.find("hip_z_cm falls at 9.8"), std::string::npos) << error;
+  EXPECT_NE(error.find("if it is in mm, and not as the file says; --map y=hip_z_cm:mm takes it so"),
+            std::string::npos)
+      << error;
+  EXPECT_EQ(ImportFile(file, {"y=hip_z_cm:mm"}).map_texts,
+            (std::vector<std::string>{"t=t:s", "y=hip_z_cm:mm"}));
+  // Beside what can be told it is a warning.
+  const auto beside = Log(FallLog("t,hip_x_cm,hip_z_cm,body_vx_m_per_s", 1, 1e3), "beside.csv");
+  const ImportResult result = ImportFile(beside, {});
+  ASSERT_EQ(result.map.warnings.size(), 1u);
+  EXPECT_NE(result.map.warnings[0].find("hip_z_cm falls at 9.8"), std::string::npos);
 }
 
 TEST_F(ImportMap, WithAMapOnlyWhatItLeavesOpenIsGuessed) {

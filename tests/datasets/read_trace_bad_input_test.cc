@@ -17,13 +17,13 @@ using testing::kYaml;
 TEST(BadDataset, TimeMustIncrease) {
   EXPECT_EQ(ErrorWithCsv("0.02,", "0.005,"),
             "hops/a.csv:4: time_s = 0.005; must be greater than the time before, 0.01. "
-            "Sort the rows by time and remove repeated ones.");
+            "Sort the rows by time and remove repeated ones; hoplab import --mend-times does.");
 }
 
 TEST(BadDataset, TimeMayNotStandStill) {
   EXPECT_EQ(ErrorWithCsv("0.02,", "0.01,"),
             "hops/a.csv:4: time_s = 0.01; must be greater than the time before, 0.01. "
-            "Sort the rows by time and remove repeated ones.");
+            "Sort the rows by time and remove repeated ones; hoplab import --mend-times does.");
 }
 
 TEST(BadDataset, EveryRowNeedsATime) {
