@@ -17,8 +17,13 @@ InputSpec ReadInput(InputKind id, const YamlCursor& block) {
   if (block.node().kind == YamlNode::Kind::kNull) return input;
   block.AllowOnly({"column", "hold", "delay_s", "delay_sigma_s", "scale", "scale_sigma", "clock"});
   if (const auto column = block.Optional("column")) input.column = column->Name();
-  if (const auto hold = block.Optional("hold"))
-    input.held = hold->Choice({"linear", "previous"}) == 1;
+  if (const auto hold = block.Optional("hold")) {
+    const int choice = hold->Choice({"linear", "previous", "stance"});
+    input.held = choice > 0;
+    input.of_stance = choice == 2;
+    if (input.of_stance && id != InputKind::kHipTorque)
+      hold->Fail("is of a torque in stance alone", "Write hold: previous, or linear.");
+  }
   input.delay_s = block.OptionalNumber("delay_s", kDelay).value_or(0);
   input.delay_sigma_s = block.OptionalNumber("delay_sigma_s", Positive(1, "s"));
   input.scale = block.OptionalNumber("scale", kScale).value_or(1);

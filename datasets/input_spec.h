@@ -13,8 +13,9 @@ namespace hoplab {
 /// A column that drives the simulation: scale u(t - delay), u the column.
 struct InputSpec {
   InputKind id = InputKind::kHipTorque;
-  std::string column;  // of the trace
-  bool held = false;   // between rows: held from the row before; else linear
+  std::string column;      // of the trace
+  bool held = false;       // between rows: held from the row before; else linear
+  bool of_stance = false;  // held; from a touch-down to the row behind it that row's
   double delay_s = 0;
   std::optional<double> delay_sigma_s;  // how well it is known; absent: it is as it says
   double scale = 1;

@@ -54,7 +54,8 @@ YamlFields InputFields(const std::vector<InputSpec>& inputs) {
       return value ? FormatDouble(*value) : std::string("null");
     };
     fields.push_back({name, "column", QuotedYaml(input.column)});
-    fields.push_back({name, "hold", input.held ? "previous" : "linear"});
+    const char* hold = input.of_stance ? "stance" : input.held ? "previous" : "linear";
+    fields.push_back({name, "hold", hold});
     fields.push_back({name, "delay_s", FormatDouble(input.delay_s)});
     fields.push_back({name, "delay_sigma_s", optional(input.delay_sigma_s)});
     fields.push_back({name, "scale", FormatDouble(input.scale)});

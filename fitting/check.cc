@@ -10,6 +10,7 @@
 #include "fitting/mixed_up_trials.h"
 #include "fitting/run_end.h"
 #include "fitting/smoothed_traces.h"
+#include "fitting/stance_torques.h"
 #include "fitting/turned_axes.h"
 
 namespace hoplab {
@@ -46,8 +47,9 @@ std::vector<std::string> DataWarnings(const Dataset& dataset, const FitProblem& 
   std::vector<std::string> warnings = SuspectThings(compared);
   for (const std::string& sentence : CopiedTrials(dataset)) warnings.push_back(sentence);
   if (!UnreadableTimes(dataset).empty()) return warnings;
-  for (const auto& sentences : {TurnedAxes(problem), LegStarts(problem), LegTurns(problem),
-                                MixedUpTrials(problem), SmoothedTraces(problem)})
+  for (const auto& sentences :
+       {TurnedAxes(problem), LegStarts(problem), LegTurns(problem), MixedUpTrials(problem),
+        SmoothedTraces(problem), StanceTorques(problem)})
     for (const std::string& sentence : sentences)
       warnings.push_back(dataset.origin.place + ": " + sentence + ".");
   return warnings;

@@ -42,6 +42,7 @@ const DrivenColumn* FindColumn(const FitProblem& problem, InputKind kind) {
 DrivenColumn ColumnOf(const InputSpec& input, const Trace& trace, const FitProblem& problem) {
   DrivenColumn column{input.id};
   column.held = input.held;
+  column.of_stance = input.of_stance;
   column.delay = input.delay_s;
   column.scale = input.scale;
   column.clock = ClockIndex(problem, input.clock);
@@ -252,7 +253,8 @@ void FillTrialRequest(const FitProblem& problem, const TrialProblem& trial,
   out.touchdown_angles = trial.touchdown_angles;
   out.inputs.clear();
   for (const DrivenColumn& c : trial.inputs)
-    out.inputs.push_back({c.kind, c.times, c.values, c.held, c.delay, c.scale, c.clock});
+    out.inputs.push_back(
+        {c.kind, c.times, c.values, c.held, c.of_stance, c.delay, c.scale, c.clock});
   out.clock_offsets.clear();
   for (const ClockProblem& clock : problem.clocks) out.clock_offsets.push_back(clock.offset);
   const auto apply = [&](const SensitivityDirection& d, double value) {

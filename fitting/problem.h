@@ -64,7 +64,7 @@ struct ContactTimes {
 struct DrivenColumn {
   InputKind kind = InputKind::kHipTorque;
   std::vector<double> times = {}, values = {};
-  bool held = false;
+  bool held = false, of_stance = false;
   double delay = 0.0, scale = 1.0;
   int clock = -1;  // of FitProblem::clocks
 };

@@ -40,6 +40,19 @@ TEST(Inputs, AreColumnsThatDriveTheSimulation) {
   ExpectRoundTrip(dataset);
 }
 
+TEST(Inputs, ATorqueMayBeOfStancesAlone) {
+  const auto with = [](const char* inputs) {
+    return RecordWith("trials:", std::string("inputs: ") + inputs + "\ntrials:");
+  };
+  const Dataset dataset = with("{hip_torque_N_m: {hold: stance}}");
+  EXPECT_TRUE(dataset.trials[0].inputs[0].held);
+  EXPECT_TRUE(dataset.trials[0].inputs[0].of_stance);
+  ExpectRoundTrip(dataset);
+  const std::string error =
+      InputErrorOf([&] { with("{body_force_x_N: {column: command, hold: stance}}"); });
+  EXPECT_NE(error.find("is of a torque in stance alone"), std::string::npos) << error;
+}
+
 TEST(Inputs, OfATrialArePutOverTheDatasets) {
   const std::string yaml = Replace(
       Replace(kRecordYaml, "trials:",
@@ -73,7 +86,8 @@ TEST(BadInputs, AreToldWithPlaceValueRuleAndRemedy) {
        "name "
        "does not belong to it. Rename it to hip_torque_N_m and give the value in N m."},
       {ErrorOfInputs("{hip_torque_N_m: {hold: next}}"),
-       "hops/dataset.yaml:9: inputs.hip_torque_N_m.hold = next; must be one of linear, previous. "
+       "hops/dataset.yaml:9: inputs.hip_torque_N_m.hold = next; must be one of linear, previous, "
+       "stance. "
        "Write one of these words."},
       {ErrorOfInputs("{hip_torque_N_m: {delay_ms: 2}}"),
        "hops/dataset.yaml:9: inputs.hip_torque_N_m.delay_ms; is written delay_s: the unit in its "
