@@ -5,7 +5,8 @@
 namespace hoplab {
 
 /// While it lives, the first Ctrl-C (SIGINT) or SIGTERM sets a flag instead of ending the process,
-/// so that what was finished can be kept; a second one ends the process at once. One at a time.
+/// so that what was finished can be kept; one that comes half a second later, or more, ends the
+/// process at once. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
