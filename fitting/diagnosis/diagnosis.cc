@@ -146,9 +146,10 @@ class Pipeline {
   // found leaves something smooth. (The legs of a robot land one by one, and no filter has been
   // seen.)
   void NameUnseenFilters(std::vector<Candidate>& candidates) {
-    const std::vector<Candidate> filters = UnseenFilters(d_.problem, options_.candidates);
     const bool leaves = d_.naming.best.evidence.discrepancy_probability() > 0.5;
-    if (filters.empty() || !leaves || d_.problem.robot_legs().count > 0 || Stopped()) return;
+    if (!leaves || d_.problem.robot_legs().count > 0 || Stopped()) return;
+    const std::vector<Candidate> filters = UnseenFilters(d_.problem, options_.candidates);
+    if (filters.empty()) return;
     Stage("refitting with filters of which the noise does not tell");
     const auto null_at = [&](std::span<const Candidate> all) { return LinearisedAt(d_.null, all); };
     std::optional<Naming> found = NameWithFilters(
