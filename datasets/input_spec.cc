@@ -22,7 +22,7 @@ InputSpec ReadInput(InputKind id, const YamlCursor& block) {
     input.held = choice > 0;
     input.of_stance = choice == 2;
     if (input.of_stance && id != InputKind::kHipTorque)
-      hold->Fail("is of a torque in stance alone", "Write hold: previous, or linear.");
+      hold->Fail("is for hip_torque_N_m alone", "Write hold: previous, or linear.");
   }
   input.delay_s = block.OptionalNumber("delay_s", kDelay).value_or(0);
   input.delay_sigma_s = block.OptionalNumber("delay_sigma_s", Positive(1, "s"));

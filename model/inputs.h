@@ -14,8 +14,8 @@
 namespace hoplab {
 
 /// A logged column, M50: u(t) = scale c(t - delay), c linear between its samples or held from the
-/// one before, constant before the first and after the last. M123: from a touch-down to the sample
-/// behind it that sample's.
+/// one before, constant before the first and after the last. With `of_stance` (M123) it is held,
+/// and from a touch-down to the sample behind it that sample's.
 struct DrivenInput {
   InputKind kind = InputKind::kHipTorque;
   std::span<const double> times;  // s since the start of the run, ascending

@@ -223,7 +223,7 @@ std::string BestAlone(const Diagnosis& d, bool colours) {
 }
 
 // What was tried together, of which it has the best.
-std::string BestTogether(const Diagnosis& d, bool colours) {
+std::string BestTogether(const Diagnosis& d, bool is_first, bool colours) {
   const FittedModel& best = d.naming.best;
   const bool has_own_sizes = best.has_own_sizes();
   if (best.members.size() < 2 || !best.ok() || has_own_sizes) return "";
@@ -235,7 +235,8 @@ std::string BestTogether(const Diagnosis& d, bool colours) {
         SizeText(best.shared[static_cast<Eigen::Index>(place)], best.problem.shared[place].unit)));
     place += static_cast<std::size_t>(c.parameter_count());
   }
-  return Labelled("", "and the best together, which may not be all: " + Join(words), colours);
+  return Labelled(is_first ? "so far" : "",
+                  "the best together, which may not be all: " + Join(words), colours);
 }
 
 std::string NoVerdict(const Diagnosis& d, const std::string& failure, bool colours) {
@@ -247,7 +248,8 @@ std::string NoVerdict(const Diagnosis& d, const std::string& failure, bool colou
                      c.name + ": " + c.text, colours);
   }
   if (!d.interrupted) return text;
-  text += BestAlone(d, colours) + BestTogether(d, colours);
+  const std::string alone = BestAlone(d, colours);
+  text += alone + BestTogether(d, alone.empty(), colours);
   for (const std::string& note : d.notes) text += Labelled("note", note, colours);
   return text;
 }

@@ -10,7 +10,7 @@ namespace {
 
 // A signal handler reaches globals only.
 std::atomic<bool> stop_flag{false};
-std::atomic<std::int64_t> stopped_at{0};  // ms
+std::atomic<std::int64_t> stopped_at{0};  // ms; 0: not yet
 static_assert(std::atomic<bool>::is_always_lock_free);
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
@@ -25,9 +25,10 @@ std::int64_t Now() {
 }
 
 extern "C" void OnSignal(int signal) {
-  if (!stop_flag.exchange(true)) {
-    stopped_at = Now();
-  } else if (Now() - stopped_at > kSameSignal) {
+  std::int64_t first = 0;
+  if (stopped_at.compare_exchange_strong(first, Now())) {
+    stop_flag = true;
+  } else if (Now() - first > kSameSignal) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
@@ -37,6 +38,7 @@ extern "C" void OnSignal(int signal) {
 
 InterruptGuard::InterruptGuard() {
   stop_flag = false;
+  stopped_at = 0;
   std::signal(SIGINT, OnSignal);
   std::signal(SIGTERM, OnSignal);
 }

@@ -5,8 +5,8 @@
 namespace hoplab {
 
 /// While it lives, the first Ctrl-C (SIGINT) or SIGTERM sets a flag instead of ending the process,
-/// so that what was finished can be kept; one that comes half a second later, or more, ends the
-/// process at once. One at a time.
+/// so that what was finished can be kept. One within half a second after it is taken for the same,
+/// a later one ends the process at once. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -205,7 +205,7 @@ ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entrie
     FindUnitOf(table, unit, &map, &mapped);
     map.columns.push_back(mapped);
   }
-  std::string doubt;
+  std::optional<UnitDoubt> doubt;
   if (entries.empty()) {
     Guesses guesses = GuessChannels(table, map, type);
     // Here what needs no guess goes before all of them.
@@ -228,10 +228,12 @@ ColumnMap ResolveColumns(const Table& table, const std::vector<MapEntry>& entrie
                     [](const MappedColumn& m) { return m.target.channel.has_value(); });
   if (channels == 0)
     throw InputError({table.file, "", "no column could be told to be a channel of a dataset",
-                      (doubt.empty() ? "" : doubt + ". ") +
-                          "Name them, as --map t=COLUMN:ms --map y=COLUMN:mm; the columns are: " +
-                          Shown(table) + "."});
-  if (!doubt.empty()) map.warnings.push_back(table.file + ": " + doubt);
+                      (doubt ? doubt->text + ". " : "") + "Name them, as --map t=COLUMN:ms --map " +
+                          (doubt ? "'" + doubt->map_text + "'" : "y=COLUMN:mm") +
+                          "; the columns are: " + Shown(table) + "."});
+  if (doubt)
+    map.warnings.push_back(table.file + ": " + doubt->text + "; add --map '" + doubt->map_text +
+                           "' to the words below");
   return map;
 }
 

@@ -53,12 +53,17 @@ std::string ThingOf(const std::string& lower_stem) {
   return lower_stem.substr(0, indexed ? lower_stem.find_last_of("([") : lower_stem.size() - 1);
 }
 
-// "hip_x" and "hip_z", "hip forward" and "hip high", "forward" and "up".
-bool AreOfOneThing(const std::string& lower_stem, const std::string& other) {
-  if (ThingOf(lower_stem) == ThingOf(other)) return true;
+// "hip_x" and "hip_z", "forward" and "up".
+bool AreAxesOfOneThing(const std::string& lower_stem, const std::string& other) {
   const std::size_t at = LastWordAt(lower_stem);
-  if (at != LastWordAt(other) || lower_stem.compare(0, at, other, 0, at) != 0) return false;
-  return at > 0 || (EndsInAxisWord(lower_stem) && EndsInAxisWord(other));
+  const bool by_words = EndsInAxisWord(lower_stem) && EndsInAxisWord(other) &&
+                        at == LastWordAt(other) && lower_stem.compare(0, at, other, 0, at) == 0;
+  return by_words || ThingOf(lower_stem) == ThingOf(other);
+}
+// "hip ahead" and "hip high".
+bool BeginAlike(const std::string& lower_stem, const std::string& other) {
+  const std::size_t at = LastWordAt(lower_stem);
+  return at > 0 && at == LastWordAt(other) && lower_stem.compare(0, at, other, 0, at) == 0;
 }
 
 struct Height {
@@ -92,8 +97,7 @@ class ChannelGuesser {
     if (!Has(Channel::kBodyX) && height_) GuessForward();
     return std::move(guesses_);
   }
-  /// Why no column is taken for the height, though one falls; or empty.
-  const std::string& doubt() const { return doubt_; }
+  const std::optional<UnitDoubt>& doubt() const { return doubt_; }
 
  private:
   static std::vector<LogUnit> HeightUnits() {
@@ -189,9 +193,9 @@ class ChannelGuesser {
       for (const LogUnit& unit : HeightUnits()) {
         const double fall = per_unit * SiFactor(unit);
         if (!IsGravity(fall)) continue;
-        doubt_ = table_.columns[i].name + " falls at " + Rounded(fall) + " m/s^2 if it is in " +
-                 unit.name + ", and not as the file says; --map " +
-                 MapText(table_, {Channel::kBodyY, i, false, unit, false, ""}) + " takes it so";
+        doubt_ = {table_.columns[i].name + " falls at " + Rounded(fall) + " m/s^2 if it is in " +
+                      unit.name + ", and not as the file says",
+                  MapText(table_, {Channel::kBodyY, i, false, unit, false, ""})};
         return;
       }
     }
@@ -232,24 +236,29 @@ class ChannelGuesser {
     if (!height_ || off(candidate) < off(*height_) - 0.05) height_ = candidate;
   }
 
-  // The other coordinate of the same thing that travels furthest.
+  // The other coordinate of the same thing that travels furthest; without one, of what has its
+  // first words.
   void GuessForward() {
+    if (!GuessForward(AreAxesOfOneThing)) GuessForward(BeginAlike);
+  }
+  bool GuessForward(bool (*belong)(const std::string&, const std::string&)) {
     const std::string& name = table_.columns[height_->column].name;
     double furthest = 0;
     MappedColumn guess{Channel::kBodyX};
     for (const std::size_t i : Positions()) {
-      if (!AreOfOneThing(LowerStem(table_.columns[i].name), LowerStem(name))) continue;
+      if (!belong(LowerStem(table_.columns[i].name), LowerStem(name))) continue;
       const Travel travel = TravelOf(i);
       if (travel.range <= furthest) continue;
       furthest = travel.range;
       guess.column = i;
       guess.negate = travel.net < 0 && !of_robot_;
     }
-    if (furthest == 0) return;
+    if (furthest == 0) return false;
     guess.why =
         std::string("travels furthest beside ") + name + (guess.negate ? ", against its axis" : "");
     if (!StatedUnit(guess.column, Dimension::kLength)) guess.unit = height_->unit;
     Take(guess);
+    return true;
   }
 
   struct Travel {
@@ -271,7 +280,7 @@ class ChannelGuesser {
   std::vector<MappedColumn> guesses_;
   std::optional<Height> height_;
   bool of_robot_ = false;
-  std::string doubt_;
+  std::optional<UnitDoubt> doubt_;
 };
 
 }  // namespace

@@ -19,11 +19,17 @@ bool IsTimeName(const std::string& name);
 /// InputError if there is none.
 MappedColumn GuessTime(const Table& table);
 
+/// A height that is not taken, since it would fall in another unit than the file says.
+struct UnitDoubt {
+  std::string text;
+  std::string map_text;  // the --map option that takes it so
+};
+
 struct Guesses {
   std::vector<MappedColumn> columns;
   std::vector<std::string> notes;  // what was not taken, and why
-  std::string doubt;               // a height that would fall in another unit than it has; or empty
-  std::string unclear_legs;        // why a robot's legs cannot be told apart by their columns
+  std::optional<UnitDoubt> doubt;
+  std::string unclear_legs;  // why a robot's legs cannot be told apart by their columns
 };
 
 /// Channels by what their columns are called and how they move. `map` has the time. A channel's

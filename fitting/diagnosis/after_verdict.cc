@@ -10,7 +10,7 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
-#include "fitting/smoothed_traces.h"
+#include "fitting/diagnosis/candidate.h"
 
 namespace hoplab {
 namespace {
@@ -53,20 +53,18 @@ HeldOutErrors ErrorsOf(const FittedModel& alone, const Diagnosis& d, int jobs) {
   return MeasureHeldOut(alike, jobs, /*test_only=*/true, &d.before);
 }
 
-// Where the noise does not tell of a filter that is told.
+// Filters that are told, where the noise does not tell of them.
 void NoteUnseenFilters(Diagnosis& d) {
   if (!d.extension) return;
-  std::vector<std::string> unseen;
+  const std::vector<Candidate> unseen = UnseenFilters(d.problem, {});
+  std::vector<std::string> told;
   for (const CauseReport* c : d.extension->ToldCauses())
-    if (c->cause.effect->info.filter != RecordFilter::kNone) unseen.emplace_back(c->cause.Name());
-  if (unseen.empty()) return;
-  for (const RecordFilter seen : FiltersSeen(d.problem))
-    std::erase_if(unseen,
-                  [&](const std::string& name) { return FindEffect(name)->info.filter == seen; });
-  if (!unseen.empty())
-    d.notes.push_back("the noise does not tell of " + Join(unseen) +
-
-                      ": it came in after the filter, or too little of it is seen");
+    if (std::any_of(unseen.begin(), unseen.end(),
+                    [&](const Candidate& filter) { return filter.effect == c->cause.effect; }))
+      told.push_back(c->cause.Name());
+  if (!told.empty())
+    d.notes.push_back("the noise alone does not tell of " + Join(told) +
+                      ": it may have come in after the filter");
 }
 
 // A stiffness or a damping of the mechanism, by its unit.

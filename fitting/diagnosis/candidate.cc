@@ -151,7 +151,9 @@ Collection Collected(const FitProblem& problem, const CandidateOptions& options)
         problem.known.RulesOut(*effect))
       continue;
     const bool unseen = only.empty() && IsUnseenFilter(*effect, filters);
-    (unseen ? all.unseen_filters : all.tried).push_back({effect, {}, problem.known});
+    std::vector<Candidate>& of = unseen ? all.unseen_filters : all.tried;
+    of.push_back({effect, {}, problem.known});
+    if (unseen) of.back().price = kUnseenFilter;
   }
   return all;
 }

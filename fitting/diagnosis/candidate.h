@@ -20,6 +20,8 @@ struct Candidate {
   /// Where a value of the plain model does what it would do with one size in all trials, their mean
   /// is none.
   bool mean_held = false;
+  /// Nats by which it is less likely beforehand than the others.
+  double price = 0.0;
 
   Candidate() = default;
   Candidate(const Effect* of, Recordings recordings = {}, const KnownCauses& known = {})
@@ -46,8 +48,11 @@ struct CandidateOptions {
 /// those that are known not to be there are not among them. Throws InputError (place: the option)
 /// for names that are not effects, do not apply to the law, or are known not to be there.
 std::vector<Candidate> CandidatesOf(const FitProblem& problem, const CandidateOptions& options);
-/// The filters that would be among them if the noise told of them: noise that came in after a
-/// filter does not. None where `only` says what is tried.
+/// Nats by which a filter is less likely beforehand than another cause if the noise does not tell
+/// of it: most logs are filtered with their noise.
+inline constexpr double kUnseenFilter = 3.0;
+/// The filters that would be among them if the noise told of them, at that price: noise that came
+/// in after a filter does not. None where `only` says what is tried.
 std::vector<Candidate> UnseenFilters(const FitProblem& problem, const CandidateOptions& options);
 
 /// `problem` with the candidates' parameters as further shared values, at their null.

@@ -113,8 +113,8 @@ class StageByStage {
   // stances is none, but it is told.
   static Diagnosis CutShort(std::optional<Diagnosis> last, Diagnosis interrupted) {
     if (last && last->verdict == Verdict::kAdequate && last->until)
-      interrupted.notes.push_back("in the first " + WithTwoDecimals(*last->until) +
-                                  " s of each trial nothing is missing that they could show");
+      interrupted.notes.push_back("the first " + WithTwoDecimals(*last->until) +
+                                  " s of each trial show nothing that is missing");
     if (!last || last->verdict == Verdict::kAdequate) return interrupted;
     last->cut_short = true;
     last->notes.emplace_back("stopped: what longer parts of the trials say was not looked at");

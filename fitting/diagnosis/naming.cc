@@ -24,11 +24,12 @@ std::string_view NameOf(CandidateStatus status) {
 
 double Naming::LogOdds(const Candidate& candidate) const {
   const auto some = static_cast<unsigned>(candidate.only_recordings.size());
-  if (some == 0) return log_odds;
+  const double of_one = log_odds + candidate.price;
+  if (some == 0) return of_one;
   const auto all = static_cast<unsigned>(std::max(recordings, 1));
   // How many, and which.
   const double picking = std::log(boost::math::binomial_coefficient<double>(all, some));
-  return log_odds + picking + (some > 1 ? std::log(static_cast<double>(all)) : 0.0);
+  return of_one + picking + (some > 1 ? std::log(static_cast<double>(all)) : 0.0);
 }
 
 std::size_t Naming::MemberOf(int candidate) const {

@@ -68,7 +68,7 @@ std::optional<OtherModel> WithOneMore(const Naming& naming, const FittedModel& t
   OtherModel out;
   out.candidate = PlaceOf(naming, candidate);
   out.size = score.size;
-  out.log_odds = LogOdds(candidate, score, covariance, naming.log_odds);
+  out.log_odds = LogOdds(candidate, score, covariance, naming.LogOdds(candidate));
   if (out.candidate < 0 || !(out.log_odds > std::log(kRuledOut))) return std::nullopt;
   out.moved = out.spread = Eigen::VectorXd::Zero(told.shared.size());
   const std::vector<int> fitted = FreeShared(told.problem, told.shared);

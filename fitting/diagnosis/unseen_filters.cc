@@ -19,9 +19,7 @@ bool PaysMore(const Naming& naming, const Naming& without) {
 }
 
 Naming SearchAmong(std::vector<Candidate> candidates, const FilterRequest& request,
-                   NamingOptions options) {
-  options.prices.assign(candidates.size(), 0.0);
-  options.prices.resize(candidates.size() + request.filters.size(), kUnseenFilter);
+                   const NamingOptions& options) {
   candidates.insert(candidates.end(), request.filters.begin(), request.filters.end());
   return NameCauses(request.null, candidates, request.null_at(candidates), *request.train, options);
 }

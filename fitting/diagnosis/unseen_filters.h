@@ -10,10 +10,6 @@
 
 namespace hoplab {
 
-/// Nats by which a filter is less likely beforehand than another cause if the noise does not tell
-/// of it: most logs are filtered with their noise.
-inline constexpr double kUnseenFilter = 3.0;
-
 /// What a search with filters of which the noise does not tell begins with.
 struct FilterRequest {
   NullFits null;
@@ -26,9 +22,8 @@ struct FilterRequest {
   std::function<Linearisation(std::span<const Candidate>)> null_at;
 };
 
-/// Searches anew, with them behind the other candidates, each kUnseenFilter less likely beforehand,
-/// where one of them is worth more among the causes that were found and those that explain most
-/// alone. Absent where none is in the end.
+/// Searches anew, with them behind the other candidates, where one of them is worth more among the
+/// causes that were found and those that explain most alone. Absent where none is in the end.
 std::optional<Naming> NameWithFilters(const FilterRequest& request);
 
 }  // namespace hoplab

@@ -130,6 +130,17 @@ TEST_F(ImportMap, GravityTellsTheVerticalAxisAndItsUnit) {
   }
 }
 
+// A column that only begins as the height does gives way to one that is an axis of it.
+TEST_F(ImportMap, WhatTravelsFurtherButIsNoAxisIsNotForward) {
+  const Fall fall = MakeFall(100);
+  std::string text = "t,hip_x [m],hip_z [m],hip_path [m]\n";
+  for (std::size_t i = 0; i < fall.t_s.size(); ++i)
+    text += Format("%.7g", fall.t_s[i]) + "," + Format("%.7g", fall.x_mm[i] / 1e3) + "," +
+            Format("%.7g", fall.y_mm[i] / 1e3) + "," + Format("%.7g", 9.0 * fall.t_s[i]) + "\n";
+  EXPECT_EQ(ImportFile(Log(text), {}).map_texts,
+            (std::vector<std::string>{"t=t:s", "y=hip_z [m]:m", "x=hip_x [m]:m"}));
+}
+
 TEST_F(ImportMap, ABodyThatMovesAgainstAnAxisIsTurnedAround) {
   const auto file = Log(testing::FallMotive(MakeFall(100)), "take.csv");
   const ImportResult result = ImportFile(file, {});
@@ -185,7 +196,8 @@ TEST_F(ImportMap, AHeightThatFallsInAnotherUnitThanItsOwnIsTold) {
   const auto file = Log(FallLog("t,hip_x_cm,hip_z_cm,q", 1, 1e3));
   const std::string error = InputErrorOf([&] { ImportFile(file, {}); });
   EXPECT_NE(error.find("hip_z_cm falls at 9.8"), std::string::npos) << error;
-  EXPECT_NE(error.find("if it is in mm, and not as the file says; --map y=hip_z_cm:mm takes it so"),
+  EXPECT_NE(error.find("if it is in mm, and not as the file says. Name them, as --map t=COLUMN:ms "
+                       "--map 'y=hip_z_cm:mm'; "),
             std::string::npos)
       << error;
   EXPECT_EQ(ImportFile(file, {"y=hip_z_cm:mm"}).map_texts,

@@ -50,7 +50,7 @@ TEST(Inputs, ATorqueMayBeOfStancesAlone) {
   ExpectRoundTrip(dataset);
   const std::string error =
       InputErrorOf([&] { with("{body_force_x_N: {column: command, hold: stance}}"); });
-  EXPECT_NE(error.find("is of a torque in stance alone"), std::string::npos) << error;
+  EXPECT_NE(error.find("is for hip_torque_N_m alone"), std::string::npos) << error;
 }
 
 TEST(Inputs, OfATrialArePutOverTheDatasets) {

@@ -156,7 +156,7 @@ TEST(Diagnose, TellsThatNothingIsSeenEarlyWhereTheWholeTrialsAreNotWaitedFor) {
   ASSERT_TRUE(stop);
   EXPECT_TRUE(d.interrupted);
   ASSERT_FALSE(d.notes.empty());
-  EXPECT_TRUE(d.notes.back().ends_with(" s of each trial nothing is missing that they could show"))
+  EXPECT_TRUE(d.notes.back().ends_with(" s of each trial show nothing that is missing"))
       << d.notes.back();
 }
 
