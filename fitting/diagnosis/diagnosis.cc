@@ -154,7 +154,7 @@ class Pipeline {
     const auto null_at = [&](std::span<const Candidate> all) { return LinearisedAt(d_.null, all); };
     std::optional<Naming> found = NameWithFilters(
         {{&d_.plain, &d_.null}, candidates, filters, &d_.naming, &train_, HowToName(), null_at});
-    if (!found || LeavesMore(found->best)) return;
+    if (!found || LeavesMore(found->best) || LeavesSeen(d_.detection, found->best)) return;
     d_.naming = *std::move(found);
     candidates.insert(candidates.end(), filters.begin(), filters.end());
   }

@@ -112,6 +112,11 @@ double LeftOverNoise(const Detection& seen, double share) {
   return std::sqrt(std::max(share, 0.0)) * MisfitOverNoise(seen);
 }
 
+bool LeavesSeen(const Detection& seen, const FittedModel& model) {
+  const double share = LeftShare(seen, 2.0 * model.cost, model.parameter_count());
+  return model.evidence.discrepancy_probability() > 0.5 && LeftOverNoise(seen, share) >= kSlight;
+}
+
 bool IsSlight(const Detection& seen, const ExtensionReport& report, double likely) {
   const std::vector<const CauseReport*> told = report.ToldCauses();
   const double square = seen.chi2 / seen.degrees_of_freedom - 1.0;

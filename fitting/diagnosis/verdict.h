@@ -19,6 +19,10 @@ double MisfitOverNoise(const Detection& seen);
 /// What is left of that, a share of its square, root mean square over the noise.
 double LeftOverNoise(const Detection& seen, double share);
 
+/// Whether the model leaves something smooth that is not much less than the noise (kSlight):
+/// however small a part of the misfit it is, it is seen.
+bool LeavesSeen(const Detection& seen, const FittedModel& model);
+
 /// Whether something stands out that is much less than the noise (kSlight), and no cause that
 /// `report` tells has a probability of `likely`.
 bool IsSlight(const Detection& seen, const ExtensionReport& report, double likely);
