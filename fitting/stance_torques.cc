@@ -30,15 +30,20 @@ bool StepsIn(const std::vector<double>& torque) {
 
 std::vector<std::string> StanceTorques(const FitProblem& problem) {
   std::size_t stepping = 0;
+  bool held = false;
   for (const TrialProblem& trial : problem.trials)
-    stepping += std::any_of(trial.inputs.begin(), trial.inputs.end(), [](const DrivenColumn& c) {
-      return c.kind == InputKind::kHipTorque && !c.of_stance && StepsIn(c.values);
-    });
+    for (const DrivenColumn& c : trial.inputs)
+      if (c.kind == InputKind::kHipTorque && !c.of_stance && StepsIn(c.values)) {
+        ++stepping;
+        held = c.held;
+      }
   if (2 * stepping <= problem.trials.size()) return {};
   return {
-      "hip_torque_N_m: there is none in flight, and one row later it is there. From a "
-      "touch-down to that row the simulation has none, and then a blow, which may lift the foot "
-      "off; `hold: stance` gives it from the touch-down on"};
+      std::string("hip_torque_N_m: there is none in flight, and one row later it is there. From "
+                  "a touch-down to that row the simulation has ") +
+      (held ? "none, and then a blow" : "a part of it, and the rest comes within the row") +
+      ", which may lift the foot off; `hold: stance` holds each row's torque, and from a "
+      "touch-down on that of the row behind it"};
 }
 
 }  // namespace hoplab

@@ -225,8 +225,7 @@ std::string BestAlone(const Diagnosis& d, bool colours) {
 // What was tried together, of which it has the best.
 std::string BestTogether(const Diagnosis& d, bool is_first, bool colours) {
   const FittedModel& best = d.naming.best;
-  const bool has_own_sizes = best.has_own_sizes();
-  if (best.members.size() < 2 || !best.ok() || has_own_sizes) return "";
+  if (best.members.size() < 2 || !best.ok() || best.has_own_sizes()) return "";
   std::vector<std::string> words;
   std::size_t place = d.null.problem.shared.size();
   for (const Candidate& c : best.members) {

@@ -56,12 +56,15 @@ HeldOutErrors ErrorsOf(const FittedModel& alone, const Diagnosis& d, int jobs) {
 // Filters that are told, where the noise does not tell of them.
 void NoteUnseenFilters(Diagnosis& d) {
   if (!d.extension) return;
-  const std::vector<Candidate> unseen = UnseenFilters(d.problem, {});
+  std::vector<const CauseReport*> filters = d.extension->ToldCauses();
+  std::erase_if(filters, [](const CauseReport* c) {
+    return c->cause.effect->info.filter == RecordFilter::kNone;
+  });
+  if (filters.empty()) return;
   std::vector<std::string> told;
-  for (const CauseReport* c : d.extension->ToldCauses())
-    if (std::any_of(unseen.begin(), unseen.end(),
-                    [&](const Candidate& filter) { return filter.effect == c->cause.effect; }))
-      told.push_back(c->cause.Name());
+  for (const Candidate& unseen : UnseenFilters(d.problem, {}))
+    for (const CauseReport* c : filters)
+      if (c->cause.effect == unseen.effect) told.push_back(c->cause.Name());
   if (!told.empty())
     d.notes.push_back("the noise alone does not tell of " + Join(told) +
                       ": it may have come in after the filter");

@@ -22,8 +22,6 @@ struct NamingOptions {
   int max_effects = 5;
   bool in_some_trials = true;  // a cause may act in some trials only
   int picked_from = 0;         // how many the candidates were picked out of; 0: they are all
-  /// Nats by which each is less likely beforehand than the others; empty: all are alike.
-  std::vector<double> prices = {};
   /// Models of these trials whose causes the search begins with, instead of one by one: one, and
   /// what was as good in its causes' places.
   std::span<const FittedModel> begin = {};

@@ -31,15 +31,10 @@ Refits::Refits(const FittedModel& plain, const FittedModel& null,
   refit_.jobs = options.jobs;
 }
 
-// Each cause alike, one expected in all; trials picked out of many must pay for the picking.
+// One expected in all; trials picked out of many must pay for the picking.
 double Refits::LogPrior(const CandidateSet& set) const {
   double sum = 0.0;
-  for (const int i : set) {
-    sum -= naming_.LogOdds(CandidateAt(i));
-    // Those of some trials stand behind the given ones.
-    if (const auto at = static_cast<std::size_t>(i); at < options_.prices.size())
-      sum -= options_.prices[at];
-  }
+  for (const int i : set) sum -= naming_.LogOdds(CandidateAt(i));
   return sum;
 }
 

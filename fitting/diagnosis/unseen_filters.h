@@ -23,8 +23,8 @@ struct FilterRequest {
 };
 
 /// Searches anew, with them behind the other candidates, where one of them is worth more among the
-/// causes that were found and those that explain most alone. Absent where none is in the end. A
-/// filter that lags is like a leg that pushes: what is taken must leave nothing that is seen.
+/// causes that were found and those that explain most alone. Absent where none is in the end. It is
+/// for the caller to ask what that leaves: a filter that lags is like a leg that pushes.
 std::optional<Naming> NameWithFilters(const FilterRequest& request);
 
 }  // namespace hoplab

@@ -100,7 +100,7 @@ class FormulaSearch {
       });
       if (again) continue;
       tried.emplace_back(term.effect);
-      naming.prices.push_back(PriceOf(term, library));
+      tried.back().price = PriceOf(term, library);
       out_.terms.push_back(std::move(term));
       places_.push_back(i);
     }

@@ -12,9 +12,10 @@ namespace hoplab {
 namespace {
 
 // Stances of 0.1 s every 0.4 s, torque(s) at time s of each, and noise of 0.02 N m.
-FitProblem Logged(const std::function<double(double)>& torque, int trials = 4) {
+FitProblem Logged(const std::function<double(double)>& torque) {
+  constexpr int kTrials = 4;
   FitProblem problem;
-  for (int i = 0; i < trials; ++i) {
+  for (int i = 0; i < kTrials; ++i) {
     RandomStream random(9, static_cast<std::uint64_t>(i));
     DrivenColumn column{InputKind::kHipTorque};
     for (int row = 0; row < 600; ++row) {
@@ -33,6 +34,9 @@ TEST(StanceTorques, AreToldWhereTheyStepIn) {
   FitProblem problem = Logged([](double s) { return 2.4 - 10.0 * s; });
   ASSERT_EQ(StanceTorques(problem).size(), 1u);
   EXPECT_NE(StanceTorques(problem)[0].find("`hold: stance`"), std::string::npos);
+  EXPECT_NE(StanceTorques(problem)[0].find("has a part of it, "), std::string::npos);
+  for (TrialProblem& trial : problem.trials) trial.inputs[0].held = true;
+  EXPECT_NE(StanceTorques(problem)[0].find("has none, and then a blow"), std::string::npos);
   // In half of the trials it is told as the user wants it.
   for (std::size_t i = 0; i < 2; ++i) problem.trials[i].inputs[0].of_stance = true;
   EXPECT_TRUE(StanceTorques(problem).empty());

@@ -129,8 +129,10 @@ TEST(DrivenStance, HasTheTorqueOfTheRowBehindItsTouchdown) {
   }
   EXPECT_GT(landings, 0);
   inputs = {replaced.Of(InputKind::kHipTorque, true)};
+  q.inputs = inputs;
   const Trajectory by_hand = Simulate(q);
   inputs = {column.Of(InputKind::kHipTorque, true)};
+  q.inputs = inputs;
   const Trajectory held = Simulate(q);
   ASSERT_EQ(by_hand.outcome, stance.outcome);
   ASSERT_EQ(by_hand.events.size(), stance.events.size());

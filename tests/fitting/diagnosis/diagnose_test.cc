@@ -6,6 +6,8 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "fitting/diagnosis/diagnosis.h"
 #include "fitting/followed_part.h"
@@ -103,40 +105,35 @@ TEST(Diagnose, TellsNoFourthCauseThatShowsLate) {
   EXPECT_EQ(NamesOf(Diagnose(pronks, options)).size(), 4u);
 }
 
-// A name that was found stays where somebody waits for no more.
-TEST(Diagnose, KeepsWhatWasNamedWhereTheWholeTrialsAreNotWaitedFor) {
+// A diagnosis of pronks whose mass sits `offset` ahead, stopped at the stage that begins so.
+Diagnosis StoppedAt(const std::string& begin, double offset, std::vector<std::string> only) {
   std::atomic<bool> stop = false;
   DiagnosisOptions options;
   options.fit.jobs = 2;
   options.fit.stop = &stop;
-  options.candidates.only = {"com_offset"};
-  options.stage = [&](std::string_view stage) { stop = stage.starts_with("carrying on"); };
-  const Diagnosis d = Diagnose(testing::RobotPronks(0.008, 0.8), options);
+  options.candidates.only = std::move(only);
+  options.stage = [&](std::string_view stage) { stop = stop || stage.starts_with(begin); };
+  Diagnosis d = Diagnose(testing::RobotPronks(offset, 0.8), options);
   EXPECT_TRUE(stop);
+  return d;
+}
+
+// A name that was found stays where somebody waits for no more.
+TEST(Diagnose, KeepsWhatWasNamedWhereTheWholeTrialsAreNotWaitedFor) {
+  const Diagnosis d = StoppedAt("carrying on", 0.008, {"com_offset"});
   EXPECT_FALSE(d.interrupted);
   EXPECT_EQ(d.verdict, Verdict::kNamed);
   EXPECT_FALSE(d.carried_on);
 }
 
 TEST(Diagnose, AnInterruptedStageIsNoVerdict) {
-  std::atomic<bool> stop = false;
-  DiagnosisOptions options;
-  options.fit.stop = &stop;
-  options.stage = [&](std::string_view stage) { stop = stop || stage.starts_with("looking for"); };
-  const Diagnosis d = Diagnose(testing::RobotPronks(0.008, 0.8), options);
+  const Diagnosis d = StoppedAt("looking for", 0.008, {});
   EXPECT_TRUE(d.interrupted);
   EXPECT_FALSE(d.carried_on);
 }
 
 TEST(Diagnose, KeepsTheVerdictOfTheFirstStancesWhereLongerPartsAreNotWaitedFor) {
-  std::atomic<bool> stop = false;
-  DiagnosisOptions options;
-  options.fit.jobs = 2;
-  options.fit.stop = &stop;
-  options.candidates.only = {"sensor_scale_x"};
-  options.stage = [&](std::string_view stage) { stop = stop || stage.starts_with("up to there"); };
-  const Diagnosis d = Diagnose(testing::RobotPronks(0.008, 0.8), options);
-  ASSERT_TRUE(stop);
+  const Diagnosis d = StoppedAt("up to there", 0.008, {"sensor_scale_x"});
   EXPECT_FALSE(d.interrupted);
   EXPECT_TRUE(d.cut_short);
   EXPECT_EQ(d.verdict, Verdict::kUnexplained);
@@ -146,14 +143,7 @@ TEST(Diagnose, KeepsTheVerdictOfTheFirstStancesWhereLongerPartsAreNotWaitedFor) 
 
 // That nothing is seen in the first stances is no verdict of the whole, but it is told.
 TEST(Diagnose, TellsThatNothingIsSeenEarlyWhereTheWholeTrialsAreNotWaitedFor) {
-  std::atomic<bool> stop = false;
-  DiagnosisOptions options;
-  options.fit.jobs = 2;
-  options.fit.stop = &stop;
-  options.candidates.only = {"com_offset"};
-  options.stage = [&](std::string_view stage) { stop = stop || stage == "up to there: adequate"; };
-  const Diagnosis d = Diagnose(testing::RobotPronks(0.0, 0.8), options);
-  ASSERT_TRUE(stop);
+  const Diagnosis d = StoppedAt("up to there: adequate", 0.0, {"com_offset"});
   EXPECT_TRUE(d.interrupted);
   ASSERT_FALSE(d.notes.empty());
   EXPECT_TRUE(d.notes.back().ends_with(" s of each trial show nothing that is missing"))
