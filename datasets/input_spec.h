@@ -15,7 +15,7 @@ struct InputSpec {
   InputKind id = InputKind::kHipTorque;
   std::string column;      // of the trace
   bool held = false;       // between rows: held from the row before; else linear
-  bool of_stance = false;  // held; from a touch-down to the row behind it that row's
+  bool of_stance = false;  // held, and none in flight (M123)
   double delay_s = 0;
   std::optional<double> delay_sigma_s;  // how well it is known; absent: it is as it says
   double scale = 1;

@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "datasets/read_robot.h"
 #include "datasets/read_spec.h"
+#include "datasets/stance_torque.h"
 #include "datasets/text_file.h"
 #include "datasets/touchdowns.h"
 
@@ -198,6 +199,7 @@ std::vector<ScenarioInput> ReadScenarioInputs(const YamlCursor& cursor,
       input.time_s.push_back(trace.time_s[row]);
       input.values.push_back(values[row]);
     }
+    if (input.spec.of_stance) input.values = HeldThroughFlights(input.values, {});
     inputs.push_back(std::move(input));
   }
   return inputs;

@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "base/text.h"
+#include "datasets/stance_torque.h"
 #include "datasets/touchdowns.h"
 #include "fitting/deviation.h"
 #include "fitting/trial_evaluator.h"
@@ -47,11 +48,15 @@ DrivenColumn ColumnOf(const InputSpec& input, const Trace& trace, const FitProbl
   column.scale = input.scale;
   column.clock = ClockIndex(problem, input.clock);
   const std::vector<double>& values = *trace.Find(input.column);
+  const std::vector<double>* contact = trace.Find(Channel::kContact);
+  std::vector<double> in_contact;
   for (std::size_t row = 0; row < values.size(); ++row) {
     if (std::isnan(values[row])) continue;
     column.times.push_back(trace.time_s[row] - trace.time_s.front());
     column.values.push_back(values[row]);
+    if (contact) in_contact.push_back((*contact)[row]);
   }
+  if (input.of_stance) column.values = HeldThroughFlights(column.values, in_contact);
   return column;
 }
 
@@ -253,8 +258,7 @@ void FillTrialRequest(const FitProblem& problem, const TrialProblem& trial,
   out.touchdown_angles = trial.touchdown_angles;
   out.inputs.clear();
   for (const DrivenColumn& c : trial.inputs)
-    out.inputs.push_back(
-        {c.kind, c.times, c.values, c.held, c.of_stance, c.delay, c.scale, c.clock});
+    out.inputs.push_back({c.kind, c.times, c.values, c.held, c.delay, c.scale, c.clock});
   out.clock_offsets.clear();
   for (const ClockProblem& clock : problem.clocks) out.clock_offsets.push_back(clock.offset);
   const auto apply = [&](const SensitivityDirection& d, double value) {

@@ -108,7 +108,6 @@ std::vector<DrivenInput> DrivenInputsOf(const Scenario& scenario) {
                       .times = input.time_s,
                       .values = input.values,
                       .held = input.spec.held,
-                      .of_stance = input.spec.of_stance,
                       .delay = input.spec.delay_s,
                       .scale = input.spec.scale});
   return inputs;

@@ -15,10 +15,21 @@ constexpr double kFinest = 1e-12;   // decimals
 constexpr double kSteps = 8.0;      // of its digits, that a body has moved on while it was held
 constexpr double kAhead = 2.5;      // of the step that follows, likewise
 constexpr double kNoisy = 20.0;     // of its digits, the noise of a sensor that may hold
+constexpr std::size_t kNear = 3;    // steps before it was held and after, in which the body moves
+constexpr double kFast = 6.0;       // of the noise, how far
+
+// Whether the body moves both before and after the samples from `first` to before `end`: one at
+// rest slows down and begins anew.
+bool MovesOnBothSides(const Samples& s, std::size_t first, std::size_t end, double least) {
+  if (first <= kNear || end + kNear >= s.size()) return false;
+  return std::abs(s.y[first - 1] - s.y[first - 1 - kNear]) > least &&
+         std::abs(s.y[end + kNear] - s.y[end]) > least;
+}
 
 // Whether the body has moved on while its samples from `first` to before `end` repeated the one
 // before: one at rest goes on from where it was.
-bool HasMovedOn(const Samples& s, std::size_t first, std::size_t end, double digit) {
+bool HasMovedOn(const Samples& s, std::size_t first, std::size_t end, double digit, double sigma) {
+  if (MovesOnBothSides(s, first, end, std::max(kSteps * digit, kFast * sigma))) return true;
   if (end + 1 < s.size()) {
     const double moved = std::abs(s.y[end] - s.y[first]);
     return moved > kSteps * digit && moved > kAhead * std::abs(s.y[end + 1] - s.y[end]);
@@ -50,7 +61,7 @@ double Fineness(const std::vector<double>& values) {
 
 }  // namespace
 
-std::vector<bool> RepeatedSamples(const Samples& s) {
+std::vector<bool> RepeatedSamples(const Samples& s, const std::vector<bool>& held_rows) {
   std::vector<bool> again(s.size(), false);
   for (std::size_t i = 1; i < s.size(); ++i) again[i] = s.y[i] == s.y[i - 1];
   const Samples fresh = s.Without(again);
@@ -62,7 +73,13 @@ std::vector<bool> RepeatedSamples(const Samples& s) {
     while (end < s.size() && again[end]) ++end;
     const double times =
         static_cast<double>(s.size()) * std::pow(by_chance, static_cast<double>(end - first));
-    if (!(by_chance * kNoisy < 1.0 && times < kByChance && HasMovedOn(s, first, end, step)))
+    const auto is_held = [&] {
+      if (HasMovedOn(s, first, end, step, sigma)) return true;
+      for (std::size_t i = first; i < end; ++i)
+        if (s.row[i] >= held_rows.size() || !held_rows[s.row[i]]) return false;
+      return true;
+    };
+    if (!(by_chance * kNoisy < 1.0 && times < kByChance && is_held()))
       std::fill(again.begin() + static_cast<std::ptrdiff_t>(first),
                 again.begin() + static_cast<std::ptrdiff_t>(end), false);
     first = end;

@@ -1,29 +1,15 @@
 #include "fitting/stance_torques.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "datasets/stance_torque.h"
 
 namespace hoplab {
 namespace {
 
-constexpr std::size_t kAtRest = 5;  // rows before it
-constexpr double kNone = 0.05, kThere = 0.25;
-
-double Largest(const std::vector<double>& values) {
-  double largest = 0.0;
-  for (const double v : values) largest = std::max(largest, std::abs(v));
-  return largest;
-}
-
-// Of its largest torque it has none in some rows, and a part in the next.
 bool StepsIn(const std::vector<double>& torque) {
-  const double largest = Largest(torque);
-  std::size_t at_rest = 0;
-  for (const double v : torque) {
-    if (at_rest >= kAtRest && std::abs(v) > kThere * largest) return true;
-    at_rest = std::abs(v) < kNone * largest ? at_rest + 1 : 0;
-  }
-  return false;
+  const std::vector<TorqueRest> rests = TorqueRests(torque);
+  return std::any_of(rests.begin(), rests.end(), [](const TorqueRest& r) { return r.steps_in; });
 }
 
 }  // namespace
@@ -42,8 +28,8 @@ std::vector<std::string> StanceTorques(const FitProblem& problem) {
       std::string("hip_torque_N_m: there is none in flight, and one row later it is there. From "
                   "a touch-down to that row the simulation has ") +
       (held ? "none, and then a blow" : "a part of it, and the rest comes within the row") +
-      ", which may lift the foot off; `hold: stance` holds each row's torque, and from a "
-      "touch-down on that of the row behind it"};
+      ", which may lift the foot off; `hold: stance` holds each row's torque, and through a "
+      "flight that of the stances around it"};
 }
 
 }  // namespace hoplab

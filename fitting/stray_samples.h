@@ -18,8 +18,9 @@ struct Samples {
 
 /// Which samples repeat the one before to the last digit where chance cannot have made it so: the
 /// noise is far greater than a digit, or than the grid of the sensor, and the body has moved on
-/// meanwhile.
-std::vector<bool> RepeatedSamples(const Samples& samples);
+/// meanwhile, or moves both before and after, or the sensor held another channel in the same rows
+/// (`held_rows`, by the rows of the trace; empty: not known).
+std::vector<bool> RepeatedSamples(const Samples& samples, const std::vector<bool>& held_rows = {});
 
 /// What lies off the motion beside it, and the rows from which on the motion goes on elsewhere.
 struct OffMotion {

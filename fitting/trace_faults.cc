@@ -115,13 +115,28 @@ void FindEnds(const Trial& trial, std::size_t place, const ChannelSpec& channel,
   FindEnd(trial, place, s.From(begins), sigma, faults);
 }
 
+// The rows in which some channel of the body repeats the one before.
+std::vector<bool> HeldRows(const Trial& trial, const std::vector<ChannelSpec>& channels) {
+  std::vector<bool> rows(trial.trace.time_s.size(), false);
+  for (const ChannelSpec& channel : channels) {
+    const std::vector<double>* values = trial.trace.Find(channel.id);
+    if (!IsOfBody(channel.id) || !values) continue;
+    const Samples s = SamplesOf(trial, *values);
+    if (s.size() < 2) continue;
+    const std::vector<bool> again = RepeatedSamples(s);
+    for (std::size_t i = 0; i < s.size(); ++i)
+      if (again[i]) rows[s.row[i]] = true;
+  }
+  return rows;
+}
+
 void FindIn(const Trial& trial, std::size_t place, const ChannelSpec& channel,
-            std::vector<TraceFault>& faults) {
+            const std::vector<bool>& held_rows, std::vector<TraceFault>& faults) {
   const std::vector<double>* values = trial.trace.Find(channel.id);
   if (!values) return;
   const Samples s = SamplesOf(trial, *values);
   if (s.size() < 2) return;
-  const std::vector<bool> again = RepeatedSamples(s);
+  const std::vector<bool> again = RepeatedSamples(s, held_rows);
   TraceFault held{TraceFault::Kind::kHeld, place, channel.id, {}, 0.0};
   double from = s.y[0];
   for (std::size_t i = 1; i < s.size(); ++i) {
@@ -170,10 +185,12 @@ std::string_view NameOf(TraceFault::Kind kind) {
 
 std::vector<TraceFault> FindTraceFaults(const Dataset& dataset) {
   std::vector<TraceFault> faults;
+  std::vector<std::vector<bool>> held_rows;
+  for (const Trial& trial : dataset.trials) held_rows.push_back(HeldRows(trial, dataset.channels));
   for (const ChannelSpec& channel : dataset.channels) {
     if (!IsOfBody(channel.id)) continue;
     for (std::size_t k = 0; k < dataset.trials.size(); ++k)
-      FindIn(dataset.trials[k], k, channel, faults);
+      FindIn(dataset.trials[k], k, channel, held_rows[k], faults);
     for (std::size_t k = 0; channel.id == Channel::kBodyY && k < dataset.trials.size(); ++k)
       FindEnds(dataset.trials[k], k, channel, faults);
   }

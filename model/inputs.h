@@ -14,15 +14,13 @@
 namespace hoplab {
 
 /// A logged column, M50: u(t) = scale c(t - delay), c linear between its samples or held from the
-/// one before, constant before the first and after the last. With `of_stance` (M123) it is held,
-/// and from a touch-down to the sample behind it that sample's.
+/// one before, constant before the first and after the last.
 struct DrivenInput {
   InputKind kind = InputKind::kHipTorque;
   std::span<const double> times;  // s since the start of the run, ascending
   std::span<const double> values;
   bool held = false;
-  bool of_stance = false;  // M123, of a held torque
-  double delay = 0.0;      // s
+  double delay = 0.0;  // s
   double scale = 1.0;
   int clock = -1;  // of the request's clocks; what it stamps t was read at t + offset
 };
@@ -38,7 +36,6 @@ class InputSignal {
       : times_(input.times),
         values_(input.values),
         held_(input.held),
-        of_stance_(input.of_stance),
         present_(true),
         delay_(delay),
         scale_(scale) {}
@@ -47,8 +44,8 @@ class InputSignal {
   template <class To>
   InputSignal<To> Convert() const {
     if (!present_) return {};
-    InputSignal<To> to({.times = times_, .values = values_, .held = held_, .of_stance = of_stance_},
-                       To(Value(delay_)), To(Value(scale_)));
+    InputSignal<To> to({.times = times_, .values = values_, .held = held_}, To(Value(delay_)),
+                       To(Value(scale_)));
     to.set_piece(piece_);
     return to;
   }
@@ -87,11 +84,6 @@ class InputSignal {
     piece_ =
         static_cast<int>(std::upper_bound(times_.begin(), times_.end(), s) - times_.begin()) - 1;
   }
-  /// The same at a touch-down at time t (M123).
-  void SeekStance(double t) {
-    Seek(t);
-    if (of_stance_ && piece_ < Last()) ++piece_;
-  }
   int piece() const { return piece_; }
   void set_piece(int piece) { piece_ = piece; }
 
@@ -118,7 +110,7 @@ class InputSignal {
   }
 
   std::span<const double> times_, values_;
-  bool held_ = false, of_stance_ = false, present_ = false;
+  bool held_ = false, present_ = false;
   T delay_{0.0}, scale_{1.0};
   int piece_ = -1;
 };
@@ -166,10 +158,6 @@ class InputSignals {
   void Seek(double t) {
     for (InputSignal<T>& s : signals_)
       if (s.present()) s.Seek(t);
-  }
-  void SeekStance(double t) {
-    for (InputSignal<T>& s : signals_)
-      if (s.present()) s.SeekStance(t);
   }
   template <class To>
   InputSignals<To> Convert() const {

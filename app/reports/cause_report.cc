@@ -326,16 +326,21 @@ std::string CauseLines(const Diagnosis& d, bool colours) {
 }
 
 std::string LeftOutLine(const Diagnosis& d, bool colours) {
+  constexpr double kUnlikely = 0.2;
+  bool is_unlikely = true;
   std::vector<std::string> names;
-  for (const SetAside& s : d.set_aside)
-    if (!s.by_whole_trials)
-      names.push_back(fmt::format("{} ({}, P {:.2f})", CauseText(s.cause), ShareText(s.of_misfit),
-                                  s.probability));
+  for (const SetAside& s : d.set_aside) {
+    if (s.by_whole_trials) continue;
+    is_unlikely = is_unlikely && s.probability < kUnlikely;
+    names.push_back(fmt::format("{} ({}, P {:.2f})", CauseText(s.cause), ShareText(s.of_misfit),
+                                s.probability));
+  }
   if (names.empty()) return "";
   return Labelled("left out",
                   std::string(d.extension ? "would explain a little more" : "would explain some") +
                       (d.ShowsLateAlone() ? ", but is seen late alone, as a model's own error is: "
-                                          : ", but most likely does not act: ") +
+                       : is_unlikely      ? ", but most likely does not act: "
+                                          : ", but more likely does not act than acts: ") +
                       Join(names),
                   colours);
 }

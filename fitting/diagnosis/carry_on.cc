@@ -125,6 +125,13 @@ std::optional<Diagnosis> WithWholeTrialsWithout(const std::vector<SetAside>& mem
   return less;
 }
 
+// What the first parts say stays where nobody waits for more.
+Diagnosis NotWaitedFor(Diagnosis d) {
+  d.cut_short = true;
+  d.notes.emplace_back("stopped: what the whole trials say was not looked at");
+  return d;
+}
+
 }  // namespace
 
 CarriedOn CarryOnRival(const FittedModel& rival, const Diagnosis& last, const FitProblem& problem,
@@ -160,16 +167,18 @@ CarriedOn CarryOn(const Diagnosis& last, const FitProblem& problem,
 }
 
 Diagnosis WithWholeTrials(Diagnosis d, const FitProblem& whole, const DiagnosisOptions& options) {
-  if (!d.extension || options.fit.IsStopped()) return d;
+  if (!d.extension) return d;
+  if (options.fit.IsStopped()) return NotWaitedFor(std::move(d));
   if (options.stage) options.stage("carrying on to the whole trials");
   CarriedOn carried = CarryOn(d, whole, options);
-  if (options.fit.IsStopped()) return d;
+  if (options.fit.IsStopped()) return NotWaitedFor(std::move(d));
   if (carried.stop.IsMinimum()) {
     AssessItself(carried, whole, options);
     const std::vector<SetAside> unconfirmed = Unconfirmed(d, carried);
     if (!unconfirmed.empty()) {
       auto less = WithWholeTrialsWithout(unconfirmed, d, carried, whole, options);
       if (less) return *std::move(less);
+      if (options.fit.IsStopped()) return NotWaitedFor(std::move(d));
     }
     AssessBesideOthers(carried, d, whole, options);
   }

@@ -35,11 +35,13 @@ void WeighWhatIsLeft(Diagnosis& d, double material) {
 
 // Something stands out, but it is much less than the noise and no main cause is likely.
 void JudgeSlight(Diagnosis& d) {
+  constexpr double kLeastTold = 0.005;
   d.verdict = Verdict::kAdequate;
+  const double over_noise = MisfitOverNoise(d.detection);
   char text[120];
   std::snprintf(
-      text, sizeof text, "what stands out is %.2f of the noise, and %s",
-      MisfitOverNoise(d.detection),
+      text, sizeof text, "what stands out is %s%.2f of the noise, and %s",
+      over_noise < kLeastTold ? "under " : "", std::max(over_noise, 2.0 * kLeastTold),
       d.ShowsLateAlone() ? "late alone, as a model's own error does" : "no main cause is likely");
   d.reason = text;
 }

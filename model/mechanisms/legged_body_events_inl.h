@@ -223,7 +223,7 @@ ResetResult LeggedBody<T, LegT>::Land(const T& theta, const T& t, T* z, const T&
   ApplyLanding(theta, z);
   controller_.Enter(Value(z[kVx]));
   ++landings_;
-  inputs_.SeekStance(Value(t));
+  inputs_.Seek(Value(t));
   if (lagged_) z[kMotorTorque] = CommandedTorque(t, z);
   slides_ = 0.0;
   is_lifted_ = false;

@@ -7,6 +7,9 @@
 #include <functional>
 
 #include "base/random.h"
+#include "datasets/touchdowns.h"
+#include "fitting/fit.h"
+#include "tests/support/driven_hops.h"
 
 namespace hoplab {
 namespace {
@@ -50,6 +53,45 @@ TEST(StanceTorques, ThatGrowFromNoneOrAreThereInFlightAreNot) {
       trial.inputs[0].values[i] = 1.0 + std::sin(37.0 * trial.inputs[0].times[i]);
   EXPECT_TRUE(StanceTorques(always).empty());
   EXPECT_TRUE(StanceTorques(FitProblem()).empty());
+}
+
+// A motor that gives the same in every stance, logged as none from some rows after the lift-off, or
+// before it, to as many rows before the touch-down, or after it.
+Dataset LoggedInStances(bool of_stance) {
+  testing::DrivenHops hops;
+  hops.ripple_N_m = 0.0;
+  hops.torque_noise_N_m = 0.0;
+  hops.held = true;
+  Dataset dataset = testing::DrivenDataset(hops, 5);
+  double above_m = 0.012;
+  for (Trial& trial : dataset.trials) {
+    trial.inputs[0].of_stance = of_stance;
+    above_m = -above_m;
+    const double least_m = TouchdownHeight(trial.mechanism, trial.touchdown_angle_rad) + above_m;
+    const std::vector<double> y = *trial.trace.Find(Channel::kBodyY);
+    for (TraceColumn& column : trial.trace.columns)
+      if (column.name == trial.inputs[0].column)
+        for (std::size_t row = 0; row < y.size(); ++row)
+          if (y[row] > least_m) column.values[row] = 0.0;
+  }
+  return dataset;
+}
+
+TEST(StanceTorques, ThatAreHeldThroughFlightsDriveTheMotionWhereverTheLogEndsThem) {
+  const FitProblem whole = MakeProblem(LoggedInStances(true), {});
+  std::size_t rows = 0, none = 0;
+  const FitProblem logged = MakeProblem(LoggedInStances(false), {});
+  for (std::size_t i = 0; i < whole.trials.size(); ++i)
+    for (std::size_t row = 0; row < whole.trials[i].inputs[0].values.size(); ++row, ++rows) {
+      EXPECT_EQ(whole.trials[i].inputs[0].values[row], 0.3) << i << ' ' << row;
+      none += logged.trials[i].inputs[0].values[row] == 0.0 ? 1 : 0;
+    }
+  EXPECT_GT(3 * none, rows);
+  // As a log that has the torque in flight, too; without it the rows tell when the foot leaves.
+  const FitResult fit = Fit(whole, {});
+  EXPECT_EQ(fit.records[0].status, SolveStatus::kConverged);
+  EXPECT_NEAR(fit.shared[0] / testing::HopTruth().E_Pa, 1.0, 0.01);
+  EXPECT_GT(Fit(logged, {}).cost, 1.5 * fit.cost);
 }
 
 }  // namespace

@@ -286,6 +286,40 @@ TEST(TraceFaults, ASensorThatHoldsItsValueIsFoundByItsDigits) {
   EXPECT_EQ(faults[0].rows, expected);
 }
 
+// At the lowest place of a stance the body comes back to where the sensor stopped.
+TEST(TraceFaults, ASensorThatHoldsAcrossAReversalIsFoundByTheMotionAround) {
+  Dataset dataset = Recorded({[](double t) { return Stance(t, 0.0); }, kSigma, 150});
+  std::vector<double>& heights = Heights(dataset);
+  Rows expected;
+  for (std::size_t row = 69; row < 82; ++row) {
+    heights[row] = heights[68];
+    expected.push_back(row);
+  }
+  ASSERT_LT(std::abs(heights[82] - heights[68]), 0.004);
+  EXPECT_EQ(RowsOf(FindTraceFaults(dataset), Kind::kHeld), expected);
+}
+
+// Slow along one axis, fast along the other.
+TEST(TraceFaults, ASensorThatHoldsOneChannelHoldsTheOther) {
+  constexpr std::size_t kFirst = 150, kEnd = 156;
+  const auto held = [&](bool both) {
+    Dataset dataset = Recorded({});
+    const Dataset slow = Recorded({.height = [](double t) { return 0.02 * t; }, .seed = 3});
+    dataset.channels.push_back({Channel::kBodyX, kSigma, {}});
+    Trace& trace = dataset.trials[0].trace;
+    trace.columns.push_back({"body_x_m", slow.trials[0].trace.columns[0].values});
+    for (std::size_t c = both ? 0 : 1; c < 2; ++c)
+      for (std::size_t row = kFirst; row < kEnd; ++row)
+        trace.columns[c].values[row] = trace.columns[c].values[kFirst - 1];
+    std::vector<Channel> channels;
+    for (const TraceFault& fault : FindTraceFaults(dataset))
+      if (fault.kind == Kind::kHeld) channels.push_back(fault.channel);
+    return channels;
+  };
+  EXPECT_EQ(held(true), (std::vector<Channel>{Channel::kBodyY, Channel::kBodyX}));
+  EXPECT_TRUE(held(false).empty());
+}
+
 // 2 mm a step of the sensor: slow motion gives equal samples.
 TEST(TraceFaults, ACoarseSensorHoldsNothing) {
   Dataset dataset = Recorded({});
@@ -293,7 +327,7 @@ TEST(TraceFaults, ACoarseSensorHoldsNothing) {
   EXPECT_TRUE(FindTraceFaults(dataset).empty());
 }
 
-// Its samples are alike since nothing moves.
+// Its samples are alike since nothing moves, at first or after a fast fall.
 TEST(TraceFaults, ABodyAtRestIsNotHeld) {
   const auto released = [](double t) {
     return t < 0.1 ? 1.0 : 1.0 - 4.905 * (t - 0.1) * (t - 0.1);
@@ -303,6 +337,13 @@ TEST(TraceFaults, ABodyAtRestIsNotHeld) {
   dataset = Recorded({released});
   for (double& height : Heights(dataset)) height = 0.002 * std::round(height / 0.002);
   EXPECT_TRUE(FindTraceFaults(dataset).empty());
+  // It sticks where it lands, without noise, and is pulled off later.
+  const auto sticks = [&](double t) {
+    return t < 0.4 ? 1.0 - 4.905 * t * t : 0.2152 + (t < 0.5 ? 0.0 : 2.0 * (t - 0.5) * (t - 0.5));
+  };
+  Dataset landed = Recorded({sticks});
+  for (std::size_t row = 200; row < 252; ++row) Heights(landed)[row] = 0.2152;
+  EXPECT_TRUE(RowsOf(FindTraceFaults(landed), Kind::kHeld).empty());
 }
 
 // As a simulated pitch, which nothing turns before the first foot lands.

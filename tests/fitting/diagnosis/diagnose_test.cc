@@ -124,6 +124,9 @@ TEST(Diagnose, KeepsWhatWasNamedWhereTheWholeTrialsAreNotWaitedFor) {
   EXPECT_FALSE(d.interrupted);
   EXPECT_EQ(d.verdict, Verdict::kNamed);
   EXPECT_FALSE(d.carried_on);
+  EXPECT_TRUE(d.cut_short);
+  ASSERT_FALSE(d.notes.empty());
+  EXPECT_EQ(d.notes.back(), "stopped: what the whole trials say was not looked at");
 }
 
 TEST(Diagnose, AnInterruptedStageIsNoVerdict) {
