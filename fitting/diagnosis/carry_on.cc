@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "base/random.h"
@@ -125,11 +126,10 @@ std::optional<Diagnosis> WithWholeTrialsWithout(const std::vector<SetAside>& mem
   return less;
 }
 
-// What the first parts say stays where nobody waits for more.
-Diagnosis NotWaitedFor(Diagnosis d) {
+// What is there stays where nobody waits for more.
+void CutShort(const char* without, Diagnosis& d) {
   d.cut_short = true;
-  d.notes.emplace_back("stopped: what the whole trials say was not looked at");
-  return d;
+  d.notes.push_back(std::string("stopped: ") + without);
 }
 
 }  // namespace
@@ -168,17 +168,23 @@ CarriedOn CarryOn(const Diagnosis& last, const FitProblem& problem,
 
 Diagnosis WithWholeTrials(Diagnosis d, const FitProblem& whole, const DiagnosisOptions& options) {
   if (!d.extension) return d;
-  if (options.fit.IsStopped()) return NotWaitedFor(std::move(d));
-  if (options.stage) options.stage("carrying on to the whole trials");
-  CarriedOn carried = CarryOn(d, whole, options);
-  if (options.fit.IsStopped()) return NotWaitedFor(std::move(d));
+  CarriedOn carried;
+  if (!options.fit.IsStopped()) {
+    if (options.stage) options.stage("carrying on to the whole trials");
+    carried = CarryOn(d, whole, options);
+  }
+  if (options.fit.IsStopped()) {
+    CutShort("what the whole trials say was not looked at", d);
+    return d;
+  }
   if (carried.stop.IsMinimum()) {
     AssessItself(carried, whole, options);
     const std::vector<SetAside> unconfirmed = Unconfirmed(d, carried);
     if (!unconfirmed.empty()) {
       auto less = WithWholeTrialsWithout(unconfirmed, d, carried, whole, options);
       if (less) return *std::move(less);
-      if (options.fit.IsStopped()) return NotWaitedFor(std::move(d));
+      if (options.fit.IsStopped())
+        CutShort("what the whole trials do not confirm was not taken out", d);
     }
     AssessBesideOthers(carried, d, whole, options);
   }

@@ -77,6 +77,9 @@ TEST(WithWholeTrials, LeavesOutWhatTheyKnowInAnotherSize) {
   EXPECT_EQ(stopped.extension->causes.size(), 2u);
   ASSERT_TRUE(stopped.carried_on);
   EXPECT_EQ(stopped.carried_on->model.members.size(), 2u);
+  EXPECT_TRUE(stopped.cut_short);
+  EXPECT_EQ(stopped.notes.back(),
+            "stopped: what the whole trials do not confirm was not taken out");
 }
 
 // Of a model that is right the whole trials know more; one whose error shows knows no more by them
