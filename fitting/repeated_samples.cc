@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/units.h"
 #include "datasets/suspect_things.h"
 #include "fitting/stray_samples.h"
 
@@ -40,7 +41,8 @@ bool HasMovedOn(const Samples& s, std::size_t first, std::size_t end, double dig
 }
 
 // How fine the values are: the grid of a sensor, where the least difference is met again and again,
-// or else that of their decimals.
+// or else that of their decimals, an
+// angle's perhaps in degrees.
 double Fineness(const std::vector<double>& values) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < values.size(); ++i)
@@ -51,10 +53,12 @@ double Fineness(const std::vector<double>& values) {
                                    [&](double step) { return step < (1.0 + kSameStep) * least; });
   if (static_cast<double>(often) > kOften * static_cast<double>(steps.size())) return least;
   for (double unit = 1.0; unit > kFinest; unit /= 10.0) {
-    const bool all = std::all_of(values.begin(), values.end(), [&](double value) {
-      return std::abs(value / unit - std::round(value / unit)) < kSameStep;
-    });
-    if (all) return unit;
+    for (const double digit : {unit, DegToRad(unit)}) {
+      const bool all = std::all_of(values.begin(), values.end(), [&](double value) {
+        return std::abs(value / digit - std::round(value / digit)) < kSameStep;
+      });
+      if (all) return digit;
+    }
   }
   return kFinest;
 }

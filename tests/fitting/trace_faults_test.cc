@@ -327,6 +327,22 @@ TEST(TraceFaults, ACoarseSensorHoldsNothing) {
   EXPECT_TRUE(FindTraceFaults(dataset).empty());
 }
 
+// A thousandth of a degree is no decimal of a radian: some samples are equal by chance.
+TEST(TraceFaults, AnAngleWrittenInDegreesHoldsNothing) {
+  std::size_t equal = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Dataset dataset = Recorded({[](double t) { return 0.2 - 0.5 * t; }, kSigma, 300, 0.002, seed});
+    dataset.channels = {{Channel::kBodyPitch, kSigma, {}}};
+    TraceColumn& pitch = dataset.trials[0].trace.columns[0];
+    pitch.name = "body_pitch_rad";
+    for (double& angle : pitch.values) angle = DegToRad(1e-3 * std::round(1e3 * RadToDeg(angle)));
+    for (std::size_t i = 1; i < pitch.values.size(); ++i)
+      equal += pitch.values[i] == pitch.values[i - 1] ? 1 : 0;
+    EXPECT_TRUE(FindTraceFaults(dataset).empty()) << seed;
+  }
+  EXPECT_GT(equal, 0U);
+}
+
 // Its samples are alike since nothing moves, at first or after a fast fall.
 TEST(TraceFaults, ABodyAtRestIsNotHeld) {
   const auto released = [](double t) {
