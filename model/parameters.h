@@ -40,6 +40,7 @@ struct LawTerms {
   bool higher_order_active = false;
   bool material_damping_active = false;
   bool sole_active = false;
+  bool uneven_active = false;
   T hardening{0.0};          // beta [-]
   T rolling{0.0};            // share of the other rolling law [-]
   T tip{0.0};                // share of the tip's rotation [-]
@@ -53,6 +54,10 @@ struct LawTerms {
   T material_damping{0.0};   // tau of the strip's Kelvin-Voigt material [s]
   T higher_order{0.0};       // share of what large_deflection lacks of the elastica [-]
   T sole{0.0};               // from the line that bends to the ground under it [m]
+  T uneven{0.0};             // chi, rest curvature at the hub over the mean, less one [-]
+
+  /// Whether the leg is not a half circle that bends along its outside (M113, M124).
+  bool HasOutline() const { return sole_active || uneven_active; }
 };
 
 /// Everything physical about one trial, in SI units and radians. Fields a mechanism does not use

@@ -31,6 +31,8 @@ Parameters<To> ConvertParameters(const Parameters<From>& from) {
   to.law_terms.higher_order_active = terms.higher_order_active;
   to.law_terms.material_damping_active = terms.material_damping_active;
   to.law_terms.sole_active = terms.sole_active;
+  to.law_terms.uneven_active = terms.uneven_active;
+  to.law_terms.uneven = To(Value(terms.uneven));
   to.law_terms.sole = To(Value(terms.sole));
   to.law_terms.material_damping = To(Value(terms.material_damping));
   to.law_terms.leg_mass = To(Value(terms.leg_mass));

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
 #include "app/terminal/quantity.h"
 #include "base/input_error.h"
 #include "base/units.h"
+#include "model/laws/uneven_arc.h"
 #include "model/leg_compliance.h"
 
 namespace hoplab {
@@ -33,7 +35,7 @@ constexpr std::array kWrittenInMjcf = {"leg_material_damping",   "leg_mass",
                                        "gravity_scale",          "higher_order_bending",
                                        "second_order_bending",   "torque_bending",
                                        "tip_rotation",           "rolling_law",
-                                       "sole_thickness"};
+                                       "sole_thickness",         "uneven_curvature"};
 // They change the leg itself, and a chain of arcs on linear hinges cannot show them.
 constexpr std::array kOfTheLeg = {"leg_hardening",   "leg_hysteresis", "leg_quadratic_damping",
                                   "stiffness_drift", "foot_slip",      "ground_compliance",
@@ -87,9 +89,21 @@ struct Beam {
     friction = friction_known ? 1.0 / p.law_terms.foot_friction : kHeldFriction;
   }
 
-  // Place in the unloaded leg at leg angle 0, from the hip: x forward, z up.
-  std::array<double, 2> At(double gamma, double radius) const {
-    return {-radius * std::sin(gamma), -p.r + radius * std::cos(gamma)};
+  // Place in the unloaded leg at leg angle 0, from the hip: x forward, z up; r gamma along the line
+  // that bends, `outside` beyond it.
+  std::array<double, 2> At(double gamma, double outside) const {
+    if (!p.law_terms.uneven_active) {
+      const double radius = p.r + outside;
+      return {-radius * std::sin(gamma), -p.r + radius * std::cos(gamma)};
+    }
+    const auto turned = [&](double at) { return UnevenArc<double>(at, p.law_terms.uneven).turned; };
+    const auto to_here = [&](const auto& slope) {
+      return p.r * boost::math::quadrature::gauss<double, 15>::integrate(slope, 0.0, gamma);
+    };
+    return {to_here([&](double at) { return -std::cos(turned(at)); }) -
+                outside * std::sin(turned(gamma)),
+            to_here([&](double at) { return -std::sin(turned(at)); }) +
+                outside * std::cos(turned(gamma))};
   }
 };
 
@@ -135,7 +149,7 @@ std::string WithoutDashes(std::string text) {
 
 std::string ArcBodies(const Beam& beam) {
   const double turn = kPi / beam.arcs, r = beam.p.r;
-  const double feet_at = r + beam.p.law_terms.sole - kFootRadius * r;  // M113
+  const double feet_at = beam.p.law_terms.sole - kFootRadius * r;  // M113
   const double mass = beam.leg_mass / beam.arcs;
   // A thin rod's.
   const double inertia = mass * beam.length * beam.length / 12.0;
@@ -144,7 +158,8 @@ std::string ArcBodies(const Beam& beam) {
   std::array<double, 2> before = {0.0, 0.0};
   for (int i = 0; i < beam.arcs; ++i) {
     const std::string indent(6 + 2 * static_cast<std::size_t>(std::min(i, 20)), ' ');
-    const std::array<double, 2> begin = beam.At(i * turn, r), middle = beam.At((i + 0.5) * turn, r);
+    const std::array<double, 2> begin = beam.At(i * turn, 0.0),
+                                middle = beam.At((i + 0.5) * turn, 0.0);
     text += fmt::format("{}<body name=\"arc_{}\" pos=\"{} 0 {}\">\n", indent, i,
                         N(begin[0] - before[0]), N(begin[1] - before[1]));
     text += fmt::format("{}  <joint name=\"{}\" class=\"{}\"/>\n", indent,

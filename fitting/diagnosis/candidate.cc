@@ -51,7 +51,7 @@ bool IsFitted(const FitProblem& problem, const Effect& effect) {
 
 // Beside no other channel, a pose that is late is a recording that is late.
 bool IsDelayOfAll(const FitProblem& problem, const Effect& effect) {
-  return effect.hooks0.change_pose_time != nullptr &&
+  return effect.hooks0.change_pose_time != nullptr && !problem.uses_contact &&
          std::all_of(problem.channels.begin(), problem.channels.end(),
                      [](const ChannelProblem& c) { return IsPose(c.channel); });
 }

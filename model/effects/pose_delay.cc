@@ -12,9 +12,9 @@ struct PoseDelay {
       .kind = EffectKind::kObservation,
       .equation =
           "body_x, body_y, body_pitch and their rates are read at t - tau, the other "
-          "channels at t (M103)",
-      .sentence = "what tracks the body reports later, or earlier, than the robot's own sensors",
-      .for_legs = false,
+          "channels and contacts at t (M103)",
+      .sentence = "what tracks the body reports later, or earlier, than the machine's own sensors",
+      .for_legs = true,
       .for_ball = false,
       .dissipative = false,
       .parameters = kParameters,

@@ -146,7 +146,10 @@ LegLoad<T> ExtendedLeg<T>::Load(Mode mode, const T* z, const LegConditions<T>& a
   load.tip_miss = load.u / load.l + along.tip_turn.value;
   if (!rolling && asked) SetTurnOfChord(z, load);
   if (turns) TurnContact(z, at, there, along, load);
-  if (has_hub) TurnHub(rolling, z, along, load);
+  if (has_hub)
+    TurnHub(rolling, z, along, load);
+  else if (turns && p_.law_terms.uneven_active)
+    load.angle_rate *= UnevenArc<T>(load.phi, p_.law_terms.uneven).turned_slope;
   if (DampsAlongArc()) AddViscousForce(softer, z, along.F, load);
   return load;
 }
@@ -199,8 +202,11 @@ void ExtendedLeg<T>::TurnHub(bool rolling, const T* z, const LegForceAlong<T>& a
   using std::sqrt;
   if (rolling) {
     const T &sole = p_.law_terms.sole, y = load.y - sole;  // over the line that bends
-    const T lead_rate = load.contact_rate - (p_.r + sole) * load.angle_rate - z[kVx];
+    const T arc_rate = -load.angle_rate;
+    const T lead_rate = load.contact_rate + (p_.r + sole) * arc_rate - z[kVx];
     load.angle_rate = 2.0 * (y * lead_rate - load.u * z[kVy]) / (load.u * load.u + y * y);
+    if (p_.law_terms.uneven_active)
+      load.angle_rate -= 2.0 * UnevenTiltSlope(load.phi, p_.law_terms.uneven) * arc_rate;
     return;
   }
   const T& sine = along.tip_turn.value;  // less the sine of the tip's angle to the chord
@@ -217,11 +223,11 @@ void ExtendedLeg<T>::AddViscousForce(const T& softer, const T* z, const Tangent<
   T f = per_N * F.value;
   T f_x = per_N * (F.rate[0] * load.arc_x + F.rate[1] * l_x);
   T f_y = per_N * (F.rate[0] * load.arc_y + F.rate[1] * l_y);
-  if (p_.law_terms.sole_active) {  // what bends the strip
-    const SoleGeometry<T> sole = SoleAt(load.phi, p_.r, p_.law_terms.sole);
-    f_x = sole.spread * (f_x + sole.spread_slope * load.arc_x * f);
-    f_y = sole.spread * (f_y + sole.spread_slope * load.arc_y * f);
-    f = sole.spread * f;
+  if (p_.law_terms.HasOutline()) {  // what bends the strip
+    const Outline<T> outline = OutlineAt(load.phi, p_.r, p_.law_terms);
+    f_x = outline.spread * (f_x + outline.spread_slope * load.arc_x * f);
+    f_y = outline.spread * (f_y + outline.spread_slope * load.arc_y * f);
+    f = outline.spread * f;
   }
   const double phi0 = Value(load.phi), f0 = Value(f);
   const elastica::Dissipation table = elastica::DissipationAt(phi0, f0);
@@ -244,7 +250,7 @@ T ExtendedLeg<T>::StrainEnergy(Mode, const LegLoad<T>& load, const LegConditions
   const T lift = leg.F * load.y / load.l;
   const T ground = 0.5 * p_.law_terms.ground_compliance * lift * lift;
   if (IsElastic(law_)) {
-    const T& bends = p_.law_terms.sole_active ? leg.soft_F : leg.F;
+    const T& bends = p_.law_terms.HasOutline() ? leg.soft_F : leg.F;
     return bends * bends * (0.5 * leg.C + 2.0 / 3.0 * bends * leg.A2) + leg.beyond + ground;
   }
   const T hardening = p_.law_terms.hardening / (law_ == Law::kStraightLeg ? p_.l0 : p_.r);

@@ -10,6 +10,7 @@
 #include "model/effects/effect.h"
 #include "model/laws/arc_shapes.h"
 #include "model/laws/beyond_m2b.h"
+#include "model/laws/outline.h"
 #include "model/laws/sole.h"
 #include "model/leg_compliance.h"
 #include "model/parameters.h"
@@ -53,7 +54,7 @@ template <class S>
 struct Statics {
   S sin, cos, delta, C, A2, F;
   S soft_F;    // what its energy goes by: F without leg_hardening, where that is a share of a
-               // spring's force; of a leg on a sole, what bends it
+               // spring's force; of a leg with an outline, what bends it
   S tip_turn;  // M10 (M10b, M25) is u/l + tip_turn = 0
   S beyond;    // strain energy that M2b has not (M65) [J]; not along the arc or the chord
 };
@@ -265,21 +266,22 @@ void SetSpring(const ArcParts<S, P>& arc, const ThesisReading& reading, Statics<
   out.tip_turn = terms.tip * (turned + arc.turn) - out.cos;
 }
 
-// M113: the law of the strip under lambda F, its chord and its tip's turn seen from the ground
-// under its sole.
+// M113, M124: the law of the strip under lambda F, its chord and its tip's turn seen from the
+// ground under it.
 template <class S, class P>
-void SetOnSole(const Parameters<P>& p, Law law, const P& torque, Situation<S> at, Statics<S>& out) {
+void SetOnOutline(const Parameters<P>& p, Law law, const P& torque, Situation<S> at,
+                  Statics<S>& out) {
   const P outside = p.r + p.law_terms.sole;
-  const SoleGeometry<S> sole = SoleAt(at.phi, p.r, p.law_terms.sole);
-  at.F_near *= Value(sole.spread);
+  const Outline<S> outline = OutlineAt(at.phi, p.r, p.law_terms);
+  at.F_near *= Value(outline.spread);
   const ArcParts<S, P> arc(p, law, torque, at);
-  const S chord = sole.rest - at.l - p.r * (arc.N * arc.bending1);
-  out.delta = chord / sole.spread;
+  const S chord = outline.rest - at.l - p.r * (arc.N * arc.bending1);
+  out.delta = chord / outline.spread;
   SetElastic(arc, out);
   out.soft_F = out.F;
-  out.F = out.F / sole.spread;
-  out.tip_turn = (p.r / outside) * (sole.spread * (out.tip_turn + out.cos)) - sole.lead +
-                 (1.0 / outside) * (sole.spread_slope * chord);
+  out.F = out.F / outline.spread;
+  out.tip_turn = (p.r / outside) * (outline.spread * (out.tip_turn + out.cos)) - outline.lead +
+                 (1.0 / outside) * (outline.spread_slope * chord);
 }
 
 template <class S, class P>
@@ -295,8 +297,8 @@ template <class S, class P>
   out.sin = arc.Lifted(arc.shapes.sin, 0);
   out.cos = arc.Lifted(arc.shapes.cos, 0);
   out.delta = 2.0 * (p.r * out.sin) - at.l - p.r * (arc.N * arc.bending1);
-  if (p.law_terms.sole_active)
-    SetOnSole(p, law, torque, at, out);
+  if (p.law_terms.HasOutline())
+    SetOnOutline(p, law, torque, at, out);
   else if (IsElastic(law))
     SetElastic(arc, out);
   else

@@ -11,7 +11,7 @@ namespace hoplab {
 
 // The parameters that the statics of a leg read.
 template <class T>
-std::array<T*, 13> ReadByStatics(Parameters<T>& p) {
+std::array<T*, 14> ReadByStatics(Parameters<T>& p) {
   LawTerms<T>& terms = p.law_terms;
   return {&p.E,
           &p.I,
@@ -25,7 +25,8 @@ std::array<T*, 13> ReadByStatics(Parameters<T>& p) {
           &terms.second_order,
           &terms.higher_order,
           &terms.tip,
-          &terms.sole};
+          &terms.sole,
+          &terms.uneven};
 }
 
 // What else they know.
@@ -187,8 +188,8 @@ class LocalStatics {
 
   mutable Parameters<Local> p_;
   Law law_;
-  std::array<std::size_t, 13> places_{};
-  std::array<T, 13> moved_{};
+  std::array<std::size_t, 14> places_{};
+  std::array<T, 14> moved_{};
   std::size_t count_ = 0;
 };
 

@@ -7,20 +7,21 @@
 
 namespace hoplab {
 
-/// A leg that bends along a circle of radius r and stands on a sole h outside it (M113): the force
-/// runs from the hip to the ground, not to the line that bends. Of the contact arc phi alone.
+/// What a leg that is not a half circle on its own line is at the contact arc phi, unloaded.
 template <class S>
-struct SoleGeometry {
-  S rest;          // unloaded chord from the hip to the ground, D0 [m]
-  S lead;          // the tip's unloaded lead over it, D0'/(r + h) [-]
-  S spread;        // lambda: the load bends as lambda times as large a one does without a sole [-]
+struct Outline {
+  S rest;          // chord from the hip to the ground, D0 [m]
+  S lead;          // the tip's lead over it, D0'/(r + h) [-]
+  S spread;        // lambda: a load bends it as lambda times the load bends the half circle [-]
   S spread_slope;  // its logarithm's slope by phi [1/rad]
 };
 
+/// A leg that bends along a circle of radius r and stands on a sole h outside it (M113): the force
+/// runs from the hip to the ground, not to the line that bends.
 /// `sin`, `cos` of phi; `bending` f(phi) of M1 and its slope.
 template <class S, class P>
-SoleGeometry<S> SoleGeometryOf(const S& phi, const S& sin, const S& cos, const S& bending,
-                               const S& bending_slope, const P& r, const P& h) {
+Outline<S> SoleOutlineOf(const S& phi, const S& sin, const S& cos, const S& bending,
+                         const S& bending_slope, const P& r, const P& h) {
   using std::sqrt;
   const P outside = r + h, q = r / outside, q2 = 1.0 + q * q, q1 = 1.0 + q;
   const S flat = S(P(1.0)) - cos, square = S(h * h) + 2.0 * (r * outside * flat);
@@ -38,13 +39,13 @@ SoleGeometry<S> SoleGeometryOf(const S& phi, const S& sin, const S& cos, const S
 }
 
 template <class S, class P>
-SoleGeometry<S> SoleAt(const S& phi, const P& r, const P& sole) {
+Outline<S> SoleAt(const S& phi, const P& r, const P& sole) {
   const ArcShapes shapes(Value(phi));
   const double sin = std::sin(Value(phi)), cos = std::cos(Value(phi));
   const std::array<double, 5> turned = {sin, cos, -sin, -cos, sin};
-  return SoleGeometryOf(phi, Lift(phi, turned.data(), 0), Lift(phi, turned.data() + 1, 0),
-                        Lift(phi, shapes.bending.data(), 0), Lift(phi, shapes.bending.data(), 1), r,
-                        sole);
+  return SoleOutlineOf(phi, Lift(phi, turned.data(), 0), Lift(phi, turned.data() + 1, 0),
+                       Lift(phi, shapes.bending.data(), 0), Lift(phi, shapes.bending.data(), 1), r,
+                       sole);
 }
 
 /// What a sole adds to M2b, over h r^4/(E I)^2, and its slope by phi (M113).

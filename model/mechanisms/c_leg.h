@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "model/laws/extended_leg.h"
-#include "model/laws/sole.h"
+#include "model/laws/outline.h"
 #include "model/leg_compliance.h"
 #include "model/mechanisms/leg.h"
 
@@ -21,8 +21,7 @@ class CLeg final : public Leg<T> {
   explicit CLeg(const Parameters<T>& p)
       : m_(Value(p.m)),
         r_(p.r),
-        sole_(p.law_terms.sole),
-        has_sole_(p.law_terms.sole_active),
+        terms_(p.law_terms),
         compliance_(p),
         law_(p),
         extended_(p, LawT<T>::kLaw) {}
@@ -38,36 +37,42 @@ class CLeg final : public Leg<T> {
   /// The arc is searched from its unloaded geometry, y = r (1 - cos phi) over its sole.
   void StartSearch(Mode mode, const double* z) override {
     if (mode != Mode::kRolling) return StartRootAt(std::numbers::pi);
-    const double height = z[kY] - Value(sole_);
+    const double height = z[kY] - Value(terms_.sole);
     StartRootAt(std::acos(std::clamp(1.0 - height / Value(r_), -1.0, 1.0)));
   }
 
   T TouchdownHeight(const T& theta) const override {
     using std::cos;
-    return Value(theta) > 0.0 ? T(r_ * (1.0 + cos(theta)) + sole_) : T(WholeLength() * cos(theta));
+    if (terms_.uneven_active) return ShownLength(theta) * cos(ChordAngle(theta));
+    return Value(theta) > 0.0 ? T(r_ * (1.0 + cos(theta)) + terms_.sole)
+                              : T(WholeLength() * cos(theta));
   }
   T ChordAngle(const T& theta) const override {
+    using std::asin;
     using std::atan2;
     using std::sin;
-    if (Value(theta) <= 0.0) return theta;
-    return has_sole_ ? T(atan2(r_ * sin(theta), TouchdownHeight(theta))) : T(0.5 * theta);
+    if (Value(theta) <= 0.0) return theta + TiltOfToe();
+    if (terms_.uneven_active) return asin(OutlineOf(LandingArc(theta)).lead);
+    return terms_.sole_active ? T(atan2(r_ * sin(theta), TouchdownHeight(theta))) : T(0.5 * theta);
   }
   /// k(phi) = 1/C(phi) at the rest radius, M3.
   T Stiffness(const LegLoad<T>& load) const override {
     const T bare = 1.0 / compliance_.ChordAt(load.phi);
-    if (!has_sole_) return bare;
-    const T spread = SoleAt(load.phi, r_, sole_).spread;
+    if (!terms_.HasOutline()) return bare;
+    const T spread = OutlineOf(load.phi).spread;
     return bare / (spread * spread);
   }
   Mode Land(const T& theta, T* z) override {
     using std::sin;
     if (Value(theta) <= 0.0) {
-      z[kContact] = z[kX] + WholeLength() * sin(theta);
+      z[kContact] = z[kX] + WholeLength() * sin(ChordAngle(theta));
       StartRootAt(std::numbers::pi);
       return Mode::kToe;
     }
-    const T phi = std::numbers::pi - theta;
-    z[kContact] = law_.ContactCoordinate(z[kX] + r_ * sin(theta), phi) - sole_ * phi;
+    const T phi = LandingArc(theta);
+    const T lead =
+        terms_.uneven_active ? T(ShownLength(theta) * sin(ChordAngle(theta))) : T(r_ * sin(theta));
+    z[kContact] = law_.ContactCoordinate(z[kX] + lead, phi) - terms_.sole * phi;
     StartRootAt(Value(phi));
     return Mode::kRolling;
   }
@@ -77,7 +82,7 @@ class CLeg final : public Leg<T> {
   }
   T RestChord(const LegLoad<T>& load) const override {
     using std::sin;
-    return has_sole_ ? SoleAt(load.phi, r_, sole_).rest : T(2.0 * r_ * sin(0.5 * load.phi));
+    return terms_.HasOutline() ? OutlineOf(load.phi).rest : T(2.0 * r_ * sin(0.5 * load.phi));
   }
 
   int OwnGuardCount(Mode mode) const override { return mode == Mode::kRolling ? 2 : 1; }
@@ -94,12 +99,12 @@ class CLeg final : public Leg<T> {
   }
   Mode ResetStance(EventKind event, T* z) override {
     if (event == EventKind::kRollingToToe) {
-      z[kContact] = law_.ToePosition(z[kContact]) + sole_ * std::numbers::pi;
+      z[kContact] = law_.ToePosition(z[kContact]) + terms_.sole * std::numbers::pi;
       StartRootAt(std::numbers::pi);
       return Mode::kToe;
     }
     z[kContact] =
-        law_.ContactCoordinate(z[kContact], T(std::numbers::pi)) - sole_ * std::numbers::pi;
+        law_.ContactCoordinate(z[kContact], T(std::numbers::pi)) - terms_.sole * std::numbers::pi;
     StartRootAt(std::numbers::pi);
     return Mode::kRolling;
   }
@@ -110,17 +115,22 @@ class CLeg final : public Leg<T> {
     using std::atan2;
     const T chord = atan2(load.u, load.y);
     if constexpr (LawT<T>::kLaw == Law::kElastica) {
-      if (mode == Mode::kRolling) return 2.0 * atan2(load.u, load.y - sole_);
-      return chord + asin(load.u / load.l - TipMiss(load));
+      const T shown = mode == Mode::kRolling ? T(2.0 * atan2(load.u, load.y - terms_.sole))
+                                             : T(chord + asin(load.u / load.l - TipMiss(load)));
+      return terms_.uneven_active ? T(shown - 2.0 * UnevenTilt(load.phi, terms_.uneven)) : shown;
     }
-    return mode == Mode::kRolling ? T(std::numbers::pi - load.phi) : chord;
+    if (mode != Mode::kRolling) return chord - TiltOfToe();
+    const T turned = terms_.uneven_active ? UnevenArc<T>(load.phi, terms_.uneven).turned : load.phi;
+    return std::numbers::pi - turned;
   }
   T ShownLength(const T& theta) const override {
     using std::cos;
     using std::sqrt;
     if (Value(theta) <= 0.0) return WholeLength();
-    if (!has_sole_) return 2.0 * r_ * cos(0.5 * theta);
-    return sqrt(sole_ * sole_ + 2.0 * (r_ * (r_ + sole_) * (1.0 + cos(theta))));
+    if (terms_.uneven_active) return OutlineOf(LandingArc(theta)).rest;
+    if (!terms_.sole_active) return 2.0 * r_ * cos(0.5 * theta);
+    const T& sole = terms_.sole;
+    return sqrt(sole * sole + 2.0 * (r_ * (r_ + sole) * (1.0 + cos(theta))));
   }
   T ShownArc(const LegLoad<T>& load) const override { return load.phi; }
 
@@ -142,7 +152,18 @@ class CLeg final : public Leg<T> {
 
  private:
   /// From the hip to the ground under its toe, unloaded.
-  T WholeLength() const { return 2.0 * r_ + sole_; }
+  T WholeLength() const { return 2.0 * r_ + terms_.sole; }
+  Outline<T> OutlineOf(const T& phi) const { return OutlineAt(phi, r_, terms_); }
+  // The contact arc of an unloaded leg at the angle theta.
+  T LandingArc(const T& theta) const {
+    const T angle = std::numbers::pi - theta;
+    return terms_.uneven_active ? UnevenArcTurnedBy(angle, terms_.uneven) : angle;
+  }
+  // Angle of the unloaded chord from hip to toe against the leg's.
+  T TiltOfToe() const {
+    using std::asin;
+    return terms_.uneven_active ? T(asin(OutlineOf(T(std::numbers::pi)).lead)) : T(0.0);
+  }
   void StartRootAt(double phi) {
     law_.StartRootAt(phi);
     extended_.StartRootAt(phi);
@@ -155,8 +176,7 @@ class CLeg final : public Leg<T> {
 
   double m_;
   T r_;
-  T sole_;  // M113
-  bool has_sole_;
+  LawTerms<T> terms_;
   LegCompliance<T> compliance_;
   LawT<T> law_;
   ExtendedLeg<T> extended_;

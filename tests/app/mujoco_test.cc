@@ -121,6 +121,19 @@ TEST_F(Mujoco, ALegOnASoleHopsAsHoplabSays) {
   EXPECT_LT(Rms(*model), kBound);
 }
 
+// M124 beside a chain of arcs that are bent more at one end than at the other.
+TEST_F(Mujoco, ALegThatIsNoCircleHopsAsHoplabSays) {
+  for (const char* chi : {"0.04", "-0.04"}) {
+    Fit({"--with", "leg_material_damping,leg_mass,uneven_curvature", "--fix", "d=0", "--fix",
+         "uneven_curvature.chi=" + std::string(chi), "--fix", "leg_material_damping.tau=400e-6",
+         "--fix", "leg_mass.m_leg=0.01", "--force"});
+    const MujocoModel model = Export({});
+    ASSERT_TRUE(model);
+    std::printf("  chi = %s:", chi);
+    EXPECT_LT(Rms(*model), kBound) << chi;
+  }
+}
+
 // A leg that damps along its chord has no counterpart in a chain of arcs: the model says so, and
 // comes as near as the fit does to what it was fitted to.
 TEST_F(Mujoco, ADamperAlongTheChordIsToldAndReplaced) {

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
 #include "model/laws/extended_statics.h"
 #include "tests/support/effect_requests.h"
+#include "tests/support/standing_strip.h"
 
 // A leg that bends along its middle line and stands on its outside, M113.
 
@@ -15,47 +15,6 @@ namespace hoplab {
 namespace {
 
 using namespace testing;
-
-// A strip of radius 1 and E I = 1 with its tangent level at the contact, h over the ground: the
-// ground's force runs through the hip.
-struct Stand {
-  double chord, lead;  // from the ground to the hip; its share along the ground
-  double by_arc;       // how the energy goes with the arc, over F (r + h): the lead of M113
-};
-Stand SolveStand(double phi, double f, double h) {
-  namespace odeint = boost::numeric::odeint;
-  using State = std::array<double, 3>;  // x, y, angle of the tangent, from the contact
-  State hip;
-  const auto miss = [&](double lean) {
-    const double along = std::sin(lean), up = std::cos(lean);
-    hip = {0.0, h, 0.0};
-    odeint::runge_kutta_fehlberg78<State> step;
-    constexpr int kSteps = 200;
-    for (int i = 0; i < kSteps; ++i)
-      step.do_step(
-          [&](const State& s, State& d, double) {
-            d = {std::cos(s[2]), std::sin(s[2]), 1.0 + f * (s[0] * up - s[1] * along)};
-          },
-          hip, 0.0, phi / kSteps);
-    return hip[0] * up - hip[1] * along;
-  };
-  double before = 0.5 * (std::numbers::pi - phi), lean = before + 1e-3, miss_before = miss(before);
-  for (int round = 0; round < 50; ++round) {
-    const double now = miss(lean);
-    if (now == miss_before) break;
-    const double next = lean - now * (lean - before) / (now - miss_before);
-    before = lean;
-    miss_before = now;
-    lean = next;
-    if (std::abs(lean - before) < 1e-14) break;
-  }
-  miss(lean);
-  const double share = std::sin(lean);
-  // A piece more of the arc moves the ground's point by itself and by what it turns the sole, and
-  // holds what it is bent.
-  return {std::hypot(hip[0], hip[1]), share,
-          share * (1.0 + h - 0.5 * h * h * f * share) / (1.0 + h)};
-}
 
 Statics<double> StaticsOnSole(Law law, double phi, double chord, double h) {
   Parameters<double> p;
@@ -70,7 +29,7 @@ TEST(Sole, SmallLoadsAreThoseOfTheStripOnItsSole) {
   for (const double phi : {0.6, 1.2, 2.0, 2.8, std::numbers::pi}) {
     for (const double h : {0.0, 0.02, 0.2}) {
       const double f = 1e-4;
-      const Stand more = SolveStand(phi, f, h), less = SolveStand(phi, -f, h);
+      const StandingStrip more(phi, f, h), less(phi, -f, h);
       const double rest = 0.5 * (more.chord + less.chord);
       const double stiffness = 2.0 * f / (less.chord - more.chord);
       const double shorter = f / stiffness;
@@ -90,10 +49,10 @@ TEST(Sole, LargeLoadsAreNearlyThoseOfTheStripOnItsSole) {
   for (const double h : {0.02, 0.1}) {
     for (const double phi : {1.6, 2.2, 2.8, std::numbers::pi}) {
       for (const double f : {0.1, 0.3}) {
-        const Stand exact = SolveStand(phi, f, h);
+        const StandingStrip exact(phi, f, h);
         const Statics<double> on = StaticsOnSole(Law::kElastica, phi, exact.chord, h);
-        const Stand bare = SolveStand(phi, f, 0.0);
-        const double rest = 2.0 * std::sin(0.5 * phi), rest_on = SolveStand(phi, 0.0, h).chord;
+        const StandingStrip bare(phi, f, 0.0);
+        const double rest = 2.0 * std::sin(0.5 * phi), rest_on = StandingStrip(phi, 0.0, h).chord;
         const double without = (rest - bare.chord) / (rest_on - exact.chord) - 1.0;
         std::printf("%.2f %.2f %.1f: %+.4f %+.5f; %+.3f\n", h, phi, f, on.F / f - 1.0,
                     on.tip_turn + exact.by_arc, without);

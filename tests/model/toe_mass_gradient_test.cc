@@ -152,7 +152,7 @@ TEST(ToeMassEffects, RefusedAreThoseThatAreNotModelled) {
   }
   EXPECT_EQ(refused,
             (std::vector<std::string>{"foot_coulomb_friction", "leg_mass", "rest_length_step",
-                                      "sole_thickness", "torque_lag"}));
+                                      "sole_thickness", "torque_lag", "uneven_curvature"}));
 }
 
 }  // namespace

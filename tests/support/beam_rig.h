@@ -14,6 +14,7 @@ namespace hoplab::testing {
 /// but for a torque. SI units; angles in radians.
 struct BeamRig {
   double radius = 0.09;
+  double uneven = 0.0;  // curvature at the hip over the mean, less one; it falls evenly (M124)
   double bending_stiffness = 2.691;  // E I of the strip [N m^2]
   double relaxation = 400e-6;        // of the hinges: damping over stiffness [s]
   double leg_mass = 0.010;

@@ -18,20 +18,46 @@ constexpr double kSoftness = 1e-4;  // s
 constexpr double kStudRadius = 0.002;
 constexpr double kTurn = kPi / kArcs;
 
-// A place on the leg at rest, `angle` from the hip, `radius` from the middle of its circle.
-std::array<double, 2> PlaceOn(const BeamRig& rig, double angle, double radius) {
-  return {-radius * std::sin(angle), -rig.radius + radius * std::cos(angle)};
+// An arc of the leg at rest, x forward and z up from the hip.
+struct Arc {
+  std::array<double, 2> middle;  // of its circle
+  double radius, from, turn;     // the angle of its end towards the hip, how far it turns
+
+  // At a share of its length, `inside` of its outer side.
+  std::array<double, 2> At(double share, double inside = 0.0) const {
+    const double angle = from + share * turn, out = radius - inside;
+    return {middle[0] - out * std::sin(angle), middle[1] + out * std::cos(angle)};
+  }
+};
+// From the hip on; all of the same length, each beginning where and as the one before it ends.
+std::array<Arc, kArcs> ArcsOf(const BeamRig& rig) {
+  std::array<Arc, kArcs> arcs;
+  std::array<double, 2> begin = {0.0, 0.0};
+  double from = 0.0;
+  for (int i = 0; i < kArcs; ++i) {
+    const double curved = 1.0 + rig.uneven * (1.0 - (2.0 * i + 1.0) / kArcs);
+    const double radius = rig.radius / curved;
+    arcs[i] = {{begin[0] + radius * std::sin(from), begin[1] - radius * std::cos(from)},
+               radius,
+               from,
+               curved * kTurn};
+    begin = arcs[i].At(1.0);
+    from += arcs[i].turn;
+  }
+  return arcs;
 }
 
-// What arc `i`, whose frame is at `begin`, stands on.
-std::string FeetText(const BeamRig& rig, int i, const std::array<double, 2>& begin) {
+// What an arc stands on.
+std::string FeetText(const BeamRig& rig, const Arc& arc) {
+  const std::array<double, 2> begin = arc.At(0.0);
   if (rig.studs == 0)
     return fmt::format(
         "<geom class='foot' type='ellipsoid' pos='{} 0 {}' euler='0 {} 0' size='{} {} 0.01'/>",
-        -begin[0], -rig.radius - begin[1], -(i + 0.5) * kTurn, rig.radius, 0.5 * kTurn);
+        arc.middle[0] - begin[0], arc.middle[1] - begin[1], -(arc.from + 0.5 * arc.turn),
+        arc.radius, 0.5 * arc.turn);
   std::string text;
   for (int k = 0; k < rig.studs; ++k) {
-    const auto stud = PlaceOn(rig, (i + (k + 0.5) / rig.studs) * kTurn, rig.radius - kStudRadius);
+    const auto stud = arc.At((k + 0.5) / rig.studs, kStudRadius);
     text += fmt::format("<geom class='foot' type='sphere' pos='{} 0 {}' size='{}'/>",
                         stud[0] - begin[0], stud[1] - begin[1], kStudRadius);
   }
@@ -59,18 +85,19 @@ std::string BeamLegText(const BeamRig& rig, std::string_view hip, double rotor_i
       stiffness, rig.relaxation * stiffness, rig.extras.joint_friction);
   std::string text;
   std::array<double, 2> before = {0.0, 0.0};
-  for (int i = 0; i < kArcs; ++i) {
-    const auto begin = PlaceOn(rig, i * kTurn, rig.radius),
-               middle = PlaceOn(rig, (i + 0.5) * kTurn, rig.radius);
+  bool is_first = true;
+  for (const Arc& arc : ArcsOf(rig)) {
+    const auto begin = arc.At(0.0), middle = arc.At(0.5);
     text += fmt::format("<body pos='{} 0 {}'>", begin[0] - before[0], begin[1] - before[1]);
-    text += i == 0 ? fmt::format("<joint name='{}' type='hinge' axis='0 -1 0' armature='{}'/>", hip,
-                                 rotor_inertia)
-                   : bend;
+    text += is_first ? fmt::format("<joint name='{}' type='hinge' axis='0 -1 0' armature='{}'/>",
+                                   hip, rotor_inertia)
+                     : bend;
     text +=
         fmt::format("<inertial pos='{} 0 {}' mass='{}' diaginertia='{} {} {}'/>",
                     middle[0] - begin[0], middle[1] - begin[1], mass, inertia, inertia, inertia);
-    text += FeetText(rig, i, begin);
+    text += FeetText(rig, arc);
     before = begin;
+    is_first = false;
   }
   for (int i = 0; i < kArcs; ++i) text += "</body>";
   return text;
