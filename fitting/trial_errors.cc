@@ -138,6 +138,13 @@ void AddSampleLikelihoods(const FitProblem& problem, const TrialEvaluator& evalu
     out.sample_nll.push_back(0.5 * rows(row, 0) * rows(row, 0) + log_roots[row]);
     ++row;
   }
+  for (const auto* times : {&trial.contact.touchdown_s, &trial.contact.liftoff_s}) {
+    for (const double time : *times) {
+      out.sample_times.push_back(time);
+      out.sample_nll.push_back(0.5 * rows(row, 0) * rows(row, 0));
+      ++row;
+    }
+  }
 }
 
 }  // namespace

@@ -49,22 +49,34 @@ std::vector<std::string> CauseTexts(const Diagnosis& d, const std::vector<int>& 
   return names;
 }
 
-// The channel whose held-out error falls most: "the test error of body_x from 8.85 to 1.20 mm".
+// "8.85 to 1.20 mm".
+std::string FromTo(double before, double after, const std::string& unit) {
+  const std::string to = ErrorText(after, unit);
+  std::string from = ErrorText(before, unit);
+  if (const std::size_t blank = from.find(' '); to.ends_with(from.substr(blank + 1)))
+    from.resize(blank);
+  return from + " to " + to;
+}
+
+// The channel whose held-out error falls most: "the test error of body_x from 8.85 to 1.20 mm";
+// where none falls, that of the touch-downs if it does.
 std::optional<std::string> ErrorChange(const Diagnosis& d) {
+  constexpr double kFalls = 0.9;
   const std::vector<double>&before = d.before.test.rmse, &after = d.extension->after.test.rmse;
   std::size_t best = before.size();
   for (std::size_t c = 0; c < std::min(before.size(), after.size()); ++c) {
     if (!std::isfinite(before[c]) || !std::isfinite(after[c])) continue;
     if (best == before.size() || after[c] / before[c] < after[best] / before[best]) best = c;
   }
+  const double landed = d.before.features.touchdown_time_rmse,
+               lands = d.extension->after.features.touchdown_time_rmse;
+  const bool falls = best < before.size() && after[best] < kFalls * before[best];
+  if (!falls && lands < kFalls * landed)
+    return "the test error of touch-down times from " + FromTo(landed, lands, "s");
   if (best == before.size()) return std::nullopt;
   const std::string name(NameOf(d.problem.channels[best].channel));
-  const std::string unit = ChannelUnit(*ChannelFromName(name));
-  const std::string to = ErrorText(after[best], unit);
-  std::string from = ErrorText(before[best], unit);
-  if (const std::size_t blank = from.find(' '); to.ends_with(from.substr(blank + 1)))
-    from.resize(blank);
-  return fmt::format("the test error of {} from {} to {}", WithoutUnit(name), from, to);
+  return fmt::format("the test error of {} from {}", WithoutUnit(name),
+                     FromTo(before[best], after[best], ChannelUnit(*ChannelFromName(name))));
 }
 
 // What the held-out trials say of the extension.

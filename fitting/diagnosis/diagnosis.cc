@@ -124,6 +124,7 @@ class Pipeline {
     naming.max_effects = options_.max_effects;
     naming.begin = beforehand_.begin;
     naming.slow_ones_only_beside = beforehand_.slow_ones_only_beside;
+    naming.singles_by_promise = beforehand_.nothing_seen;
     naming.discrepancy = options_.fit.discrepancy;
     naming.jobs = options_.fit.jobs;
     naming.stop = options_.fit.stop;

@@ -20,6 +20,8 @@ namespace {
 
 // Models settled at each step of the search.
 constexpr int kSingleWidth = 4, kForwardWidth = 3, kPairsSettled = 2;
+// Causes tried alone, for each of two kinds of noise, where the linear model tells which.
+constexpr int kSinglesByPromise = 8;
 // Nats a further cause must promise by the linear model to be tried.
 constexpr double kWorthATry = 4.0;
 // It must promise this share of the misfit beyond noise, or this in nats a sample (a fiftieth of
@@ -149,13 +151,13 @@ class Search {
   }
 
   const Effect* EffectOf(int i) const { return naming_.candidates[i].candidate.effect; }
-  std::vector<CandidateSet> Singles() const {
-    std::vector<CandidateSet> sets;
-    for (std::size_t i = 0; i < naming_.candidates.size(); ++i) {
-      if (naming_.candidates[i].separable || (naming_.candidates[i].has_threshold && !IsSlow(i)))
-        sets.push_back({static_cast<int>(i)});
-    }
-    return sets;
+  // Where little is missing, those alone that promise most under either noise.
+  std::vector<CandidateSet> Singles() {
+    if (!options_.singles_by_promise) return SinglesOf(naming_, nullptr);
+    std::set<int> promising;
+    for (const FittedModel* null : {&refits_.White({}), &null_})
+      AddFirst(rankings_.Beside({}, *null), kSinglesByPromise, kWorthATry, promising);
+    return SinglesOf(naming_, &promising);
   }
 
   // By what gains most beside the set under its own noise, and under white noise.

@@ -28,6 +28,9 @@ struct NamingOptions {
   /// Slow causes were tried on shorter parts of these trials and not needed: they are sought
   /// only beside a set that leaves little, which is soon over, and not alone.
   bool slow_ones_only_beside = false;
+  /// Shorter parts of these trials show nothing that is missing. Then little is, and the linear
+  /// model tells which causes are worth a refit alone.
+  bool singles_by_promise = false;
   Discrepancy discrepancy = Discrepancy::kMatern;
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;

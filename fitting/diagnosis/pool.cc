@@ -66,6 +66,23 @@ std::vector<CandidateSet> BestScored(const Naming& naming) {
   return sets;
 }
 
+std::vector<CandidateSet> SinglesOf(const Naming& naming, const std::set<int>* among) {
+  std::vector<CandidateSet> sets;
+  for (int i = 0; i < static_cast<int>(naming.candidates.size()); ++i) {
+    const CandidateResult& c = naming.candidates[static_cast<std::size_t>(i)];
+    const bool is_among = c.separable && (!among || among->contains(i));
+    if (is_among || (c.has_threshold && !c.candidate.effect->info.slow)) sets.push_back({i});
+  }
+  return sets;
+}
+
+void AddFirst(const Ranking& ranked, int count, double least, std::set<int>& places) {
+  for (const Promise& p : ranked) {
+    if (count-- <= 0 || p.gain < least) break;
+    places.insert(p.place);
+  }
+}
+
 std::vector<int> PlacesBeside(const Naming& naming, const CandidateSet& set, int count) {
   const auto effect_of = [&](int i) {
     return naming.candidates[static_cast<std::size_t>(i)].candidate.effect;

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -39,6 +40,13 @@ struct Promise {
 };
 /// The best first.
 using Ranking = std::vector<Promise>;
+
+/// The sets of one candidate that are worth a refit: of those that can be told from the fitted
+/// values all, or `among` them; and those beyond a threshold, but for slow ones.
+std::vector<CandidateSet> SinglesOf(const Naming& naming, const std::set<int>* among);
+
+/// Adds the places of the first `count`, as long as they promise `least` nats.
+void AddFirst(const Ranking& ranked, int count, double least, std::set<int>& places);
 
 /// Candidates that move the data as one member of a set does: beside the whole set little is left
 /// of what tells their size beside the set `without` it. The most alike first.
