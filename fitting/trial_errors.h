@@ -26,8 +26,9 @@ struct TrialErrors {
   double nll_per_sample;     // Gaussian, with the channels' sigma; NaN unless complete
   double chi2 = 0.0;         // of the data's whitened residuals
   long samples;
-  /// Of each sample in turn, contacts last: its time, and - log density under the problem's noise given those
-  /// before it, in units of its sigma [nats, but for log(2 pi)/2]; empty unless complete.
+  /// Of each sample in turn, contacts last: its time, and - log density under the problem's noise
+  /// given those before it, in units of its sigma [nats, but for log(2 pi)/2]; empty unless
+  /// complete.
   std::vector<double> sample_times, sample_nll;
   double prior_nll = 0.0;  // of its own values, half the sum of squares under their priors
   std::vector<HopErrors> hops;
